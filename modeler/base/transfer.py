@@ -1,0 +1,177 @@
+"""How inertial parameters, twists and gravity pass through a joint, over the exact field.
+
+A link's ten parameters at frame j are carried to the frame before the joint motion, in which they
+are polynomials in (cos, sin) of a rotation or in the travel of a prismatic joint, and from there by
+a constant transformation to the antecedent. Khalil and Dombre 2002, section 9.4.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import sympy
+from sympy import QQ
+
+from modeler.base.field import Element, ExactField
+from modeler.symbolic.geometry import Row
+
+Matrix = list[list[Element]]
+"""Rows of equal length."""
+
+_J = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+_PLACE = {(0, 0): 0, (0, 1): 1, (0, 2): 2, (1, 1): 3, (1, 2): 4, (2, 2): 5}
+
+
+def product(a: Matrix, b: Matrix, zero: Element) -> Matrix:
+    """a b."""
+    columns = list(zip(*b, strict=True))
+    return [[_dot(line, column, zero) for column in columns] for line in a]
+
+
+def _dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:
+    total = zero
+    for x, y in zip(a, b, strict=True):
+        if x and y:
+            total = total + x * y
+    return total
+
+
+def apply(a: Matrix, v: Sequence[Element], zero: Element) -> list[Element]:
+    """a v."""
+    return [_dot(line, v, zero) for line in a]
+
+
+def inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Element) -> Matrix:
+    """10 x 10: parameters at a frame posed at (R, p) -> the same body's parameters at the origin.
+
+    With S = R MS: J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), MS' = S + M p.
+    """
+    columns = []
+    for unit in range(10):
+        J = [[zero] * 3 for _ in range(3)]
+        MS, M = [zero] * 3, zero
+        if unit < 6:
+            i, j = _J[unit]
+            J[i][j] = J[j][i] = one
+        elif unit < 9:
+            MS[unit - 6] = one
+        else:
+            M = one
+        columns.append(_moved(R, p, J, MS, M, zero))
+    return [list(line) for line in zip(*columns, strict=True)]
+
+
+def _moved(
+    R: Matrix, p: Sequence[Element], J: Matrix, MS: list[Element], M: Element, zero: Element
+) -> list[Element]:
+    S = apply(R, MS, zero)
+    turned = product(product(R, J, zero), [list(c) for c in zip(*R, strict=True)], zero)
+    pS, pp = _dot(p, S, zero), _dot(p, p, zero)
+    out = []
+    for i, j in _J:
+        value = turned[i][j] - p[i] * S[j] - S[i] * p[j] - M * p[i] * p[j]
+        out.append(value + 2 * pS + M * pp if i == j else value)
+    return out + [S[i] + M * p[i] for i in range(3)] + [M]
+
+
+def rotation_z(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
+    """Rz as a matrix."""
+    return [[c, -s, zero], [s, c, zero], [zero, zero, one]]
+
+
+def rotation_x(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
+    """Rx as a matrix."""
+    return [[one, zero, zero], [zero, c, -s], [zero, s, c]]
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A constant placement: R and p."""
+
+    R: Matrix
+    p: list[Element]
+
+
+def placement(row: Row, K: ExactField) -> Constant:
+    """Rz(gamma) Tz(b) Rx(alpha) Tx(d): the antecedent to the frame before the joint motion."""
+    zero, one = K.zero, K.one
+    gamma = rotation_z(K.element(sympy.cos(row.gamma)), K.element(sympy.sin(row.gamma)), zero, one)
+    alpha = rotation_x(K.element(sympy.cos(row.alpha)), K.element(sympy.sin(row.alpha)), zero, one)
+    R = product(gamma, alpha, zero)
+    p = apply(R, [K.element(row.d), zero, zero], zero)
+    return Constant(R, [p[0], p[1], p[2] + K.element(row.b)])
+
+
+def joint_constant(row: Row, K: ExactField) -> Constant:
+    """The constant part that commutes with the joint motion: Tz(r) or Rz(theta), or both."""
+    zero, one = K.zero, K.one
+    turns, slides = row.index is not None and row.joint.angular, row.index is not None and (
+        not row.joint.angular
+    )
+    c, s = (one, zero) if turns else (
+        K.element(sympy.cos(row.theta)), K.element(sympy.sin(row.theta))
+    )  # fmt: skip
+    r = zero if slides else K.element(row.r)
+    return Constant(rotation_z(c, s, zero, one), [zero, zero, r])
+
+
+@lru_cache(maxsize=2)
+def joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
+    """The joint motion as a sum over its basis functions, the constant one first; over Q.
+
+    Revolute: 1, c, s, c**2, cs of the rotation; prismatic: 1, r, r**2 of the travel.
+
+    Returns:
+        For each basis function (L, X): L (10, 10) acts on parameters, X (6, 6) on the coefficients
+        of a linear function of the twist (v, w); both bring them to the frame before the motion.
+    """
+    points = _TURNS if angular else _SLIDES
+    basis = _turn_basis if angular else _slide_basis
+    samples = [_turned(*x) if angular else _slid(*x) for x in points]
+    # The entries are polynomials of the basis: solve for their coefficients from sample points.
+    system = sympy.Matrix([basis(*x) for x in points]).inv()
+    found = []
+    for m in range(len(points)):
+        weights = [QQ(int(w.p), int(w.q)) for w in system[m, :]]
+        found.append(
+            (_weighted([s[0] for s in samples], weights), _weighted([s[1] for s in samples], weights))
+        )
+    return tuple(found)
+
+
+# Rational points of the unit circle, as many as basis functions.
+_TURNS = (
+    (QQ(1), QQ(0)), (QQ(0), QQ(1)), (QQ(-1), QQ(0)), (QQ(3, 5), QQ(4, 5)), (QQ(4, 5), QQ(3, 5)),
+)  # fmt: skip
+_SLIDES = ((QQ(0),), (QQ(1),), (QQ(-1),))
+
+
+def _turn_basis(c: Element, s: Element) -> list[Element]:
+    return [QQ(1), c, s, c**2, c * s]
+
+
+def _slide_basis(r: Element) -> list[Element]:
+    return [QQ(1), r, r**2]
+
+
+def _turned(c: Element, s: Element) -> tuple[Matrix, Matrix]:
+    R = rotation_z(c, s, QQ(0), QQ(1))
+    nothing = [QQ(0)] * 3
+    X = [line + nothing for line in R] + [nothing + line for line in R]
+    return inertial_transfer(R, nothing, QQ(0), QQ(1)), X
+
+
+def _slid(r: Element) -> tuple[Matrix, Matrix]:
+    X = [[QQ(int(i == j)) for j in range(6)] for i in range(6)]
+    # a.v + b.w of the moved frame, where v = v' + w' x (0, 0, r): b' = b + (0, 0, r) x a.
+    X[3][1], X[4][0] = -r, r
+    R = rotation_z(QQ(1), QQ(0), QQ(0), QQ(1))
+    return inertial_transfer(R, [QQ(0), QQ(0), r], QQ(0), QQ(1)), X
+
+
+def _weighted(matrices: list[Matrix], weights: list[Element]) -> Matrix:
+    size = range(len(matrices[0]))
+    return [
+        [sum((m[i][j] * w for m, w in zip(matrices, weights, strict=True)), QQ(0)) for j in size]
+        for i in size
+    ]

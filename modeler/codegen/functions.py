@@ -1,0 +1,162 @@
+"""Which functions a module has: equation, arguments and the expression of every output."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from modeler.base.result import BaseParameters
+from modeler.core.contract import ArgumentSpec
+from modeler.symbolic import Expr, SymbolicModel
+
+
+@dataclass(frozen=True)
+class Function:
+    """One function, still as expressions.
+
+    Attributes:
+        role: name without the robot's.
+        does: what it computes, one sentence.
+        equation: of the manifest.
+        inputs: arguments read.
+        output: argument written.
+        entries: (index into the row-major output, value) of everything that is not zero.
+    """
+
+    role: str
+    does: str
+    equation: str
+    inputs: tuple[ArgumentSpec, ...]
+    output: ArgumentSpec
+    entries: tuple[tuple[int, Expr], ...]
+
+
+@dataclass(frozen=True)
+class _Arguments:
+    """All arguments that functions share."""
+
+    q: ArgumentSpec
+    qd: ArgumentSpec
+    qdd: ArgumentSpec
+    chi: ArgumentSpec
+    beta: ArgumentSpec
+    tau: ArgumentSpec
+
+
+def module_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function, ...]:
+    """All functions of a robot's module, in the order of the header."""
+    given = _arguments(model, base)
+    beta = {
+        parameter.column: model.graph.symbol(f"beta[{i}]")
+        for i, parameter in enumerate(base.parameters)
+    }
+    return (
+        *_regressors(model, base, given),
+        *_dynamics(model, beta, given),
+        _grouping(model, base, given),
+    )
+
+
+def _arguments(model: SymbolicModel, base: BaseParameters) -> _Arguments:
+    n = (model.geometry.joints,)
+    angle = _either([joint.unit for joint in model.robot.moving])
+    effort = _either([joint.effort_unit for joint in model.robot.moving])
+    rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
+    return _Arguments(
+        q=ArgumentSpec("q", n, angle, "joint positions"),
+        qd=ArgumentSpec("qd", n, rate, "joint velocities"),
+        qdd=ArgumentSpec("qdd", n, acceleration, "joint accelerations"),
+        chi=ArgumentSpec("chi", (len(model.columns),), "SI", "standard parameters"),
+        beta=ArgumentSpec("beta", (base.rank,), "SI", "base parameters"),
+        tau=ArgumentSpec("tau", n, effort, "joint torques or forces"),
+    )
+
+
+def _either(units: Sequence[str]) -> str:
+    return " or ".join(dict.fromkeys(units))
+
+
+def _regressors(
+    model: SymbolicModel, base: BaseParameters, given: _Arguments
+) -> tuple[Function, ...]:
+    joints, p, c = model.geometry.joints, len(model.columns), base.rank
+    place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
+    standard = [(joint * p + k, value) for (joint, k), value in model.regressor.items()]
+    values = {
+        (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
+    }
+    kept = [(joint * c + i, value) for (joint, i), value in sorted(values.items(), key=_by_place)]
+    inputs = (given.q, given.qd, given.qdd)
+    per = "torque per unit of each"
+    return (
+        Function(
+            "regressor", "Regressor of the standard parameters.", "tau = phi chi", inputs,
+            ArgumentSpec("phi", (joints, p), "SI", f"{per} standard parameter"),
+            tuple(sorted(standard, key=lambda entry: entry[0])),
+        ),
+        Function(
+            "base_regressor", "Regressor of the base parameters.", "tau = phi beta", inputs,
+            ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"), tuple(kept),
+        ),
+        Function(
+            "base_regressor_nonzeros", "The entries of phi beta's regressor that are not always 0.",
+            "values[k] = phi[nonzero_row[k]][nonzero_column[k]]", inputs,
+            ArgumentSpec("values", (len(kept),), "SI", "entries, row after row"),
+            tuple((k, value) for k, (_, value) in enumerate(kept)),
+        ),
+    )  # fmt: skip
+
+
+def _by_place(item: tuple[tuple[int, int], Expr]) -> tuple[int, int]:
+    return item[0]
+
+
+def _dynamics(
+    model: SymbolicModel, beta: dict[int, Expr], given: _Arguments
+) -> tuple[Function, ...]:
+    joints = model.geometry.joints
+    q, qd, qdd, b = given.q, given.qd, given.qdd, given.beta
+    matrix = [value for row in model.inertia_matrix(beta) for value in row]
+    losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
+    gravity = model.torque(beta, speeds=False, accelerations=False, effects=False)
+    coriolis = model.torque(beta, accelerations=False, gravity=False, effects=False)
+    friction = model.torque(losses, links=False)
+
+    def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
+                 values: Sequence[Expr]) -> Function:  # fmt: skip
+        return Function(role, does, equation, inputs, given.tau, _entries(values))
+
+    return (
+        function(
+            "inverse_dynamics", "Joint torques, by the Newton-Euler recursion.",
+            "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)", (q, qd, qdd, b), model.torque(beta),
+        ),
+        Function(
+            "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
+            "tau = M(q) qdd + ...", (q, b),
+            ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
+            _entries(matrix),
+        ),
+        function("gravity", "Torques that hold the robot still, without friction.",
+                 "g(q) = tau(q, 0, 0) without effects", (q, b), gravity),
+        function("coriolis", "Coriolis and centripetal torques.",
+                 "c(q, qd) = tau(q, qd, 0) without gravity and effects", (q, qd, b), coriolis),
+        function("friction", "Torques of all effects but rotor inertias: friction, offsets.",
+                 "f(qd)", (qd, b), friction),
+    )  # fmt: skip
+
+
+def _grouping(model: SymbolicModel, base: BaseParameters, given: _Arguments) -> Function:
+    place = {name: model.graph.symbol(f"chi[{k}]") for k, name in enumerate(model.names)}
+    values = []
+    for parameter in base.parameters:
+        total = model.graph.constant(0)
+        for term in parameter.terms:
+            total = total + model.algebra.static(term.coefficient) * place[term.parameter]
+        values.append(total)
+    return Function(
+        "base_parameters", "Base parameters from standard ones: the grouping relations.",
+        "beta = K chi", (given.chi,), given.beta, _entries(values),
+    )  # fmt: skip
+
+
+def _entries(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
+    return tuple((k, value) for k, value in enumerate(values) if not value.is_zero)

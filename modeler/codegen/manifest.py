@@ -1,0 +1,102 @@
+"""The manifest of an emitted module: everything the numeric stages will know of the robot."""
+
+from collections.abc import Iterable, Mapping
+
+import sympy
+
+from modeler.base.result import BaseParameter, BaseParameters
+from modeler.codegen.block import Block
+from modeler.codegen.functions import Function
+from modeler.codegen.names import module_prefix
+from modeler.core.contract import (
+    FORMAT,
+    BaseSpec,
+    FunctionSpec,
+    JointSpec,
+    ModuleSpec,
+    ParameterSpec,
+    SymbolSpec,
+    TermSpec,
+)
+from modeler.robot import Joint, Robot
+from modeler.symbolic import StandardColumn, SymbolicModel
+
+
+def module_spec(
+    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[Function, Block | None]]
+) -> ModuleSpec:
+    """The manifest of the module with these functions; None is a function that is all zeros."""
+    robot = model.robot
+    prefix = module_prefix(robot.name)
+    values = model.geometry.values
+    return ModuleSpec(
+        robot=robot.name,
+        title=robot.title,
+        prefix=prefix,
+        format=FORMAT,
+        symbols=tuple(SymbolSpec(name, value) for name, value in values.items()),
+        joints=tuple(_joint(robot, joint) for joint in robot.moving),
+        standard=tuple(_standard(model, column) for column in model.columns),
+        base=tuple(_base(model, parameter) for parameter in base.parameters),
+        unidentifiable=tuple(base.unidentifiable),
+        functions=tuple(_function(prefix, function, block) for function, block in blocks),
+    )
+
+
+def _joint(robot: Robot, joint: Joint) -> JointSpec:
+    return JointSpec(
+        name=joint.name,
+        kind="revolute" if joint.angular else "prismatic",
+        unit=joint.unit,
+        effort_unit=joint.effort_unit,
+        actuated=joint.actuated,
+        drive_gain=robot.drive_gains.get(joint.name),
+    )
+
+
+def _standard(model: SymbolicModel, column: StandardColumn) -> ParameterSpec:
+    return ParameterSpec(
+        name=column.name,
+        unit=column.unit,
+        kind=column.kind,
+        effect=column.effect,
+        joint=model.robot.joints[column.row].name,
+        nominal=model.robot.parameters.get(column.name),
+    )
+
+
+def _base(model: SymbolicModel, parameter: BaseParameter) -> BaseSpec:
+    column = model.columns[parameter.column]
+    return BaseSpec(
+        name=parameter.name,
+        column_of=column.name,
+        unit=column.unit,
+        kind=column.kind,
+        rows=tuple(sorted(joint for joint, k in model.regressor if k == parameter.column)),
+        terms=tuple(
+            TermSpec(
+                str(term.coefficient),
+                _number(model, term.coefficient, model.geometry.values),
+                term.parameter,
+            )
+            for term in parameter.terms
+        ),
+    )
+
+
+def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
+    return float(model.graph.evaluate([model.algebra.static(coefficient)], {"pi": PI, **values})[0])
+
+
+PI = float(sympy.pi)
+
+
+def _function(prefix: str, function: Function, block: Block | None) -> FunctionSpec:
+    return FunctionSpec(
+        name=f"{prefix}_{function.role}",
+        equation=function.equation,
+        inputs=function.inputs,
+        outputs=(function.output,),
+        additions=block.additions if block else 0,
+        multiplications=block.multiplications if block else 0,
+    )

@@ -1,0 +1,101 @@
+"""One operation as C99 text.
+
+Texts are combined from the texts of their operands; a level tells where parentheses are needed.
+Sums and products keep the order of evaluation of the graph: floating point is not associative.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from modeler.core.errors import EmitError
+
+SUM, PRODUCT, ATOM = 1, 2, 3
+
+PI = "3.14159265358979323846"
+
+_FUNCTIONS = {
+    "sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "exp": "exp", "tanh": "tanh",
+    "abs": "fabs",
+}  # fmt: skip
+
+# Integers up to here are exact in double, so a quotient of two such literals is rounded once.
+_EXACT_INTEGER = 2**53
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """C text of a value and its outermost operation: SUM, PRODUCT (or quotient), ATOM."""
+
+    text: str
+    level: int
+
+    def within(self, level: int) -> str:
+        """The text, in parentheses if its outermost operation binds less than `level`."""
+        return self.text if self.level >= level else f"({self.text})"
+
+
+def number_text(value: Fraction) -> Text:
+    """Text of a number that is not negative: the double nearest to it.
+
+    A decimal literal where that is exact (`9.81`), else a quotient (`(1.0/3.0)`), which is rounded
+    once as well.
+
+    Raises:
+        EmitError: too large for a double.
+    """
+    assert value >= 0
+    try:
+        nearest = float(value)
+    except OverflowError:
+        raise EmitError(f"number {value} is too large for double precision; rescale it") from None
+    if Fraction(repr(nearest)) == value or max(value.numerator, value.denominator) > _EXACT_INTEGER:
+        return Text(repr(nearest), ATOM)
+    return Text(f"({value.numerator}.0/{value.denominator}.0)", ATOM)
+
+
+def float_text(value: float) -> str:
+    """Text of a double, of either sign, as the operand of a macro: `0.2`, `(-0.1)`."""
+    return repr(value) if value >= 0 else f"({value!r})"
+
+
+def negative(value: Text) -> Text:
+    """-value."""
+    return Text(f"-{value.within(PRODUCT)}", SUM)
+
+
+def sum_text(a: Text, a_positive: bool, b: Text, b_positive: bool) -> Text:
+    """(+-a) + (+-b); the positive one stands first, and a sum on the left."""
+    if not a_positive and b_positive:
+        return sum_text(b, True, a, False)
+    if a_positive and b_positive and b.level == SUM and a.level != SUM:
+        a, b = b, a
+    first = a.text if a_positive else negative(a).text
+    return Text(f"{first} {'+' if b_positive else '-'} {b.within(PRODUCT)}", SUM)
+
+
+def product_text(a: Text, b: Text) -> Text:
+    """a * b; the one that is a product itself stands first."""
+    if b.level == PRODUCT and a.level != PRODUCT:
+        a, b = b, a
+    return Text(f"{a.within(PRODUCT)}*{b.within(ATOM)}", PRODUCT)
+
+
+def quotient_text(a: Text, b: Text) -> Text:
+    """a / b."""
+    return Text(f"{a.within(PRODUCT)}/{b.within(ATOM)}", PRODUCT)
+
+
+def call_text(name: str, argument: Text) -> Text:
+    """name(argument); the argument of `sign` must be a name, because it is written twice.
+
+    Raises:
+        EmitError: no such function in C99.
+    """
+    if name == "sign":
+        assert argument.level == ATOM
+        return Text(f"(double)(({argument.text} > 0.0) - ({argument.text} < 0.0))", ATOM)
+    if name not in _FUNCTIONS:
+        raise EmitError(
+            f"function {name} has no C99 form here; expected {', '.join([*_FUNCTIONS, 'sign'])}"
+        )
+    return Text(f"{_FUNCTIONS[name]}({argument.text})", ATOM)

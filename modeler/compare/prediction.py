@@ -1,0 +1,137 @@
+"""What the compare stage takes: measured and predicted torque on the same rows."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from modeler.core.errors import DataError, ShapeError
+
+_MATRICES = ("q", "qd", "qdd", "measured", "predicted")
+
+
+@dataclass(frozen=True)
+class JointInfo:
+    """One judged joint and the units of its coordinate and of its effort."""
+
+    name: str  # "2"
+    unit: Literal["rad", "m"]
+    effort_unit: Literal["N m", "N"]
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """Measured and predicted torque after the same filtering of both sides.
+
+    n samples, stacked log after log. Rows of one segment are evenly sampled and follow each
+    other; nothing may be differenced, correlated or windowed across two segments.
+    """
+
+    robot: str
+    joints: tuple[JointInfo, ...]
+    logs: tuple[str, ...]  # names of the logs
+    run: np.ndarray  # (n,) index into logs
+    segment: np.ndarray  # (n,) segment number, unique over logs
+    time: np.ndarray  # (n,) s, as in the log
+    q: np.ndarray  # (n, joints) rad or m
+    qd: np.ndarray  # (n, joints) rad/s or m/s
+    qdd: np.ndarray  # (n, joints) rad/s^2 or m/s^2
+    measured: np.ndarray  # (n, joints) N m or N
+    predicted: np.ndarray  # (n, joints) N m or N
+    used: np.ndarray  # (n, joints) bool: rows that count (not masked for low speed, saturation)
+
+
+def residual(prediction: Prediction) -> np.ndarray:
+    """Measured minus predicted torque, NaN where the row does not count, (n, joints)."""
+    difference = np.asarray(prediction.measured - prediction.predicted, dtype=float)
+    return np.where(prediction.used, difference, np.nan)
+
+
+def spans(segment: np.ndarray) -> list[slice]:
+    """The stretches of equal segment number, in row order."""
+    if segment.size == 0:
+        return []
+    edges = np.flatnonzero(np.diff(segment)) + 1
+    starts = [0, *edges.tolist()]
+    stops = [*edges.tolist(), int(segment.size)]
+    return [slice(a, b) for a, b in zip(starts, stops, strict=True)]
+
+
+def check_prediction(prediction: Prediction) -> None:
+    """Refuse a prediction that cannot be judged.
+
+    Raises:
+        ShapeError: an array does not have its rows, its columns, or its type.
+        DataError: no row counts, a value that counts is not finite, or time runs backwards.
+    """
+    _check_shapes(prediction)
+    if not prediction.used.any():
+        raise DataError(
+            f"{prediction.robot}: none of the {prediction.time.size} samples counts (all are "
+            "masked); expected at least one used row; relax the low-speed or saturation mask, "
+            "or give a log in which the robot moves"
+        )
+    for name in _MATRICES:
+        _check_finite(prediction, name)
+    _check_order(prediction)
+
+
+def _check_shapes(prediction: Prediction) -> None:
+    rows, columns = prediction.time.size, len(prediction.joints)
+    if columns == 0:
+        raise ShapeError("joints: got none; expected at least one joint to compare")
+    expected = {name: (rows,) for name in ("time", "run", "segment")}
+    matrices = {name: (rows, columns) for name in (*_MATRICES, "used")}
+    for name, shape in {**expected, **matrices}.items():
+        got = np.shape(getattr(prediction, name))
+        if got != shape:
+            raise ShapeError(
+                f"{name}: got shape {got}, expected {shape} ({rows} samples, {columns} joints); "
+                "give one row per sample and one column per joint"
+            )
+    if prediction.used.dtype != np.bool_:
+        raise ShapeError(
+            f"used: got {prediction.used.dtype}, expected bool; write `used.astype(bool)`"
+        )
+    outside = (prediction.run < 0) | (prediction.run >= len(prediction.logs))
+    if outside.any():
+        raise ShapeError(
+            f"run: got log index {prediction.run[outside][0]}, expected 0 to "
+            f"{len(prediction.logs) - 1} ({len(prediction.logs)} logs); name every log in `logs`"
+        )
+
+
+def _check_finite(prediction: Prediction, name: str) -> None:
+    bad = prediction.used & ~np.isfinite(getattr(prediction, name))
+    if bad.any():
+        row, column = np.argwhere(bad)[0]
+        raise DataError(
+            f"{prediction.logs[prediction.run[row]]}: {name} of joint "
+            f"{prediction.joints[column].name} is {getattr(prediction, name)[row, column]} at "
+            f"{prediction.time[row]:.6g} s ({int(bad.sum())} such values); expected finite numbers "
+            "in every row that counts; repair the log or mask these rows"
+        )
+
+
+def _check_order(prediction: Prediction) -> None:
+    if not np.isfinite(prediction.time).all():
+        row = int(np.flatnonzero(~np.isfinite(prediction.time))[0])
+        raise DataError(
+            f"{prediction.logs[prediction.run[row]]}: time of row {row} is "
+            f"{prediction.time[row]}; expected a finite number of seconds; repair the log"
+        )
+    same = np.diff(prediction.segment) == 0
+    if (same & (np.diff(prediction.run) != 0)).any():
+        row = int(np.flatnonzero(same & (np.diff(prediction.run) != 0))[0]) + 1
+        raise DataError(
+            f"{prediction.logs[prediction.run[row]]}: segment {prediction.segment[row]} goes on "
+            "from another log; expected segment numbers unique over the logs; renumber them"
+        )
+    backwards = same & (np.diff(prediction.time) <= 0)
+    if backwards.any():
+        row = int(np.flatnonzero(backwards)[0]) + 1
+        raise DataError(
+            f"{prediction.logs[prediction.run[row]]}: time goes from {prediction.time[row - 1]:.6g}"
+            f" to {prediction.time[row]:.6g} s inside segment {prediction.segment[row]}; expected "
+            "increasing time; sort the log or start a new segment there"
+        )

@@ -1,0 +1,110 @@
+"""Memory and spectrum of a residual, never across a segment."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import signal
+
+from modeler.compare.prediction import Prediction, spans
+
+_LONGEST = 1024  # samples of one Welch window
+_LAG = 2.0  # s, longest lag of the autocorrelation
+_FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Autocorrelation and power spectral density of one residual."""
+
+    period: float  # s between samples
+    correlation: np.ndarray  # (lags,) autocorrelation at 0, 1, ... samples; correlation[0] = 1
+    memory: float  # s until the autocorrelation is below 0.2; one period for white noise
+    inflation: float  # variance of a mean over that of as many independent samples, >= 1
+    frequency: np.ndarray  # (m,) Hz, without 0
+    density: np.ndarray  # (m,) (N m)^2/Hz or N^2/Hz
+    peak: float  # Hz, frequency of the largest density
+    peak_share: float  # of the power, within two frequency steps of the peak
+
+
+def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
+    """Spectrum of one joint's residual; None when no segment is long enough (16 samples).
+
+    Rows that do not count enter as zeros and the result is scaled by the share that counts:
+    this keeps the power and blurs lines a little. Segments sampled at another rate than most
+    are left out.
+
+    Args:
+        prediction: for segment and time.
+        e: residual on all rows, (n,), NaN where the row does not count.
+    """
+    pieces, period = _pieces(prediction, e)
+    if not pieces:
+        return None
+    correlation = _autocorrelation(pieces, round(_LAG / period))
+    frequency, density = _welch(pieces, period)
+    below = np.flatnonzero(correlation < _FORGOTTEN)
+    memory = int(below[0]) if below.size else correlation.size
+    crossing = np.flatnonzero(correlation <= 0.0)
+    positive = correlation[1 : crossing[0] if crossing.size else correlation.size]
+    top = int(np.argmax(density))
+    near = density[max(top - 2, 0) : top + 3].sum()
+    total = float(density.sum())
+    return Spectrum(
+        period=period,
+        correlation=correlation,
+        memory=memory * period,
+        inflation=1.0 + 2.0 * float(positive.sum()),
+        frequency=frequency,
+        density=density,
+        peak=float(frequency[top]),
+        peak_share=float(near) / total if total else 0.0,
+    )
+
+
+def _pieces(prediction: Prediction, e: np.ndarray) -> tuple[list[np.ndarray], float]:
+    """Centred residual of each usable segment (NaN where it does not count), and the period."""
+    centred = e - np.nanmean(e)
+    found = []
+    for span in spans(prediction.segment):
+        rows = span.stop - span.start
+        if rows >= 16 and np.isfinite(e[span]).sum() >= 16:
+            found.append((centred[span], float(np.median(np.diff(prediction.time[span])))))
+    if not found:
+        return [], 0.0
+    steps = np.repeat([step for _, step in found], [piece.size for piece, _ in found])
+    period = float(np.median(steps))
+    return [piece for piece, step in found if abs(step - period) < 0.05 * period], period
+
+
+def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
+    """Mean product of pairs that both count and lie in one segment, over the mean square."""
+    lags = max(2, min(lags, max(piece.size for piece in pieces) // 2))
+    product, pairs = np.zeros(lags), np.zeros(lags)
+    for piece in pieces:
+        size = 1 << (2 * piece.size - 1).bit_length()
+        counts = np.isfinite(piece).astype(float)
+        reach = min(lags, piece.size)
+        for values, total in ((np.nan_to_num(piece), product), (counts, pairs)):
+            power = np.abs(np.fft.rfft(values, size)) ** 2
+            total[:reach] += np.fft.irfft(power, size)[:reach]
+    mean = product / np.maximum(pairs, 1.0)
+    return mean / mean[0] if mean[0] > 0.0 else np.eye(1, lags)[0]
+
+
+def _welch(pieces: list[np.ndarray], period: float) -> tuple[np.ndarray, np.ndarray]:
+    """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
+    window = min(_LONGEST, max(piece.size for piece in pieces))
+    total, weight = np.zeros(window // 2 + 1), 0.0
+    frequency = total
+    for piece in pieces:
+        counts = float(np.isfinite(piece).sum())
+        frequency, density = signal.welch(
+            np.nan_to_num(piece),
+            fs=1.0 / period,
+            nperseg=min(window, piece.size),
+            nfft=window,
+            detrend=False,
+        )
+        total = total + density * piece.size  # = counts * (density scaled by size / counts)
+        weight += counts
+    return frequency[1:], total[1:] / weight

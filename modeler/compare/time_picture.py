@@ -1,0 +1,135 @@
+"""One joint against time: measured, predicted, residual, and a close look at the worst window."""
+
+import numpy as np
+
+from modeler.compare.comparison import JointComparison
+from modeler.compare.picture import (
+    BLACK,
+    ORANGE,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Series,
+    Style,
+)
+from modeler.compare.prediction import Prediction, residual
+from modeler.compare.thinning import thin_curves
+from modeler.compare.where import WINDOW
+
+_MEASURED = Style(BLACK, width=1.1)
+_PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)
+_RESIDUAL = Style(VERMILLION, width=1.0)
+
+
+def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
+    """Two rows sharing time: torques above, residual below; all logs left, worst window right."""
+    whole, label, marks = running_time(prediction)
+    every = np.arange(prediction.time.size)
+    window = item.worst
+    inside = (
+        (prediction.segment == window.segment)
+        & (prediction.time >= window.start - 0.5 * WINDOW)
+        & (prediction.time <= window.end + 0.5 * WINDOW)
+    )
+    zoom = np.flatnonzero(inside)
+    at = (prediction.segment == window.segment) & (prediction.time == window.start)
+    start = float(whole[np.flatnonzero(at)[0]])
+    end = start + window.end - window.start
+    left = _column(prediction, item, every, whole, "All logs", label)
+    right = _column(
+        prediction, item, zoom, prediction.time, f"Worst {WINDOW} s", f"time in {window.log} [s]"
+    )
+    rows = []
+    for wide, close in zip(left, right, strict=True):
+        rows.append(
+            (
+                _marked(wide, marks, (start, end)),
+                _marked(close, (), (window.start, window.end)),
+            )
+        )
+    name = item.joint.name
+    return Picture(
+        name=f"joint_{name}_time",
+        title=f"Joint {name}: measured and predicted torque",
+        caption=(
+            "Above: measured (black) and predicted (orange); where you see no black, they agree. "
+            "Below: the difference, on its own, finer scale; samples that do not count (masked "
+            "for low speed or saturation) are left out of it. Grey: the "
+            f"{WINDOW} s with the largest squared residual, enlarged on the right."
+        ),
+        panels=tuple(rows),
+        heights=(0.58, 0.42),
+        widths=(0.68, 0.32),
+        height=440,
+        shared_time=True,
+    )
+
+
+def running_time(
+    prediction: Prediction,
+) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
+    """Time of all rows on one axis, (n,) s, its label, and where each log begins.
+
+    One log keeps its own time; several are put one after the other, each starting where the
+    one before ended.
+    """
+    if len(np.unique(prediction.run)) == 1:
+        return prediction.time, f"time in {prediction.logs[prediction.run[0]]} [s]", ()
+    whole = np.empty_like(prediction.time, dtype=float)
+    marks, offset = [], 0.0
+    for run in np.unique(prediction.run):
+        rows = prediction.run == run
+        own = prediction.time[rows]
+        whole[rows] = own - own.min() + offset
+        marks.append((offset, prediction.logs[run]))
+        offset += float(own.max() - own.min())
+    return whole, "time, logs one after the other [s]", tuple(marks)
+
+
+def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The curve with a NaN between segments, so that no line is drawn across a gap."""
+    places = np.flatnonzero(np.diff(segment)) + 1
+    return np.insert(x, places, x[places]), np.insert(y, places, np.nan)
+
+
+def _column(
+    prediction: Prediction,
+    item: JointComparison,
+    rows: np.ndarray,
+    time: np.ndarray,
+    title: str,
+    label: str,
+) -> tuple[Panel, Panel]:
+    unit, joint = item.joint.effort_unit, item.index
+    curves = (
+        prediction.measured[rows, joint].astype(float),
+        prediction.predicted[rows, joint].astype(float),
+        residual(prediction)[rows, joint],
+    )
+    kept = thin_curves(curves)
+    labels = ("measured", "predicted", "residual")
+    styles = (_MEASURED, _PREDICTED, _RESIDUAL)
+    series: list[Series] = []
+    for text, values, style in zip(labels, curves, styles, strict=True):
+        x, y = broken(prediction.segment[rows][kept], time[rows][kept], values[kept])
+        series.append(Curve(text, x, y, style))
+    return (
+        Panel(title, label, f"torque [{unit}]" if unit == "N m" else f"force [{unit}]",
+              tuple(series[:2])),
+        Panel(f"{title}: residual", label, f"residual [{unit}]", (series[2],), zero=True),
+    )  # fmt: skip
+
+
+def _marked(
+    panel: Panel, marks: tuple[tuple[float, str], ...], shade: tuple[float, float]
+) -> Panel:
+    return Panel(
+        title=panel.title,
+        x_label=panel.x_label,
+        y_label=panel.y_label,
+        series=panel.series,
+        marks=marks,
+        shade=shade,
+        zero=panel.zero,
+    )

@@ -1,0 +1,191 @@
+"""The comparison in plain sentences."""
+
+from modeler.compare.comparison import Comparison, JointComparison
+from modeler.compare.coordinates import COORDINATES, Coordinate
+from modeler.compare.where import Region
+
+NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
+_STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
+_NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
+_MEMORY = 3.5  # samples; filtering and decimation alone leave two or three
+_LINE = 0.3  # share of the power in one narrow line
+
+
+def headline(comparison: Comparison) -> str:
+    """One sentence on the whole robot."""
+    if not comparison.joints:
+        return f"{comparison.prediction.robot}: no joint could be judged."
+    ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
+    text = f"{percent(comparison.relative_error)} of the torque is unexplained"
+    if len(ranked) == 1:
+        return f"{text}."
+    best, worst = ranked[0], ranked[-1]
+    return (
+        f"{text}; joint by joint from {percent(best.relative_error)} (joint {best.joint.name}) "
+        f"to {percent(worst.relative_error)} (joint {worst.joint.name})."
+    )
+
+
+def verdict(comparison: Comparison) -> tuple[str, ...]:
+    """One line per joint: how good, what is left, when it is worst."""
+    lines = [joint_verdict(item) for item in comparison.joints]
+    lines += [f"Joint {name} is not judged: {reason}." for name, reason in comparison.unjudged]
+    return tuple(lines)
+
+
+def joint_verdict(item: JointComparison) -> str:
+    """The line of one joint."""
+    return (
+        f"Joint {item.joint.name}: {percent(item.relative_error)} of the torque is unexplained "
+        f"({item.rms:.2g} {item.joint.effort_unit} rms); {'; '.join(findings(item))}."
+    )
+
+
+def findings(item: JointComparison) -> list[str]:
+    """What is left in the residual of a joint, most useful first; never empty."""
+    if item.rms <= 1e-12 * item.measured_rms:
+        return ["prediction and measurement agree to rounding"]
+    found = [text for text in (_pattern(item), _other_joint(item), _bias(item)) if text]
+    line = _oscillation(item)
+    if line and not found:  # a pattern that follows the motion has the frequencies of the motion
+        found.append(line)
+    if not found:
+        found.append(_nothing(item))
+    found.append(_worst(item))
+    return found
+
+
+def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
+    """The coordinate that explains most, or a simpler one nearly as good, and its share."""
+    if item.structure is None:
+        return None
+    top = max(share for _, share in item.structure.shares)
+    if top < NOTICEABLE:
+        return None
+    for coordinate in COORDINATES:
+        share = item.structure.share(coordinate.id)
+        if share >= _NEARLY * top:
+            return coordinate, share
+    raise AssertionError("the best share is at least 0.9 of itself")
+
+
+def best_other(item: JointComparison) -> tuple[str, float] | None:
+    """The other joint whose velocity explains clearly more than this joint's own, its share."""
+    if item.structure is None:
+        return None
+    others = [entry for entry in item.structure.across if entry[0] != item.joint.name]
+    if not others:
+        return None
+    name, share = max(others, key=lambda entry: entry[1])
+    own = max(item.structure.share("velocity"), item.structure.share("direction"))
+    return (name, share) if share >= own + NOTICEABLE else None
+
+
+def looks_like_noise(item: JointComparison) -> bool:
+    """No pattern, no memory, no line: as far as this page can see, noise."""
+    return (
+        item.structure is not None
+        and best_pattern(item) is None
+        and item.structure.together < NOTICEABLE
+        and best_other(item) is None
+        and _bias(item) is None
+        and not _remembers(item)
+        and _oscillation(item) is None
+    )
+
+
+def percent(share: float) -> str:
+    """A share as text: two significant digits, none below 0.1 %."""
+    value = 100.0 * share
+    if value >= 10.0:
+        return f"{value:.0f} %"
+    return f"{value:.1f} %" if value >= 0.1 else "under 0.1 %"
+
+
+def _pattern(item: JointComparison) -> str | None:
+    found, structure = best_pattern(item), item.structure
+    if structure is None:
+        return None
+    if found is None:
+        if structure.together < NOTICEABLE:
+            return None
+        return (
+            f"{percent(structure.together)} of that is a repeatable function of the joint's own "
+            "motion, spread over several coordinates"
+        )
+    coordinate, share = found
+    text = f"{percent(share)} of that is a repeatable function of {coordinate.phrase}"
+    if coordinate.id in ("velocity", "direction"):
+        text += _mostly_where(item.regions)
+    if coordinate.id != "time" and structure.together > share + 0.1:
+        text += f" ({percent(structure.together)} with its other coordinates)"
+    return text
+
+
+def _mostly_where(regions: tuple[Region, ...]) -> str:
+    groups = {
+        "around zero speed": (2,),
+        "at low speed": (1, 2, 3),
+        "at high speed": (0, 4),
+        "moving in the negative direction": (0, 1),
+        "moving in the positive direction": (3, 4),
+    }
+    for text, members in groups.items():
+        energy = sum(regions[member].energy_share for member in members)
+        time = sum(regions[member].time_share for member in members)
+        if energy > 0.6 and energy > 1.5 * time:
+            return f", mostly {text}"
+    return ""
+
+
+def _other_joint(item: JointComparison) -> str | None:
+    found = best_other(item)
+    if found is None:
+        return None
+    return (
+        f"{percent(found[1])} follows the velocity of joint {found[0]} more than its own, as with "
+        "coupled drives"
+    )
+
+
+def _bias(item: JointComparison) -> str | None:
+    if item.bias**2 < 2 * NOTICEABLE * item.rms**2:
+        return None
+    return f"the prediction is off by {item.bias:+.2g} {item.joint.effort_unit} on average"
+
+
+def _oscillation(item: JointComparison) -> str | None:
+    colour = item.spectrum
+    if colour is None or colour.peak_share < _LINE:
+        return None
+    # the lowest frequencies are slow patterns, named elsewhere, not oscillations
+    if colour.peak <= 4 * colour.frequency[0] or 5 / colour.frequency.size > 0.1:
+        return None
+    return f"{percent(colour.peak_share)} of it oscillates near {colour.peak:.3g} Hz"
+
+
+def _remembers(item: JointComparison) -> bool:
+    colour = item.spectrum
+    return colour is not None and colour.memory > _MEMORY * colour.period
+
+
+def _nothing(item: JointComparison) -> str:
+    if item.structure is None:
+        return f"too few samples ({item.samples}) to tell whether the residual has structure"
+    if _remembers(item) and item.spectrum is not None:
+        return (
+            f"no function of its own motion or of time explains it, yet it is not noise: it stays "
+            f"alike for {item.spectrum.memory:.2g} s (look at other joints, flexibility, contact)"
+        )
+    return "the residual looks like noise"
+
+
+def _worst(item: JointComparison) -> str:
+    window = item.worst
+    text = f"the worst moment is {window.start:.2f}-{window.end:.2f} s of {window.log}"
+    if window.energy_share > _STANDS_OUT * window.time_share and window.energy_share > 0.1:
+        text += (
+            f", {percent(window.energy_share)} of the squared residual in "
+            f"{percent(window.time_share)} of the time"
+        )
+    return text

@@ -1,0 +1,202 @@
+"""What an emitted module looks like: the manifest as dataclasses.
+
+`codegen` fills it, templates lay it out, `manifest.json` stores it, `compiled` reads it back and
+refuses a library that answers differently. Everything the numeric stages know of a robot is here.
+"""
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.core.errors import ManifestError
+
+FORMAT = 1
+
+RUNTIME = ("modeler_runtime.h", "modeler_batch.c", "modeler_observation.c")
+"""Hand-written C files that stand beside every emitted module."""
+
+MANIFEST = "manifest.json"
+"""Name of the manifest's file."""
+
+
+@dataclass(frozen=True)
+class ArgumentSpec:
+    """One array argument of an emitted function; row-major."""
+
+    name: str  # "qd"
+    shape: tuple[int, ...]  # (joints,)
+    unit: str  # "rad/s, m/s"
+    meaning: str  # "joint velocities"
+
+
+@dataclass(frozen=True)
+class FunctionSpec:
+    """One emitted C function: all arguments are `const double *` inputs, then outputs."""
+
+    name: str  # "wrist_base_regressor"
+    equation: str  # "tau = phi beta"
+    inputs: tuple[ArgumentSpec, ...]
+    outputs: tuple[ArgumentSpec, ...]
+    additions: int
+    multiplications: int
+
+
+@dataclass(frozen=True)
+class JointSpec:
+    """One joint variable; the order of the list is the order of q, qd, qdd, tau."""
+
+    name: str  # "1"
+    kind: str  # "revolute" | "prismatic"
+    unit: str  # "rad" | "m"
+    effort_unit: str  # "N m" | "N"
+    actuated: bool
+    drive_gain: float | None  # joint torque per unit of logged current
+
+
+@dataclass(frozen=True)
+class ParameterSpec:
+    """One standard parameter.
+
+    `effect` is "rigid_body" for the ten inertial parameters, else the id of the effect;
+    `kind` is inertial | rotor_inertia | friction | offset | other.
+    """
+
+    name: str  # "XX2"
+    unit: str
+    kind: str
+    effect: str
+    joint: str  # row of the table it belongs to
+    nominal: float | None
+
+
+@dataclass(frozen=True)
+class TermSpec:
+    """`coefficient * parameter`; `value` is the coefficient at the nominal geometry."""
+
+    coefficient: str
+    value: float
+    parameter: str
+
+
+@dataclass(frozen=True)
+class BaseSpec:
+    """One base parameter: `name = sum of terms`, its column is that of `column_of`."""
+
+    name: str  # "ZZ1R"
+    column_of: str  # "ZZ1"
+    unit: str
+    kind: str
+    rows: tuple[int, ...]  # joints whose torque the column can enter (structural nonzeros)
+    terms: tuple[TermSpec, ...]
+
+
+@dataclass(frozen=True)
+class SymbolSpec:
+    """One geometric symbol and the value compiled into the C."""
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True)
+class ModuleSpec:
+    """The manifest of one robot."""
+
+    robot: str
+    title: str
+    prefix: str  # of C names
+    format: int
+    symbols: tuple[SymbolSpec, ...]
+    joints: tuple[JointSpec, ...]
+    standard: tuple[ParameterSpec, ...]  # columns of the standard regressor, in order
+    base: tuple[BaseSpec, ...]  # columns of the base regressor, in order
+    unidentifiable: tuple[str, ...]
+    functions: tuple[FunctionSpec, ...]
+
+    @property
+    def nonzeros(self) -> tuple[tuple[int, int], ...]:
+        """(joint, base column) of the structural nonzeros of the base regressor, row after row.
+
+        The order of the values of `<prefix>_base_regressor_nonzeros`.
+        """
+        return tuple(
+            (joint, column)
+            for joint in range(len(self.joints))
+            for column, base in enumerate(self.base)
+            if joint in base.rows
+        )
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Names of the C files that the library is compiled from, headers included."""
+        return (f"{self.prefix}.c", f"{self.prefix}.h", *RUNTIME)
+
+    def to_json(self) -> str:
+        """Stable text: sorted as declared, no date, no version."""
+        return json.dumps(dataclasses.asdict(self), indent=1) + "\n"
+
+    def signature(self) -> str:
+        """Hash that the emitted library repeats, so that a stale library is noticed."""
+        return hashlib.sha256(self.to_json().encode()).hexdigest()[:16]
+
+
+@dataclass(frozen=True)
+class Emitted:
+    """An emitted module, on no disk yet.
+
+    Attributes:
+        spec: its manifest.
+        files: {file name: text}; the C files of `spec.sources`, the manifest, build files, tables.
+    """
+
+    spec: ModuleSpec
+    files: Mapping[str, str]
+
+
+def module_from_json(text: str, where: str) -> ModuleSpec:
+    """Read a manifest back.
+
+    Raises:
+        ManifestError: not a manifest, or of another format; `where` names the file.
+    """
+    try:
+        raw = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise ManifestError(f"{where}: not JSON ({error}); generate it again") from None
+    if not isinstance(raw, dict) or "format" not in raw:
+        raise ManifestError(f"{where}: not a manifest; expected the output of `modeler generate`")
+    if raw["format"] != FORMAT:
+        raise ManifestError(
+            f"{where}: manifest format {raw['format']}, expected {FORMAT}; generate it again"
+        )
+    try:
+        return _build(ModuleSpec, raw)
+    except (TypeError, KeyError, ValueError) as error:
+        raise ManifestError(f"{where}: damaged manifest ({error}); generate it again") from None
+
+
+_NESTED: dict[str, type] = {
+    "ModuleSpec.symbols": SymbolSpec,
+    "ModuleSpec.joints": JointSpec,
+    "ModuleSpec.standard": ParameterSpec,
+    "ModuleSpec.base": BaseSpec,
+    "ModuleSpec.functions": FunctionSpec,
+    "FunctionSpec.inputs": ArgumentSpec,
+    "FunctionSpec.outputs": ArgumentSpec,
+    "BaseSpec.terms": TermSpec,
+}
+
+
+def _build(cls: Any, raw: dict[str, Any]) -> Any:
+    values = {}
+    for name, value in raw.items():
+        nested = _NESTED.get(f"{cls.__name__}.{name}")
+        if nested is not None:
+            value = tuple(_build(nested, item) for item in value)
+        elif isinstance(value, list):
+            value = tuple(value)
+        values[name] = value
+    return cls(**values)

@@ -1,0 +1,33 @@
+"""The errors a user may see: one line that says where, got, expected, what to do."""
+
+
+class ModelerError(Exception):
+    """The input is at fault; the command line prints the message and ends with status 1."""
+
+
+class RobotError(ModelerError):
+    """A robot description is wrong: file, row and column, what was got, what was expected."""
+
+
+class DataError(ModelerError):
+    """A log is wrong or cannot tell what was asked: file, column, row."""
+
+
+class ShapeError(ModelerError):
+    """An array argument has the wrong shape."""
+
+
+class DerivationError(ModelerError):
+    """The model cannot be derived as asked."""
+
+
+class EmitError(ModelerError):
+    """An expression has no C99 form."""
+
+
+class BuildError(ModelerError):
+    """The C compiler is missing or refused the emitted code; its own words are quoted."""
+
+
+class ManifestError(ModelerError):
+    """A manifest, model file or compiled library does not say what it should."""

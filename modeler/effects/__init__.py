@@ -1,0 +1,7 @@
+"""The catalogue of physical effects, each defined once."""
+
+from modeler.effects.catalogue import CATALOGUE as CATALOGUE
+from modeler.effects.catalogue import effect_named as effect_named
+from modeler.effects.effect import Effect as Effect
+from modeler.effects.effect import EffectColumn as EffectColumn
+from modeler.effects.effect import EnergyBlock as EnergyBlock

@@ -1,0 +1,100 @@
+"""Shafts with dry friction, and the samples at which they all but stand still."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.observation.motion import Segment
+from modeler.observation.processing import Processing
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+_CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
+_IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
+
+
+@dataclass(frozen=True)
+class Shaft:
+    """A rotating part whose friction leaps when its speed changes sign.
+
+    Attributes:
+        name: "3", or "5+6" for a motor that turns with two joints.
+        coefficients: (joints,) its speed is coefficients . qd.
+        joints: rows whose torque leaps.
+        unit: "rad" or "m".
+    """
+
+    name: str
+    coefficients: tuple[float, ...]
+    joints: tuple[int, ...]
+    unit: str
+
+    def speed(self, qd: np.ndarray) -> np.ndarray:
+        """(n,) from joint velocities (n, joints)."""
+        return qd @ np.asarray(self.coefficients)
+
+
+def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
+    """The shafts whose columns leap at standstill, found by creeping both ways past it.
+
+    Each base column's leap is measured while one joint after the other creeps forwards and
+    backwards at 1e-9 rad/s: smooth columns do not leap, whatever effect they belong to. A column
+    leaps for the joints its shaft turns with, by the shaft's coefficient on the rows it acts on.
+    """
+    joints = len(model.spec.joints)
+    generator = np.random.default_rng(1)
+    state = np.tile(generator.uniform(0.2, 1.0, (1, joints)), (joints, 1))
+    creep = _CREEP * np.eye(joints)
+    still = np.zeros((joints, joints))
+    forwards = model.base_regressor(state, creep, still)
+    leap = 0.5 * (forwards - model.base_regressor(state, -creep, still))  # (moved, row, column)
+    found: dict[tuple[float, ...], Shaft] = {}
+    scale = np.max(np.abs(leap), axis=(0, 1))
+    for column in np.flatnonzero(scale > 1e-3):
+        share = leap[:, :, column] / scale[column]
+        rows = tuple(int(j) for j in np.flatnonzero(np.max(np.abs(share), axis=0) > 1e-6))
+        moved = np.flatnonzero(np.max(np.abs(share), axis=1) > 1e-6)
+        coefficients = np.zeros(joints)
+        if len(moved) == 1:
+            coefficients[moved] = 1.0
+        else:  # E^T sign(E qd): the leap on the rows is the shaft's coefficient
+            coefficients[moved] = share[moved[0], moved]
+        key = tuple(round(float(c), 9) for c in coefficients)
+        acted = rows if key not in found else tuple(sorted({*rows, *found[key].joints}))
+        names = "+".join(model.spec.joints[j].name for j in moved)
+        found[key] = Shaft(names, key, acted, model.spec.joints[moved[0]].unit)
+    return tuple(found.values())
+
+
+def floors_of(
+    processing: Processing, parts: Sequence[Shaft], segments: Sequence[Segment]
+) -> dict[str, float]:
+    """Speed of each shaft below which its rows are masked; infinite for one that stands still.
+
+    `low_speed` times the shaft's top speed over all logs (its 99.9 % quantile: one spike of noise
+    is no speed).
+    """
+    floors = {}
+    given: Mapping[str, float] = processing.speed_floors or {}
+    for part in parts:
+        if part.name in given:
+            floors[part.name] = given[part.name]
+            continue
+        speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
+        travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
+        idle = not travel.size or np.ptp(travel) < _IDLE_TRAVEL[part.unit]
+        top = float(np.quantile(speeds, 0.999)) if speeds.size else 0.0
+        floors[part.name] = float("inf") if idle else processing.low_speed * top
+    return floors
+
+
+def moving(segment: Segment, parts: Sequence[Shaft], floors: Mapping[str, float]) -> np.ndarray:
+    """(n, joints) False where a shaft that acts on the joint is slower than its floor."""
+    fast = np.ones(segment.qd.shape, dtype=bool)
+    for part in parts:
+        slow = np.abs(part.speed(segment.qd)) < floors[part.name]
+        fast[np.ix_(slow, list(part.joints))] = False
+    return fast

@@ -1,0 +1,107 @@
+"""From logs to segments of filtered motion, with every automatic choice made and recorded."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from modeler.core.contract import ModuleSpec
+from modeler.core.errors import DataError
+from modeler.observation.band import choose_cutoffs
+from modeler.observation.log import Log
+from modeler.observation.motion import Segment, segment_of
+from modeler.observation.processing import Processing
+from modeler.observation.segments import Piece, SplitReport, split
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """Segments of all logs at full rate.
+
+    Attributes:
+        processing: with both cut-offs chosen.
+        choices: a sentence for each.
+        segments: in the order of the logs.
+        pieces: uniform pieces by log.
+        splits: what splitting did, by log.
+        derivatives: where qd and qdd come from, by log.
+        dropped: rows in pieces that were all edge, by log.
+    """
+
+    processing: Processing
+    choices: tuple[str, ...]
+    segments: tuple[Segment, ...]
+    pieces: tuple[tuple[Piece, ...], ...]
+    splits: tuple[SplitReport, ...]
+    derivatives: tuple[str, ...]
+    dropped: tuple[int, ...]
+
+
+def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
+    """Split, resample, choose the cut-offs, filter and differentiate.
+
+    Raises:
+        DataError: no logs, a log of another robot, or nothing long enough to differentiate.
+    """
+    _check(spec, logs, processing)
+    logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
+    split_logs = [split(log, run, logged[run]) for run, log in enumerate(logs)]
+    pieces = [piece for found, _ in split_logs for piece in found]
+    if not pieces:
+        raise DataError(
+            f"{logs[0].name}: no uninterrupted motion; every piece between two gaps has fewer "
+            "than 4 rows; record without interruptions"
+        )
+    chosen, choices = choose_cutoffs(processing, pieces)
+    segments: list[Segment] = []
+    dropped = [0] * len(logs)
+    for piece in pieces:
+        segment = segment_of(piece, chosen)
+        if segment is None:
+            dropped[piece.run] += len(piece.time)
+        else:
+            segments.append(segment)
+    if not segments:
+        raise DataError(
+            f"{logs[0].name}: every piece of motion is shorter than the edges of the "
+            f"{chosen.position_cutoff:g} Hz position filter; record longer motions or set a "
+            "smaller edge"
+        )
+    return Prepared(
+        processing=chosen,
+        choices=choices,
+        segments=tuple(segments),
+        pieces=tuple(found for found, _ in split_logs),
+        splits=tuple(report for _, report in split_logs),
+        derivatives=tuple(
+            _source(log, use) for log, use in zip(logs, logged, strict=True)
+        ),
+        dropped=tuple(dropped),
+    )
+
+
+def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> None:
+    if not logs:
+        raise DataError("no logs; give at least one")
+    names = tuple(joint.name for joint in spec.joints)
+    for log in logs:
+        if log.joints != names:
+            raise DataError(
+                f"{log.name}: joints {', '.join(log.joints)}; {spec.robot} has "
+                f"{', '.join(names)}; read the log with this robot"
+            )
+        if processing.derivatives == "log" and log.qd is None:
+            raise DataError(
+                f"{log.name}: no logged velocities qd{names[0]} ... for derivatives = "
+                '"log"; use "auto" or "position"'
+            )
+
+
+def _source(log: Log, logged: bool) -> str:
+    if not logged:
+        return "qd and qdd by differentiating q"
+    return "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
+
+
+def with_floors(processing: Processing, floors: dict[str, float]) -> Processing:
+    """The processing with its speed floors filled in."""
+    return dataclasses.replace(processing, speed_floors=floors)

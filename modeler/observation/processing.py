@@ -1,0 +1,78 @@
+"""How logs become rows of y = W beta: every number that may be chosen."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+from modeler.core.errors import DataError
+
+Derivatives = Literal["auto", "log", "position"]
+
+
+@dataclass(frozen=True)
+class Processing:
+    """Choices of the processing; None is chosen from the logs and stated in the report.
+
+    Attributes:
+        position_cutoff: low-pass of measured positions before they are differentiated, Hz;
+            zero-phase Butterworth, order 4, forwards and backwards. 0: none.
+        parallel_cutoff: the one low-pass that y and all columns of W go through alike, Hz at
+            -3 dB. 0: none.
+        decimation: samples per row after the parallel filter; None: rows at 2.5 times
+            `parallel_cutoff`, where neighbouring rows are all but independent.
+        derivatives: "log" takes logged qd (and qdd); "position" differentiates q; "auto" takes
+            what is logged.
+        low_speed: rows below this fraction of a shaft's top speed are left out where the shaft
+            has dry friction: sign(qd) means nothing there.
+        speed_floors: those speeds, rad/s or m/s, by shaft; None: `low_speed` times the top speed
+            over the logs.
+        keep_saturated: use rows whose torque is stuck at the drive's limit.
+        edge: seconds left out at both ends of a differentiated piece; None: 1.5 periods of
+            `position_cutoff`, where the filter's start-up has faded below 1 %.
+    """
+
+    position_cutoff: float | None = None
+    parallel_cutoff: float | None = None
+    decimation: int | None = None
+    derivatives: Derivatives = "auto"
+    low_speed: float = 0.02
+    speed_floors: Mapping[str, float] | None = None
+    keep_saturated: bool = False
+    edge: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):
+            value = getattr(self, name)
+            if value is not None and not 0.0 <= value < float("inf"):
+                raise DataError(f"{name} is {value}; expected a number that is not negative")
+        if self.low_speed >= 1.0:
+            raise DataError(f"low_speed is {self.low_speed}; expected a fraction below 1")
+        if self.decimation is not None and self.decimation < 1:
+            raise DataError(f"decimation is {self.decimation}; expected a whole number from 1")
+        if self.derivatives not in get_args(Derivatives):
+            raise DataError(
+                f'derivatives is "{self.derivatives}"; expected {", ".join(get_args(Derivatives))}'
+            )
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for a model file."""
+        raw = dataclasses.asdict(self)
+        raw["speed_floors"] = None if self.speed_floors is None else dict(self.speed_floors)
+        return raw
+
+
+def processing_from_json(raw: Mapping[str, Any]) -> Processing:
+    """Read `Processing.to_json` back.
+
+    Raises:
+        DataError: an unknown or impossible entry.
+    """
+    names = {field.name for field in dataclasses.fields(Processing)}
+    unknown = sorted(set(raw) - names)
+    if unknown:
+        raise DataError(f"processing has no setting {unknown[0]}; there are {', '.join(names)}")
+    try:
+        return Processing(**raw)
+    except TypeError as error:
+        raise DataError(f"processing: {error}; expected numbers") from None

@@ -1,0 +1,183 @@
+"""Logs from Parquet and CSV, in the columns of the log format."""
+
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.contract import JointSpec, ModuleSpec
+from modeler.core.errors import DataError
+from modeler.observation.log import Log
+from modeler.observation.table import Table
+
+_SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
+_FAR = 30.0  # rad; nearly five turns: more likely degrees
+
+
+def read_log(path: str | Path, spec: ModuleSpec) -> Log:
+    """The `Log` of one file; columns `time`, `q<j>`, optional `qd<j> qdd<j> qc<j>`, `tau<j>`.
+
+    The torque of a joint is `tau<j>` if the log has it, else `current<j>` times the drive gain of
+    the robot file. A passive joint without `tau<j>` has torque 0.
+
+    Args:
+        path: a .parquet or .csv file.
+        spec: the robot's manifest; it names the joints.
+
+    Raises:
+        DataError: the file cannot be read, a needed column is missing or not numeric, time does
+            not increase, or no joint has a measured torque.
+    """
+    path = Path(path)
+    table = Table(path)
+    time = _time(table)
+    notes: list[str] = []
+    q = np.column_stack([_position(table, joint, spec) for joint in spec.joints])
+    torques = [_torque(table, joint, spec) for joint in spec.joints]
+    tau = np.column_stack([values for values, _ in torques])
+    qd = _optional(table, "qd", spec, notes)
+    log = Log(
+        name=path.name,
+        joints=tuple(joint.name for joint in spec.joints),
+        time=time,
+        q=q,
+        tau=tau,
+        qd=qd,
+        qdd=_optional(table, "qdd", spec, notes),
+        commanded=_optional(table, "qc", spec, notes),
+        segment=_segment(table),
+        extra=_extra(table, spec, notes),
+        torque_source=tuple(source for _, source in torques),
+        missing=_missing(table, spec),
+        notes=tuple(notes + _doubts(time, q, tau, spec)),
+    )
+    _check_measured(path, log, spec)
+    return log
+
+
+def _time(table: Table) -> np.ndarray:
+    time = table.numbers("time")
+    bad = np.flatnonzero(~np.isfinite(time))
+    if bad.size:
+        raise DataError(
+            f"{table.path}: column time, row {bad[0] + 1}: no value; every row needs its time; "
+            "delete the row or restore the time"
+        )
+    back = np.flatnonzero(np.diff(time) <= 0.0)
+    if back.size:
+        row = int(back[0]) + 1
+        raise DataError(
+            f"{table.path}: column time, row {row + 1}: {time[row]:.9g} s after "
+            f"{time[row - 1]:.9g} s; expected increasing time; delete repeated rows, or sort "
+            "and split the file where the clock restarts"
+        )
+    return time
+
+
+def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
+    name = f"q{joint.name}"
+    if name not in table and not joint.actuated:
+        raise DataError(
+            f"{table.path}: no column {name}: joint {joint.name} of {spec.robot} is passive and "
+            "its position must be logged, or computed from the closed loops before; add the column"
+        )
+    return table.numbers(name)
+
+
+def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
+    tau, current = f"tau{joint.name}", f"current{joint.name}"
+    if tau in table:
+        return table.numbers(tau), tau
+    if current in table:
+        if joint.drive_gain is None:
+            raise DataError(
+                f"{table.path}: {current} is in drive units and {spec.robot} has no drive gain "
+                f"for joint {joint.name}; write [drive_gains] {joint.name} = torque per unit in "
+                f"the robot file, or log {tau}"
+            )
+        return joint.drive_gain * table.numbers(current), f"{current} x {joint.drive_gain:g}"
+    if not joint.actuated:
+        return np.zeros(table.rows), "0 (passive)"
+    raise DataError(
+        f"{table.path}: no column {tau} or {current}: joint {joint.name} of {spec.robot} is "
+        "actuated; log its torque, or its current and give the drive gain"
+    )
+
+
+def _optional(
+    table: Table, prefix: str, spec: ModuleSpec, notes: list[str]
+) -> np.ndarray | None:
+    names = [f"{prefix}{joint.name}" for joint in spec.joints]
+    there = [name for name in names if name in table]
+    if len(there) == len(names):
+        return np.column_stack([table.numbers(name) for name in names])
+    if there:
+        absent = [name for name in names if name not in table]
+        notes.append(
+            f"{', '.join(absent)} missing, so the logged {prefix} of the other joints is not used"
+        )
+    return None
+
+
+def _segment(table: Table) -> np.ndarray | None:
+    if "segment" not in table:
+        return None
+    values = table.numbers("segment")
+    bad = np.flatnonzero(np.isnan(values))
+    if bad.size:
+        raise DataError(
+            f"{table.path}: column segment, row {bad[0] + 1}: no value; number every row, or "
+            "leave the column out"
+        )
+    return values
+
+
+def _used_names(spec: ModuleSpec) -> set[str]:
+    prefixes = ("q", "qd", "qdd", "qc", "tau", "current")
+    return {f"{prefix}{joint.name}" for prefix in prefixes for joint in spec.joints}
+
+
+def _extra(table: Table, spec: ModuleSpec, notes: list[str]) -> dict[str, np.ndarray]:
+    known = _used_names(spec) | {"time", "segment"}
+    # A current beside a torque is a measurement of its own: temperature and gain effects want it.
+    known -= {f"current{joint.name}" for joint in spec.joints if f"tau{joint.name}" in table}
+    others = [name for name in table.names if name not in known]
+    text = [name for name in others if not table.is_numeric(name)]
+    if text:
+        notes.append(f"{', '.join(text)} not numeric, left out")
+    return {name: table.numbers(name) for name in others if name not in text}
+
+
+def _missing(table: Table, spec: ModuleSpec) -> dict[str, int]:
+    names = [name for name in table.names if name in _used_names(spec) and table.is_numeric(name)]
+    counts = {name: int(np.isnan(table.numbers(name)).sum()) for name in names}
+    return {name: count for name, count in counts.items() if count}
+
+
+def _doubts(time: np.ndarray, q: np.ndarray, tau: np.ndarray, spec: ModuleSpec) -> list[str]:
+    """Sentences on units and dead channels; usable, so no error."""
+    found = []
+    step = float(np.median(np.diff(time)))
+    if step > _SLOW_STEP:
+        found.append(f"median time step {step:.3g} s: is the column in seconds?")
+    for index, joint in enumerate(spec.joints):
+        values = q[np.isfinite(q[:, index]), index]
+        if joint.kind == "revolute" and values.size and np.ptp(values) > _FAR:
+            found.append(f"q{joint.name} spans {np.ptp(values):.4g}: is it in rad?")
+        torque = tau[np.isfinite(tau[:, index]), index]
+        if joint.actuated and torque.size and np.ptp(torque) == 0.0:
+            found.append(f"the torque of joint {joint.name} never changes: is it connected?")
+    return found
+
+
+def _check_measured(path: Path, log: Log, spec: ModuleSpec) -> None:
+    for index, joint in enumerate(spec.joints):
+        for prefix, values in (("q", log.q), ("torque of joint ", log.tau)):
+            if np.isfinite(values[:, index]).sum() < 2:
+                raise DataError(
+                    f"{path}: {prefix}{joint.name} has no values; record it, or delete the log"
+                )
+    moving = [i for i, joint in enumerate(spec.joints) if joint.actuated]
+    if moving and np.nanmax(np.abs(log.tau[:, moving])) == 0.0:
+        raise DataError(
+            f"{path}: every measured torque is 0; expected joint torques; check the recording"
+        )

@@ -1,0 +1,129 @@
+"""What happened to the rows of the logs, in numbers and in words."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from modeler.observation.processing import Processing
+
+
+@dataclass(frozen=True)
+class LogReport:
+    """One log on its way to rows of W.
+
+    Attributes:
+        name: file name.
+        rows: rows read.
+        missing: column -> rows without a value.
+        saturated: joint -> rows with the torque at the drive's limit.
+        rate: Hz.
+        jitter: largest deviation of a time step from the median, as a share of it.
+        gaps: time gaps longer than 5 steps.
+        longest_gap: s.
+        pieces: uniform pieces it was cut into.
+        resampled: pieces whose rows were moved to a uniform grid.
+        short: rows in pieces too short to use.
+        derivatives: where qd and qdd come from.
+        decimation: samples per row.
+        samples: samples after decimation.
+        notes: sentences.
+    """
+
+    name: str
+    rows: int
+    missing: Mapping[str, int]
+    saturated: Mapping[str, int]
+    rate: float
+    jitter: float
+    gaps: int
+    longest_gap: float
+    pieces: int
+    resampled: int
+    short: int
+    derivatives: str
+    decimation: int
+    samples: int
+    notes: tuple[str, ...]
+
+    def lines(self) -> list[str]:
+        """Text, the first line always, the others where there is something to say."""
+        text = [
+            f"{self.name}: {self.rows} rows at {self.rate:.4g} Hz -> {self.samples} samples "
+            f"(one of {self.decimation}), {self.derivatives}"
+        ]
+        if self.gaps or self.pieces != 1:
+            gap = f", {self.gaps} gaps up to {self.longest_gap:.3g} s" if self.gaps else ""
+            text.append(f"  {self.pieces} pieces{gap}; no filter runs across their ends")
+        if self.resampled:
+            text.append(
+                f"  time steps vary by up to {100.0 * self.jitter:.3g} %: {self.resampled} of "
+                f"{self.pieces} pieces resampled on a uniform grid"
+            )
+        if self.short:
+            text.append(f"  {self.short} rows in pieces too short to differentiate, not used")
+        for column, count in self.missing.items():
+            text.append(f"  {column}: {count} rows without a value; bridged, not used for the fit")
+        for joint, count in self.saturated.items():
+            text.append(f"  joint {joint}: torque stuck at its limit in {count} rows")
+        return text + [f"  {note}" for note in self.notes]
+
+
+@dataclass(frozen=True)
+class JointReport:
+    """Rows of one joint.
+
+    Attributes:
+        name: joint.
+        used: rows in W.
+        slow: share of its samples masked for low speed, before decimation.
+        speed_floor: below it, rad/s or m/s; infinite if the joint never moves, None if it has no
+            dry friction.
+        unit: of the speed.
+    """
+
+    name: str
+    used: int
+    slow: float
+    speed_floor: float | None
+    unit: str
+
+    def line(self) -> str:
+        """Text."""
+        if self.speed_floor is None:
+            return f"joint {self.name}: {self.used} rows"
+        if self.speed_floor == float("inf"):
+            return (
+                f"joint {self.name}: never moves, so its friction cannot be told and none of its "
+                "rows is used"
+            )
+        hint = "; it hardly moves" if self.used == 0 else ""
+        return (
+            f"joint {self.name}: {self.used} rows; {100.0 * self.slow:.3g} % of the samples masked "
+            f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
+            f"doubtful{hint}"
+        )
+
+
+@dataclass(frozen=True)
+class DataReport:
+    """All of it.
+
+    Attributes:
+        processing: with every automatic choice filled in.
+        choices: one sentence per automatic choice.
+        logs: in the order given.
+        joints: in the order of the manifest.
+    """
+
+    processing: Processing
+    choices: tuple[str, ...]
+    logs: tuple[LogReport, ...]
+    joints: tuple[JointReport, ...]
+
+    def summary(self) -> list[str]:
+        """Lines of text for people."""
+        lines = [line for log in self.logs for line in log.lines()]
+        lines += list(self.choices)
+        if any(log.saturated for log in self.logs):
+            used = "used" if self.processing.keep_saturated else "not used"
+            lines.append(f"rows with a torque at its limit are {used}")
+        return lines + [joint.line() for joint in self.joints]

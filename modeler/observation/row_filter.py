@@ -1,0 +1,81 @@
+"""The parallel filter: one weighted mean for the torque and for every column of W."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+
+SPREAD = 0.1325
+"""Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
+
+RATE = 2.5
+"""Rows per period of the cut-off: neighbours then correlate by 0.1."""
+
+_REACH = 3.0  # standard deviations
+LEAST_WEIGHT = 0.5
+"""A row is used if at least this share of its weights falls on usable samples."""
+
+
+@dataclass(frozen=True, eq=False)
+class RowFilter:
+    """F in F y = F W beta: row k is the Gaussian-weighted mean of the samples around one sample.
+
+    The equation holds for any F, so no choice of it biases beta. Weights are not negative and have
+    a finite reach; samples that may not be used get weight 0 and the others are scaled up to sum
+    one, so neither the ends of a segment nor a masked stretch smears into its neighbours.
+
+    Attributes:
+        weights: (rows, samples) sparse, each row sums to at most 1.
+        centres: (rows,) sample in the middle of each row.
+    """
+
+    weights: csr_array
+    centres: np.ndarray
+
+    def means(self, values: np.ndarray, usable: np.ndarray) -> np.ndarray:
+        """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is."""
+        masked = self.weights @ diags_array(usable.astype(float))
+        total = masked @ np.ones(len(usable))
+        flat = masked @ values.reshape(len(values), -1)
+        flat = flat / np.where(total > 0.0, total, 1.0)[:, None]
+        return flat.reshape(len(self.centres), *values.shape[1:])
+
+    def window(self, rows: slice) -> slice:
+        """Samples that those rows reach."""
+        start, stop = self.weights.indptr[rows.start], self.weights.indptr[rows.stop]
+        reached = self.weights.indices[start:stop]
+        return slice(int(reached.min()), int(reached.max()) + 1)
+
+    def part(self, rows: slice, window: slice) -> "RowFilter":
+        """The same filter for a few rows, over a window of the samples."""
+        return RowFilter(self.weights[rows, window], self.centres[rows] - window.start)
+
+    def share(self, usable: np.ndarray) -> np.ndarray:
+        """(rows,) share of each row's weight that falls on usable samples."""
+        return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)
+
+
+def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | None) -> RowFilter:
+    """The filter of one segment.
+
+    Args:
+        whole: (samples,) where rows may be centred and weights may lie.
+        step: s.
+        cutoff: Hz at -3 dB; 0 for none.
+        decimation: samples per row; None: `RATE` rows per period of the cut-off.
+    """
+    samples = len(whole)
+    if decimation is None:
+        decimation = max(1, int(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+    spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
+    reach = int(np.ceil(_REACH * spread))
+    offsets = np.arange(-reach, reach + 1)
+    bell = np.exp(-0.5 * (offsets / spread) ** 2) if reach else np.ones(1)
+    bell = bell / bell.sum()
+    inside = np.flatnonzero(whole)
+    centres = inside[(len(inside) - 1) % decimation // 2 :: decimation]
+    places = centres[:, None] + offsets
+    there = (places >= 0) & (places < samples)
+    row, tap = np.nonzero(there)
+    weights = csr_array((bell[tap], (row, places[there])), shape=(len(centres), samples))
+    return RowFilter(weights, centres)

@@ -1,0 +1,153 @@
+"""Pieces of a log on a uniform time grid: filters never run across a gap."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from modeler.observation.log import Log
+from modeler.observation.saturation import saturated
+
+GAP = 5.0
+"""A step longer than this many median steps ends a segment."""
+
+JITTER = 0.01
+"""Time stamps off the uniform grid by more than this share of a step are resampled."""
+
+_NEAR = 0.75  # of a step: a grid point farther than this from any measured row is a bridge
+_LEAST = 4  # samples; the second difference and its neighbours
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """One uniform stretch of a log, before differentiation; n samples.
+
+    Attributes:
+        run: index of its log.
+        time: (n,) s, uniform.
+        step: s.
+        q, tau: (n, joints).
+        qd, qdd: (n, joints) as logged, or None.
+        extra: further columns, (n,).
+        valid: (n, joints) False where torque or motion was missing and is bridged.
+        clipped: (n, joints) True where the torque was at the drive's limit.
+        resampled: True if the rows were moved to the grid.
+    """
+
+    run: int
+    time: np.ndarray
+    step: float
+    q: np.ndarray
+    tau: np.ndarray
+    qd: np.ndarray | None
+    qdd: np.ndarray | None
+    extra: Mapping[str, np.ndarray]
+    valid: np.ndarray
+    clipped: np.ndarray
+    resampled: bool
+
+
+@dataclass(frozen=True)
+class SplitReport:
+    """What splitting and resampling did to one log.
+
+    Attributes:
+        gaps: time gaps longer than 5 steps.
+        longest_gap: s.
+        jitter: largest deviation of a step from the median step, as a share of it, gaps apart.
+        short: rows in pieces too short to differentiate, left out.
+    """
+
+    gaps: int
+    longest_gap: float
+    jitter: float
+    short: int
+
+
+def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], SplitReport]:
+    """The uniform pieces of a log.
+
+    Cut where `segment` changes and where a step exceeds 5 median steps; rows without a position
+    (or, where used, a logged velocity) are gaps too, bridged when shorter than that. Irregular
+    time stamps are resampled: motion by monotone cubics, which do not overshoot; torque linearly.
+
+    Args:
+        log: one log.
+        run: its index.
+        logged_motion: logged velocities and accelerations are used.
+    """
+    motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
+    rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
+    clipped = np.column_stack([saturated(log.tau[:, j]) for j in range(log.tau.shape[1])])
+    step = log.step
+    steps = np.diff(log.time[rows])
+    cut = steps > GAP * step
+    gaps = int(cut.sum())
+    inside = steps[~cut]
+    if log.segment is not None:
+        cut = cut | (np.diff(log.segment[rows]) != 0)
+    groups = np.split(rows, np.flatnonzero(cut) + 1)
+    kept = [group for group in groups if len(group) >= _LEAST]
+    report = SplitReport(
+        gaps=gaps,
+        longest_gap=float(steps.max()) if gaps else 0.0,
+        jitter=float(np.max(np.abs(inside / step - 1.0))) if inside.size else 0.0,
+        short=sum(len(group) for group in groups if len(group) < _LEAST),
+    )
+    return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
+
+
+def _piece(
+    log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool
+) -> Piece:
+    measured = log.time[rows]
+    samples = max(_LEAST, round((measured[-1] - measured[0]) / log.step) + 1)
+    time = np.linspace(measured[0], measured[-1], samples)
+    step = float(time[1] - time[0])
+    uniform = samples == len(rows) and bool(
+        np.all(np.abs(measured - time) <= JITTER * step)
+    )
+
+    def smooth(values: np.ndarray | None) -> np.ndarray | None:
+        if values is None or not logged_motion:
+            return None
+        return values[rows] if uniform else PchipInterpolator(measured, values[rows])(time)
+
+    position = log.q[rows] if uniform else PchipInterpolator(measured, log.q[rows])(time)
+    near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
+    near = near - (time - measured[near - 1] < measured[near] - time)
+    bridged = np.abs(time - measured[near]) > _NEAR * step
+    tau, valid = _bridge(time, measured, log.tau[rows], step)
+    return Piece(
+        run=run,
+        time=time,
+        step=step,
+        q=position,
+        tau=tau,
+        qd=smooth(log.qd),
+        qdd=smooth(log.qdd),
+        extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
+        valid=valid & ~bridged[:, None],
+        clipped=clipped[rows][near],
+        resampled=not uniform,
+    )
+
+
+def _bridge(
+    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, step: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Torque on the grid, missing entries bridged linearly; and where it is measured."""
+    values = np.zeros((len(time), tau.shape[1]))
+    valid = np.zeros(values.shape, dtype=bool)
+    for j in range(tau.shape[1]):
+        there = np.isfinite(tau[:, j])
+        if not there.any():
+            continue
+        stamps = measured[there]
+        values[:, j] = np.interp(time, stamps, tau[there, j])
+        right = np.searchsorted(stamps, time).clip(0, len(stamps) - 1)
+        left = (right - 1).clip(0)
+        distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
+        valid[:, j] = distance <= _NEAR * step
+    return values, valid

@@ -1,0 +1,161 @@
+"""y = W beta: the rows of all logs through the compiled model and the parallel filter."""
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts
+from modeler.observation.log import Log
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Observation
+from modeler.observation.prepare import Prepared, prepare, with_floors
+from modeler.observation.processing import Processing
+from modeler.observation.report import DataReport, JointReport, LogReport
+from modeler.observation.row_filter import row_filter
+from modeler.observation.stretch import Stretch, stretch
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+
+def observe(
+    model: "CompiledModel", logs: Sequence[Log], processing: Processing | None = None
+) -> Observation:
+    """The observation of logs: W, y, and which row is which.
+
+    Position low-pass and differentiation, then one parallel filter and decimation for the torque
+    and every column (Guegan, Khalil and Lemoine 2003, section 5.2). Samples below the speed floor,
+    saturated or missing ones have no weight in it.
+
+    Args:
+        model: the compiled robot.
+        logs: read with the same manifest.
+        processing: None: all automatic. For held-out logs pass `report.processing` of the fit.
+
+    Raises:
+        DataError: no logs, a log of another robot, or no usable row.
+    """
+    prepared = prepare(model.spec, logs, processing or Processing())
+    parts = shafts(model)
+    floors = floors_of(prepared.processing, parts, prepared.segments)
+    chosen = with_floors(prepared.processing, floors)
+    stretches = tuple(_stretch(segment, parts, chosen) for segment in prepared.segments)
+    report = DataReport(
+        processing=chosen,
+        choices=prepared.choices,
+        logs=tuple(_log_report(log, run, prepared, stretches) for run, log in enumerate(logs)),
+        joints=_joint_reports(model, parts, floors, stretches),
+    )
+    if not any(part.used.any() for part in stretches):
+        raise DataError(
+            f"{', '.join(log.name for log in logs)}: no usable row is left: "
+            + "; ".join(joint.line() for joint in report.joints)
+        )
+    return _stack(model, logs, stretches, report)
+
+
+def _stretch(segment: Segment, parts: Sequence[Shaft], processing: Processing) -> Stretch:
+    assert processing.parallel_cutoff is not None
+    assert processing.speed_floors is not None
+    usable = segment.valid & moving(segment, parts, processing.speed_floors)
+    rows = row_filter(
+        segment.whole, segment.step, processing.parallel_cutoff, processing.decimation
+    )
+    return stretch(segment, usable, rows)
+
+
+def _stack(
+    model: "CompiledModel",
+    logs: Sequence[Log],
+    stretches: tuple[Stretch, ...],
+    report: DataReport,
+) -> Observation:
+    def gather(evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
+        return np.concatenate(
+            [part.filtered(lambda w, s=part.segment: evaluate(s, w)) for part in stretches]
+        )
+
+    def plain(name: str) -> np.ndarray:
+        return np.concatenate(
+            [
+                part.rows.means(getattr(part.segment, name), part.segment.whole)
+                for part in stretches
+            ]
+        )
+
+    counts = [len(part.rows.centres) for part in stretches]
+    return Observation(
+        robot=model.spec.robot,
+        joints=model.spec.joints,
+        names=tuple(base.name for base in model.spec.base),
+        units=tuple(base.unit for base in model.spec.base),
+        logs=tuple(log.name for log in logs),
+        run=np.repeat([part.segment.run for part in stretches], counts),
+        segment=np.repeat(np.arange(len(stretches)), counts),
+        time=np.concatenate([part.segment.time[part.rows.centres] for part in stretches]),
+        q=plain("q"),
+        qd=plain("qd"),
+        qdd=plain("qdd"),
+        torque=gather(lambda s, w: s.tau[w]),
+        columns=gather(lambda s, w: model.base_regressor(s.q[w], s.qd[w], s.qdd[w])),
+        used=np.concatenate([part.used for part in stretches]),
+        stretches=stretches,
+        report=report,
+    )
+
+
+def _log_report(
+    log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]
+) -> LogReport:
+    own = [part for part in stretches if part.segment.run == run]
+    pieces, split = prepared.pieces[run], prepared.splits[run]
+    clipped = (
+        np.sum([np.sum(piece.clipped, axis=0) for piece in pieces], axis=0)
+        if pieces
+        else np.zeros(len(log.joints), dtype=int)
+    )
+    spacing = [int(part.rows.centres[1] - part.rows.centres[0]) for part in own
+               if len(part.rows.centres) > 1]  # fmt: skip
+    return LogReport(
+        name=log.name,
+        rows=log.rows,
+        missing=dict(log.missing),
+        saturated={n: int(k) for n, k in zip(log.joints, clipped, strict=True) if k},
+        rate=1.0 / log.step,
+        jitter=split.jitter,
+        gaps=split.gaps,
+        longest_gap=split.longest_gap,
+        pieces=len(pieces),
+        resampled=sum(piece.resampled for piece in pieces),
+        short=split.short + prepared.dropped[run],
+        derivatives=prepared.derivatives[run],
+        decimation=spacing[0] if spacing else 1,
+        samples=sum(len(part.rows.centres) for part in own),
+        notes=log.notes,
+    )
+
+
+def _joint_reports(
+    model: "CompiledModel",
+    parts: Sequence[Shaft],
+    floors: dict[str, float],
+    stretches: Sequence[Stretch],
+) -> tuple[JointReport, ...]:
+    valid = sum(np.sum(part.segment.valid, axis=0) for part in stretches)
+    usable = sum(np.sum(part.usable, axis=0) for part in stretches)
+    used = sum(np.sum(part.used, axis=0) for part in stretches)
+    reports = []
+    for j, joint in enumerate(model.spec.joints):
+        own = [floors[part.name] for part in parts if j in part.joints]
+        reports.append(
+            JointReport(
+                name=joint.name,
+                used=int(used[j]),
+                slow=float(1.0 - usable[j] / max(1, valid[j])),
+                speed_floor=max(own) if own else None,
+                unit=f"{joint.unit}/s",
+            )
+        )
+    return tuple(reports)

@@ -1,0 +1,66 @@
+"""One segment with its parallel filter: anything of the full rate becomes rows through here."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.observation.motion import Segment
+from modeler.observation.row_filter import LEAST_WEIGHT, RowFilter
+
+_BLOCK = 20_000  # samples evaluated at a time: 20 000 x 7 joints x 60 columns is 67 MB
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """A segment, its usable samples and its filter.
+
+    Attributes:
+        segment: full-rate motion and torque.
+        usable: (samples, joints) samples that count.
+        rows: the parallel filter.
+        used: (rows, joints) rows with enough usable samples.
+    """
+
+    segment: Segment
+    usable: np.ndarray
+    rows: RowFilter
+    used: np.ndarray
+
+    def filtered(self, evaluate: Callable[[slice], np.ndarray]) -> np.ndarray:
+        """Filtered columns (rows, joints, ...) of evaluate(window) -> (window, joints, ...).
+
+        Evaluated in blocks, so that a long log needs no more memory than a short one.
+        """
+        blocks = [
+            self._means(part, evaluate(window), window, self.used[rows])
+            for part, window, rows in self._blocks()
+        ]
+        return np.concatenate(blocks)
+
+    def _blocks(self) -> Iterator[tuple[RowFilter, slice, slice]]:
+        centres = self.rows.centres
+        decimation = int(centres[1] - centres[0]) if len(centres) > 1 else 1
+        count = max(1, _BLOCK // decimation)
+        for first in range(0, len(centres), count):
+            rows = slice(first, min(first + count, len(centres)))
+            window = self.rows.window(rows)
+            yield self.rows.part(rows, window), window, rows
+
+    def _means(
+        self, part: RowFilter, values: np.ndarray, window: slice, used: np.ndarray
+    ) -> np.ndarray:
+        """Means over usable samples where the row counts, over all whole samples elsewhere."""
+        result = np.empty((len(used), *values.shape[1:]))
+        for j in range(values.shape[1]):
+            result[:, j] = part.means(values[:, j], self.usable[window, j])
+            if not used[:, j].all():
+                plain = part.means(values[:, j], self.segment.whole[window])
+                result[~used[:, j], j] = plain[~used[:, j]]
+        return result
+
+
+def stretch(segment: Segment, usable: np.ndarray, rows: RowFilter) -> Stretch:
+    """The segment with its filter; rows with half of their weight on usable samples count."""
+    share = [rows.share(usable[:, j]) for j in range(usable.shape[1])]
+    return Stretch(segment, usable, rows, np.column_stack(share) >= LEAST_WEIGHT)

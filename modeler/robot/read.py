@@ -1,0 +1,265 @@
+"""Robot files: TOML text to a checked `Robot`.
+
+Every mistake is a `RobotError` of one line: file, place, what was got, what was expected, what to
+do. Nothing is guessed except what the format says may be left out.
+"""
+
+import dataclasses
+import fnmatch
+import re
+import tomllib
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any
+
+from modeler.core.errors import RobotError
+from modeler.effects import effect_named
+from modeler.robot.builtin import builtin_names, builtin_text
+from modeler.robot.cells import form_at, list_at, plain_number, table_at, text_at
+from modeler.robot.joint import Joint
+from modeler.robot.place import Place, listed, near, shown
+from modeler.robot.robot import INERTIAL, EffectUse, Robot
+from modeler.robot.sections import (
+    read_coupling,
+    read_drive_gains,
+    read_effects,
+    read_limits,
+    read_physical,
+)
+from modeler.robot.symbols import read_gravity, read_symbols
+from modeler.robot.table import Row, table_joints, table_rows
+
+_KEYS = (
+    "name", "title", "notes", "gravity", "priority", "symbols", "mdh", "effects", "coupling",
+    "parameters", "drive_gains", "limits", "physical", "terms",
+)  # fmt: skip
+_CLOSED_LOOP_KEYS = ("loops", "relations", "legs", "platform")
+_NEEDED = {
+    "name": 'write a first line such as name = "arm"',
+    "gravity": 'write the acceleration of gravity in frame 0, such as [0, 0, "-g"] with g among '
+    "[symbols], or [0, 0, 0] if there is none",
+    "mdh": "add the table [mdh] with columns and rows",
+}
+_ROBOT_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
+
+
+def read_robot(robot: str | Path) -> Robot:
+    """The robot of a file, or the built-in one of that name.
+
+    A text that is the name of a built-in robot means that one; write `./wrist` for a file `wrist`.
+
+    Raises:
+        RobotError: no such file or name, or a mistake in the file.
+    """
+    if isinstance(robot, str) and robot in builtin_names():
+        return robot_from_text(builtin_text(robot), robot)
+    path = Path(robot)
+    try:
+        found = path.is_file()
+        text = path.read_text(encoding="utf-8-sig") if found else ""
+    except UnicodeDecodeError as error:
+        raise RobotError(
+            f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
+        ) from None
+    except (OSError, ValueError) as error:
+        raise RobotError(f"{path}: cannot be read ({error}); check the path") from None
+    if not found:
+        raise RobotError(_not_found(path))
+    if path.suffix.lower() in (".par", ".urdf", ".xacro"):
+        raise RobotError(
+            f"{path}: {path.suffix} files are not read in this version; expected a TOML table, "
+            "such as a built-in robot's"
+        )
+    return robot_from_text(text, str(path))
+
+
+def robot_from_text(text: str, where: str) -> Robot:
+    """The robot that the TOML text describes.
+
+    Args:
+        text: contents of a robot file.
+        where: name of the file, for messages.
+
+    Raises:
+        RobotError: a mistake in the text.
+    """
+    place = Place(where)
+    document = _document(text, place)
+    rows = table_rows(document["mdh"], place.at("[mdh]"))
+    variables = _joint_columns(rows)
+    symbols = read_symbols(document.get("symbols", {}), variables, place.at("[symbols]"))
+    values: dict[str, float] = {}
+    for symbol, expression in symbols.items():
+        values[symbol] = form_at(expression, values, place).constant
+    robot = Robot(
+        name=document["name"],
+        title=_text(document, "title", document["name"], place),
+        gravity=read_gravity(document["gravity"], variables, values, place.at("gravity")),
+        symbols=symbols,
+        joints=table_joints(rows, values),
+        notes=_text(document, "notes", "", place),
+        text=text,
+    )
+    return _with_tables(robot, document, values, place)
+
+
+def _with_tables(
+    robot: Robot, document: Mapping[str, Any], values: Mapping[str, float], place: Place
+) -> Robot:
+    """The robot with what the tables say that name its joints."""
+    moving = {joint.name: joint for joint in robot.moving}
+    coupling = read_coupling(document.get("coupling", {}), moving, values, place.at("[coupling]"))
+    effects = read_effects(document.get("effects", {}), moving, coupling, place.at("[effects]"))
+    known = _parameter_names(moving, effects, robot.symbols, place)
+    return dataclasses.replace(
+        robot,
+        effects=effects,
+        coupling=coupling,
+        priority=_priority(document.get("priority", []), known, place.at("priority")),
+        parameters=_parameters(document.get("parameters", {}), known, place.at("[parameters]")),
+        drive_gains=read_drive_gains(
+            document.get("drive_gains", {}), moving, place.at("[drive_gains]")
+        ),
+        limits=read_limits(document.get("limits", {}), moving, values, place.at("[limits]")),
+        physical=read_physical(document.get("physical", {}), moving, place.at("[physical]")),
+        terms=table_at(document.get("terms", {}), place.at("[terms]"), "[terms]"),
+    )
+
+
+def _not_found(path: Path) -> str:
+    names = builtin_names()
+    if path.is_dir():
+        return f"{path}: is a folder; expected a robot file or a built-in robot ({listed(names)})"
+    if path.suffix or len(path.parts) > 1:
+        return (
+            f"{path}: there is no such file{near(path.stem, names)}; expected a robot file or a "
+            f"built-in robot ({listed(names)})"
+        )
+    return (
+        f"{shown(str(path))} is neither a file nor a built-in robot{near(str(path), names)}; "
+        f"built-in are {listed(names)}"
+    )
+
+
+def _document(text: str, place: Place) -> dict[str, Any]:
+    try:
+        document = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        match = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", str(error), re.DOTALL)
+        if match is None:
+            lines = text.count("\n") + 1
+            raise place.at(f"line {lines}").error(
+                f"not TOML ({error}); the file ends too early: close the last string or list"
+            ) from None
+        raise place.at(f"line {match[2]}, column {match[3]}").error(
+            f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
+            "separated by commas)"
+        ) from None
+    except (ValueError, RecursionError) as error:
+        raise place.error(f"cannot be read as TOML ({error}); correct the file") from None
+    for key in document:
+        if key in _CLOSED_LOOP_KEYS:
+            raise place.at(f"[{key}]").error(
+                "describes closed loops; this version reads serial and tree robots only; open "
+                "the loops and remove the table"
+            )
+        if key not in _KEYS:
+            raise place.error(
+                f"unknown key {shown(key)}{near(key, _KEYS)}; expected {listed(_KEYS)}"
+            )
+    for key, advice in _NEEDED.items():
+        if key not in document:
+            raise place.at(key).error(f"is missing; {advice}")
+    _check_name(document["name"], place)
+    return document
+
+
+def _check_name(name: Any, place: Place) -> None:
+    if not isinstance(name, str) or not name.isascii() or not _ROBOT_NAME.fullmatch(name):
+        raise place.at("name").error(
+            f"got {shown(name)}; expected letters, digits, - and _ such as "
+            '"arm-2" (it becomes part of names in the C code)'
+        )
+
+
+def _text(document: Mapping[str, Any], key: str, default: str, place: Place) -> str:
+    if key not in document:
+        return default
+    return text_at(document[key], place.at(key), '"my robot"')
+
+
+def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:
+    """Names of positions, speeds and accelerations of all rows -> row.
+
+    Raises:
+        RobotError: row names whose logged columns would have the same name.
+    """
+    columns: dict[str, str] = {}
+    for row, place in rows:
+        for prefix in ("q", "qc", "qd", "qdd"):
+            column = f"{prefix}{row['j']}"
+            if column in columns:
+                raise place.error(
+                    f"the name makes {column} mean two things, with row "
+                    f"{shown(columns[column])}; choose another name"
+                )
+            columns[column] = row["j"]
+    return columns
+
+
+def _parameter_names(
+    moving: Mapping[str, Joint],
+    effects: tuple[EffectUse, ...],
+    symbols: Collection[str],
+    place: Place,
+) -> tuple[str, ...]:
+    """Names of the standard parameters.
+
+    Raises:
+        RobotError: two of them are the same, or one is also a symbol.
+    """
+    names: dict[str, str] = {}
+    for name in moving:
+        prefixes = list(INERTIAL)
+        for use in effects:
+            effect = effect_named(use.effect)
+            assert effect is not None
+            if name in use.joints:
+                prefixes += [column.prefix for column in effect.columns]
+        for prefix in prefixes:
+            parameter = f"{prefix}{name}"
+            if parameter in symbols:
+                raise place.at("[symbols]").error(
+                    f"{shown(parameter)} is the name of a standard parameter; choose another name"
+                )
+            if parameter in names:
+                raise place.at(f'[mdh] row "{name}"').error(
+                    f"the name makes {parameter} mean two parameters, with row "
+                    f"{shown(names[parameter])}; choose another name"
+                )
+            names[parameter] = name
+    return tuple(names)
+
+
+def _priority(value: Any, known: tuple[str, ...], place: Place) -> tuple[str, ...]:
+    patterns = list_at(value, place, '["ZZ*", "Ia?"]')
+    for pattern in patterns:
+        pattern = text_at(pattern, place, '"ZZ*"')
+        if not any(fnmatch.fnmatchcase(name, pattern) for name in known):
+            raise place.error(
+                f"{shown(pattern)} matches no parameter{near(pattern, known)}; expected names or "
+                f"patterns of {listed(known[:12])} ..."
+            )
+    return tuple(patterns)
+
+
+def _parameters(value: Any, known: tuple[str, ...], place: Place) -> dict[str, float]:
+    parameters = {}
+    for name, cell in table_at(value, place, "[parameters] ZZ1 = 0.5").items():
+        if name not in known:
+            raise place.error(
+                f"there is no parameter {shown(name)}{near(name, known)}; expected names such as "
+                f"{listed(known[:12])} (friction and rotors only where [effects] has them)"
+            )
+        parameters[name] = plain_number(cell, place.at(name), "0.5")
+    return parameters

@@ -1,0 +1,267 @@
+"""The `[mdh]` table of a robot file: rows to `Joint`s."""
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from modeler.core.expression import Expression, parse
+from modeler.robot.cells import (
+    check_declared,
+    exact_angle,
+    expression_at,
+    form_at,
+    list_at,
+    table_at,
+)
+from modeler.robot.joint import Joint, JointKind
+from modeler.robot.place import Place, listed, near, shown
+
+COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
+_GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
+_ANGLES = ("gamma", "alpha", "theta")
+_EXAMPLE = 'columns = ["j", "alpha", "d", "theta", "r"], rows = [["1", 0, 0, "q1", 0]]'
+_NAME = re.compile(r"[A-Za-z0-9]+")
+
+Row = dict[str, Any]
+
+
+def table_rows(value: Any, place: Place) -> tuple[tuple[Row, Place], ...]:
+    """The rows of `[mdh]` as {column: cell}, each with its place; names and antecedents filled in.
+
+    `j` becomes text; a missing `a` becomes the name of the row above, "0" for the first.
+
+    Raises:
+        RobotError: columns, row lengths, row names or antecedents are wrong.
+    """
+    table = table_at(value, place, f"[mdh] {_EXAMPLE}")
+    for key in table:
+        if key not in ("columns", "rows"):
+            raise place.error(
+                f"unknown key {shown(key)}{near(key, ('columns', 'rows'))}; expected columns "
+                "and rows only"
+            )
+    for key in ("columns", "rows"):
+        if key not in table:
+            raise place.error(f"{key} is missing; write {_EXAMPLE}")
+    columns = _columns(table["columns"], place.at("columns"))
+    rows: list[tuple[Row, Place]] = []
+    for number, cells in enumerate(list_at(table["rows"], place.at("rows"), _EXAMPLE), start=1):
+        row = _row(number, cells, columns, place)
+        name = _row_name(row["j"], place.at(f"row {number}, column j"))
+        here = place.at(f'row "{name}"')
+        names = [earlier["j"] for earlier, _ in rows]
+        if name in names:
+            raise here.error(
+                f"the name {shown(name)} stands in rows {names.index(name) + 1} and {number}; "
+                "give each row its own name"
+            )
+        row["j"] = name
+        row["a"] = _as_name(row.get("a", names[-1] if names else "0"))
+        rows.append((row, here))
+    if not rows:
+        raise place.at("rows").error(
+            f"the table is empty; write one row per joint, as in {_EXAMPLE}"
+        )
+    _check_antecedents(rows)
+    return tuple(rows)
+
+
+def table_joints(
+    rows: tuple[tuple[Row, Place], ...], symbols: Mapping[str, float]
+) -> tuple[Joint, ...]:
+    """The joints of checked rows (`table_rows`).
+
+    Args:
+        rows: cells by column, with their places.
+        symbols: values of the declared symbols.
+
+    Raises:
+        RobotError: a cell is wrong; says row, column, got, expected.
+    """
+    kinds = {row["j"]: _kind(row.get("sigma", 0), place) for row, place in rows}
+    if all(kind is JointKind.FIXED for kind in kinds.values()):
+        raise rows[0][1].error(
+            "no row of the table moves; expected at least one joint with sigma 0 (revolute) "
+            "or 1 (prismatic)"
+        )
+    return tuple(_joint(row, place, kinds, symbols) for row, place in rows)
+
+
+def _columns(value: Any, place: Place) -> list[str]:
+    columns = list_at(value, place, '["j", "alpha", "d", "theta", "r"]')
+    for number, column in enumerate(columns, start=1):
+        if column not in COLUMNS:
+            hint = near(column, COLUMNS) if isinstance(column, str) else ""
+            raise place.error(
+                f"entry {number} is {shown(column)}{hint}; expected names among {listed(COLUMNS)}"
+            )
+        if column in columns[: number - 1]:
+            raise place.error(f"{shown(column)} stands twice; remove one and its cells")
+    if "j" not in columns:
+        raise place.error(f'column "j" (row names) is missing, got {shown(columns)}; add it')
+    return columns
+
+
+def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
+    # The name is told if it can be read: it is what the user looks for.
+    named = isinstance(cells, list) and cells and columns[0] == "j"
+    name = f" ({shown(cells[0])})" if named else ""
+    here = place.at(f"row {number}{name}")
+    cells = list_at(cells, here, '["1", "0", 0, 0, "q1", 0]')
+    if len(cells) != len(columns):
+        raise here.error(
+            f"got {len(cells)} cells, expected {len(columns)}, one for each of "
+            f"{listed(columns)}; {'add' if len(cells) < len(columns) else 'remove'} "
+            f"{abs(len(columns) - len(cells))}"
+        )
+    return dict(zip(columns, cells, strict=True))
+
+
+def _as_name(cell: Any) -> Any:
+    return str(cell) if isinstance(cell, int) and not isinstance(cell, bool) else cell
+
+
+def _row_name(cell: Any, place: Place) -> str:
+    name = _as_name(cell)
+    if not isinstance(name, str) or not _NAME.fullmatch(name) or not name.isascii():
+        raise place.error(
+            f"got {shown(cell)}; expected a name of letters and digits such as "
+            '"1" or "12" (it becomes part of names in the C code)'
+        )
+    if name == "0":
+        raise place.error('got "0", which is the base; number the rows from "1"')
+    return name
+
+
+def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
+    antecedents = {row["j"]: row["a"] for row, _ in rows}
+    seen = {"0"}
+    for row, place in rows:
+        name, antecedent = row["j"], row["a"]
+        here = place.at("column a")
+        if not isinstance(antecedent, str) or antecedent not in {"0", *antecedents}:
+            hint = near(antecedent, antecedents) if isinstance(antecedent, str) else ""
+            raise here.error(
+                f'got {shown(antecedent)}; expected "0" (the base) or the name of an earlier row '
+                f"({listed(seen - {'0'})}){hint}"
+            )
+        if antecedent not in seen:
+            cycle = _cycle(name, antecedents)
+            if cycle:
+                raise here.error(
+                    f"got {shown(antecedent)}, which closes the circle {' -> '.join(cycle)}; "
+                    'every chain of antecedents must end at "0"'
+                )
+            raise here.error(
+                f"got {shown(antecedent)}, which is a later row; move row {shown(antecedent)} "
+                f"above row {shown(name)}"
+            )
+        seen.add(name)
+
+
+def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
+    """The rows from `name` back to itself, empty if its chain ends elsewhere."""
+    chain = [name]
+    while (following := antecedents.get(chain[-1])) is not None:
+        if following in chain:
+            return [*chain[chain.index(following) :], following]
+        chain.append(following)
+    return []
+
+
+def _kind(cell: Any, place: Place) -> JointKind:
+    if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
+        raise place.at("column sigma").error(
+            f"got {shown(cell)}; expected 0 (revolute), 1 (prismatic) or 2 (fixed)"
+        )
+    return JointKind(cell)
+
+
+def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
+    if "mu" not in row:
+        return kind is not JointKind.FIXED
+    cell = row["mu"]
+    if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1):
+        raise place.at("column mu").error(
+            f"got {shown(cell)}; expected 1 (actuated) or 0 (passive)"
+        )
+    if cell == 1 and kind is JointKind.FIXED:
+        raise place.at("column mu").error(
+            "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
+        )
+    return cell == 1
+
+
+def _joint(
+    row: Row, place: Place, kinds: Mapping[str, JointKind], symbols: Mapping[str, float]
+) -> Joint:
+    kind = kinds[row["j"]]
+    cells = {
+        column: _cell(row, column, place.at(f"column {column}"), kinds, symbols)
+        for column in _GEOMETRY
+    }
+    return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
+
+
+def _cell(
+    row: Row,
+    column: str,
+    place: Place,
+    kinds: Mapping[str, JointKind],
+    symbols: Mapping[str, float],
+) -> Expression:
+    expression = expression_at(row.get(column, 0), place)
+    kind, own = kinds[row["j"]], f"q{row['j']}"
+    home = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}.get(kind)
+    _check_variables(expression, own, home, column, kinds, place)
+    check_declared(expression, {**symbols, own: 0.0}, place)
+    if column == home:
+        _check_motion(expression, own, symbols, place)
+    else:
+        form_at(expression, symbols, place)
+    if column in _ANGLES:
+        return exact_angle(expression, own if column == home else None, place)
+    # -0.0 and the like: one zero, so that everyone may drop it.
+    return parse(0) if expression.is_zero else expression
+
+
+def _check_variables(
+    expression: Expression,
+    own: str,
+    home: str | None,
+    column: str,
+    kinds: Mapping[str, JointKind],
+    place: Place,
+) -> None:
+    """Refuse joint variables anywhere but in the place of this row's own."""
+    got = f"got {shown(expression.text)}"
+    for name in sorted(expression.names):
+        if name == own and home is None:
+            raise place.error(f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma")
+        if name == own and column != home:
+            raise place.error(
+                f"{got}, but {name} of a {'revolute' if home == 'theta' else 'prismatic'} joint "
+                f"belongs into column {home}; move it there, or correct sigma"
+            )
+        if name != own and name.startswith("q") and name[1:] in kinds:
+            raise place.error(
+                f"{got}, which uses the variable {name} of another row; linear relations between "
+                f"joints come with closed loops, not in this version; expected {own} or none"
+            )
+
+
+def _check_motion(
+    expression: Expression, own: str, symbols: Mapping[str, float], place: Place
+) -> None:
+    if own not in expression.names:
+        raise place.error(
+            f"got {shown(expression.text)}, without the joint variable; expected {own}, as in "
+            f'"{own}" or "{own} + pi/2"; a row that does not move has sigma 2'
+        )
+    form = form_at(expression, symbols, place)
+    if form.coefficients.get(own) not in (1.0, -1.0):
+        raise place.error(
+            f"got {shown(expression.text)}: {own} has the coefficient "
+            f"{form.coefficients.get(own, 0.0):g}; expected 1 or -1, as in "
+            f'"{own} + pi/2" or "-{own}" (a gear ratio belongs into the drive gain)'
+        )

@@ -1,0 +1,16 @@
+"""Simulated measurements, by physics that share nothing with the regressor.
+
+Rigid links in the world frame, effects as torques on shafts, a controller that sees a quantised
+encoder: `simulate` gives a log as a machine would, and the truth beside it. Serial and tree robots.
+"""
+
+from modeler.simulate.limits import motion_limits as motion_limits
+from modeler.simulate.log import SimulatedLog as SimulatedLog
+from modeler.simulate.log import Truth as Truth
+from modeler.simulate.log import check_suffix as check_suffix
+from modeler.simulate.log import write_log as write_log
+from modeler.simulate.log import write_truth as write_truth
+from modeler.simulate.parameters import PlantParameters as PlantParameters
+from modeler.simulate.parameters import plant_parameters as plant_parameters
+from modeler.simulate.run import simulate as simulate
+from modeler.simulate.settings import SimulationSettings as SimulationSettings

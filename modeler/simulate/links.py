@@ -1,0 +1,175 @@
+"""The links of a simulated robot: as stated in the robot file, the rest drawn plausibly."""
+
+from collections.abc import Mapping
+
+import casadi as ca
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+
+from modeler.core.errors import RobotError
+from modeler.robot import INERTIAL, Robot
+from modeler.simulate.body import (
+    Body,
+    body_from_standard,
+    is_physical,
+    pseudo_inertia,
+    standard_from_body,
+    standard_from_pseudo_inertia,
+)
+from modeler.simulate.geometry import BASE, world_frames
+
+_DENSITY = 30.0  # kg per squared metre of reach: an arm of 1 m weighs 30 kg
+_THINNING = 0.7  # mass per length of a link, relative to the link before it
+_SHORTEST = 0.15  # m, where the table holds no length at all
+_OF_MEAN = 0.35  # length of a link without extent, relative to the mean of the others
+
+
+def stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
+    """Inertial parameters of that link that the robot file gives a number for, by prefix.
+
+    A standard parameter under `[parameters]` wins over the letters of a paper.
+    """
+    stated = {}
+    symbols = robot.symbol_values()
+    physical = robot.physical.get(joint)
+    if physical is not None:
+        cells = (physical.mass, *physical.centre, *physical.inertia)
+        if all(cell.names <= symbols.keys() for cell in cells):
+            mass, cx, cy, cz, xx, xy, xz, yy, yz, zz = (cell.number(symbols) for cell in cells)
+            about_centre = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            stated = standard_from_body(Body(mass, np.array([cx, cy, cz]), about_centre))
+    for prefix in INERTIAL:
+        if f"{prefix}{joint}" in robot.parameters:
+            stated[prefix] = float(robot.parameters[f"{prefix}{joint}"])
+    return stated
+
+
+def link_bodies(
+    robot: Robot, pose: np.ndarray, rng: np.random.Generator
+) -> tuple[dict[str, Body], tuple[str, ...]]:
+    """Bodies of all moving links by joint name, and the names of parameters that were drawn.
+
+    Sizes follow from the lengths of the table at `pose`, masses from the reach; a box of uneven
+    density stands for each link, so that the ten parameters are those of a real body.
+
+    Raises:
+        RobotError: stated numbers that no distribution of mass has; names the link.
+    """
+    drawn = _drawn_bodies(robot, pose, rng)
+    bodies, names = {}, []
+    for joint in robot.moving:
+        stated = stated_inertia(robot, joint.name)
+        values = _completed(stated, standard_from_body(drawn[joint.name]))
+        if not is_physical(values):
+            numbers = ", ".join(f"{prefix}{joint.name} = {v:g}" for prefix, v in stated.items())
+            raise RobotError(
+                f"robot {robot.name}, link {joint.name}: no rigid body has the stated {numbers}; "
+                "expected a mass above 0 and inertias that some distribution of that mass can "
+                "have; correct them, or leave out what you do not know"
+            )
+        bodies[joint.name] = body_from_standard(values)
+        names += [f"{prefix}{joint.name}" for prefix in INERTIAL if prefix not in stated]
+    return bodies, tuple(names)
+
+
+def _completed(stated: Mapping[str, float], drawn: Mapping[str, float]) -> dict[str, float]:
+    """The stated values, and for the others those of a possible body, near the drawn one.
+
+    The pseudo-inertia is written as L L' with positive diagonal, so that each step of the search
+    is a possible body.
+    """
+    if not stated or len(stated) == len(INERTIAL):
+        return {**drawn, **stated}
+    mass = stated.get("M", drawn["M"])
+    length = np.sqrt(max(drawn["XX"], drawn["YY"], drawn["ZZ"]) / drawn["M"])
+    unit = {prefix: abs(mass) * length**2 or 1.0 for prefix in INERTIAL}
+    unit |= dict.fromkeys(("MX", "MY", "MZ"), abs(mass) * length or 1.0)
+    unit["M"] = abs(mass) or 1.0
+    start = _logarithms(np.linalg.cholesky(pseudo_inertia(drawn)))
+
+    def mismatch(unknown: np.ndarray) -> np.ndarray:
+        factor = _factor(unknown)
+        values = standard_from_pseudo_inertia(factor @ factor.T)
+        off = [(values[p] - value) / unit[p] for p, value in stated.items()]
+        return np.concatenate([1e5 * np.array(off), (unknown - start) * 1e-1])
+
+    found = _factor(least_squares(mismatch, start, method="trf", max_nfev=400).x)
+    return {**standard_from_pseudo_inertia(found @ found.T), **stated}
+
+
+def _logarithms(factor: np.ndarray) -> np.ndarray:
+    return np.concatenate([np.log(np.diag(factor)), factor[np.tril_indices(4, -1)]])
+
+
+def _factor(unknown: np.ndarray) -> np.ndarray:
+    factor = np.diag(np.exp(np.clip(unknown[:4], -40, 20)))
+    factor[np.tril_indices(4, -1)] = unknown[4:]
+    return factor
+
+
+def _drawn_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> dict[str, Body]:
+    tips = _tips(robot, pose)
+    lengths = np.array([np.linalg.norm(tip) for tip in tips.values()])
+    depth = _depths(robot)
+    weights = (lengths + 0.2 * lengths.mean()) * _THINNING ** np.array(
+        [depth[name] for name in tips]
+    )
+    total = _DENSITY * lengths.sum() ** 2
+    masses = total * weights / weights.sum()
+    return {
+        name: _box(mass * rng.uniform(0.8, 1.2), tip, rng)
+        for (name, tip), mass in zip(tips.items(), masses, strict=True)
+    }
+
+
+def _box(mass: float, tip: np.ndarray, rng: np.random.Generator) -> Body:
+    """A box along the link, turned a little so that no product of inertia vanishes."""
+    length = float(np.linalg.norm(tip))
+    sides = length * np.array([1.0, rng.uniform(0.25, 0.5), rng.uniform(0.25, 0.5)])
+    along, _ = Rotation.align_vectors(tip[None] / length, np.array([[1.0, 0.0, 0.0]]))
+    axes = (along * Rotation.from_rotvec(rng.normal(scale=0.2, size=3))).as_matrix()
+    principal = mass / 12 * (np.sum(sides**2) - sides**2)
+    centre = tip * rng.uniform(0.35, 0.6) + rng.normal(scale=0.08 * length, size=3)
+    return Body(float(mass), centre, axes @ np.diag(principal) @ axes.T)
+
+
+def _tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
+    """Vector from joint to the far end of each moving link, in its frame j, m."""
+    q = ca.SX.sym("q", len(robot.moving))
+    frames = world_frames(robot, q)
+    values = ca.Function("frames", [q], [ca.horzcat(*(f.position for f in frames.values()))])
+    turned = ca.Function("turned", [q], [ca.horzcat(*(f.rotation for f in frames.values()))])
+    origins = dict(zip(frames, values(pose).full().T, strict=True))
+    axes = dict(zip(frames, np.split(turned(pose).full(), len(frames), axis=1), strict=True))
+    owner = _owners(robot)
+    tips = {joint.name: np.zeros(3) for joint in robot.moving}
+    for joint in robot.joints:
+        link = owner[joint.antecedent]
+        if link == BASE:
+            continue
+        end = axes[link].T @ (origins[joint.name] - origins[link])
+        if np.linalg.norm(end) > np.linalg.norm(tips[link]):
+            tips[link] = end
+    lengths = np.array([np.linalg.norm(tip) for tip in tips.values()])
+    real = lengths[lengths > 1e-6]
+    short = _OF_MEAN * real.mean() if real.size else _SHORTEST
+    return {
+        name: tip if np.linalg.norm(tip) >= short else np.array([0.0, 0.0, short])
+        for name, tip in tips.items()
+    }
+
+
+def _owners(robot: Robot) -> dict[str, str]:
+    """The moving link (or the base) on which each frame is fixed."""
+    owner = {BASE: BASE}
+    for joint in robot.joints:
+        owner[joint.name] = joint.name if joint.moves else owner[joint.antecedent]
+    return owner
+
+
+def _depths(robot: Robot) -> dict[str, int]:
+    depth = {BASE: -1}
+    for joint in robot.joints:
+        depth[joint.name] = depth[joint.antecedent] + int(joint.moves)
+    return depth

@@ -1,0 +1,122 @@
+"""A simulated measurement, and the files it goes to."""
+
+import io
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from modeler.core.errors import DataError
+from modeler.core.files import write_atomically
+from modeler.simulate.settings import SimulationSettings
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """What no sensor sees.
+
+    Attributes:
+        q, qd, qdd: (n, joints) exact motion at each sample; qdd just after the torque's step.
+        tau: (n, joints) motor torque, constant from each sample to the next, N m or N.
+        parameters: true standard parameters by name, in table order, SI units.
+        drawn: names among these that the robot file leaves open.
+    """
+
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+    tau: np.ndarray
+    parameters: Mapping[str, float]
+    drawn: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedLog:
+    """What a robot's logger would have written.
+
+    Attributes:
+        robot: its name.
+        joints: names, in the order of the columns of all arrays.
+        driven: (joints,) False for a joint without motor: it has no command and no torque.
+        time: (n,) s.
+        q: (n, joints) encoder positions, rad or m.
+        qc: (n, joints) commanded positions.
+        tau: (n, joints) measured torques, N m or N: the mean over the sampling interval that is
+            centred at the sample (as current sensors integrate), with noise.
+        settings: how it was made.
+        truth: what it was made of.
+    """
+
+    robot: str
+    joints: tuple[str, ...]
+    driven: np.ndarray
+    time: np.ndarray
+    q: np.ndarray
+    qc: np.ndarray
+    tau: np.ndarray
+    settings: SimulationSettings
+    truth: Truth
+
+
+def log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
+    """Columns by name: time, q1.., qc1.., tau1..; a joint without motor has only its q."""
+    columns = {"time": log.time}
+    columns |= {f"q{name}": log.q[:, i] for i, name in enumerate(log.joints)}
+    for prefix, values in (("qc", log.qc), ("tau", log.tau)):
+        columns |= {
+            f"{prefix}{name}": values[:, i] for i, name in enumerate(log.joints) if log.driven[i]
+        }
+    return columns
+
+
+def write_log(path: Path, log: SimulatedLog) -> None:
+    """Write the log as Parquet or CSV, by the suffix of `path`.
+
+    Raises:
+        DataError: another suffix.
+        ModelerError: the file cannot be written.
+    """
+    path = Path(path)
+    check_suffix(path)
+    columns = log_columns(log)
+    if path.suffix == ".csv":
+        rows = [",".join(columns)]
+        rows += [",".join(map(repr, row)) for row in np.column_stack([*columns.values()]).tolist()]
+        write_atomically(path, "\n".join(rows) + "\n")
+        return
+    buffer = io.BytesIO()
+    pq.write_table(pa.table({name: pa.array(v) for name, v in columns.items()}), buffer)
+    write_atomically(path, buffer.getvalue())
+
+
+def check_suffix(path: Path) -> None:
+    """Nothing, if `write_log` knows the suffix of `path`; ask before a long simulation.
+
+    Raises:
+        DataError: it does not.
+    """
+    if Path(path).suffix not in (".parquet", ".csv"):
+        raise DataError(
+            f"{path}: got suffix {Path(path).suffix or '(none)'}; expected .parquet or .csv"
+        )
+
+
+def write_truth(path: Path, log: SimulatedLog) -> None:
+    """Write the true parameters and the seeds as JSON.
+
+    Raises:
+        ModelerError: the file cannot be written.
+    """
+    content = {
+        "robot": log.robot,
+        "seed": log.settings.seed,
+        "parameter_seed": log.settings.parameter_seed,
+        "torque_noise": log.settings.torque_noise,
+        "parameters": dict(log.truth.parameters),
+        "drawn": list(log.truth.drawn),
+    }
+    write_atomically(Path(path), json.dumps(content, indent=1) + "\n")

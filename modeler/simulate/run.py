@@ -1,0 +1,182 @@
+"""The simulated measurement: plant, controller and sensors in closed loop."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.robot import Limits, Robot
+from modeler.simulate.controller import ControllerState, Gains, control, tuned_gains
+from modeler.simulate.integrate import steps_per_tick, tick_function
+from modeler.simulate.limits import motion_limits
+from modeler.simulate.log import SimulatedLog, Truth
+from modeler.simulate.native import compiled_where_possible
+from modeler.simulate.parameters import PlantParameters, plant_parameters
+from modeler.simulate.plant import Plant, build_plant
+from modeler.simulate.settings import SimulationSettings, check_settings
+from modeler.simulate.trajectory import Reference, exciting_reference
+
+_REPORT_EVERY = 500  # ticks between calls of the progress callback
+_LOST = 1.0  # tracking error, in ranges of motion, at which the controller has lost the robot
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Raw results: state and torque held from each tick on, and encoder positions."""
+
+    states: np.ndarray  # (n, 2 joints + inner states)
+    torques: np.ndarray  # (n, joints)
+    measured: np.ndarray  # (n, joints)
+
+
+def simulate(
+    robot: Robot,
+    settings: SimulationSettings | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> SimulatedLog:
+    """A measurement of `robot` under closed-loop control.
+
+    The robot's effects are simulated as physics; effects that a model of it lacks are given by
+    simulating a robot that has more of them. The same robot and settings give the same bits.
+
+    Args:
+        robot: geometry, effects, and as many nominal parameters as are known.
+        settings: motion, controller, sensors, seeds.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        RobotError: parameters no rigid body has, bad limits, effects that cannot be simulated.
+        DataError: bad settings, friction too stiff, or a robot that the controller loses; says
+            what to change.
+    """
+    settings = settings or SimulationSettings()
+    check_settings(settings, tuple(joint.name for joint in robot.moving))
+    limits = motion_limits(robot, settings.limits)
+    reference = exciting_reference(limits, settings.duration, settings.rate, settings.seed)
+    parameters = plant_parameters(robot, limits, settings.parameter_seed)
+    plant = build_plant(robot, parameters, limits)
+    highest = _torque_limits(plant, reference, settings)
+    gains = tuned_gains(
+        plant, limits, settings.rate, settings.bandwidth, settings.feedforward, highest
+    )
+    resolution = np.array([
+        2 * np.pi / settings.encoder_counts if joint.angular and settings.encoder_counts
+        else 0.0 if joint.angular else settings.linear_resolution
+        for joint in robot.moving
+    ])  # fmt: skip
+    run = _closed_loop(plant, gains, reference, resolution, limits, progress)
+    return _log(robot, plant, parameters, reference, settings, run)
+
+
+def quantised(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
+    """What an encoder of that resolution reads; a resolution of 0 reads the position itself."""
+    step = np.where(resolution > 0, resolution, 1.0)
+    return np.where(resolution > 0, np.round(position / step) * step, position)
+
+
+def _torque_limits(plant: Plant, reference: Reference, settings: SimulationSettings) -> np.ndarray:
+    """(joints,) saturation: as set, else twice the torque that the commanded motion needs."""
+    thinned = slice(None, None, max(1, reference.time.size // 500))
+    samples = [values[thinned].T for values in (reference.q, reference.qd, reference.qdd)]
+    count = samples[0].shape[1]
+    torques = plant.torque.map(count)(*samples, np.zeros((plant.states, count))).full()
+    needed = 2 * np.max(np.abs(torques), axis=1)
+    return np.array([
+        settings.torque_limits.get(name, value)
+        for name, value in zip(plant.joints, needed, strict=True)
+    ])  # fmt: skip
+
+
+def _closed_loop(
+    plant: Plant,
+    gains: Gains,
+    reference: Reference,
+    resolution: np.ndarray,
+    limits: tuple[Limits, ...],
+    progress: Callable[[float], None] | None,
+) -> _Run:
+    """All ticks: read the encoders, hold the torque asked for one tick ago, move on, control."""
+    n, ticks = len(plant.joints), reference.time.size
+    steps = steps_per_tick(plant, limits, gains.tick)
+    advance: Any = compiled_where_possible(tick_function(plant, gains.tick, steps))
+    x, torque, later = np.zeros(2 * n + plant.states), np.zeros(n), np.zeros(2 * n + plant.states)
+    buffer, evaluate = advance.buffer()
+    buffer.set_arg(0, x.data)
+    buffer.set_arg(1, torque.data)
+    buffer.set_res(0, later.data)
+
+    x[:n] = reference.q[0]
+    # The brakes open with the torque that carries the robot, as drives remember it.
+    torque[:] = _holding_torque(plant, gains, x)
+    state = ControllerState(quantised(x[:n], resolution), np.zeros(n), torque.copy())
+    widths = np.array([limit.upper - limit.lower for limit in limits])
+    run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)))
+    for k in range(ticks):
+        run.states[k], run.torques[k] = x, torque
+        measured = run.measured[k] = quantised(x[:n], resolution)
+        command = reference.q[k], reference.qd[k], reference.qdd[k]
+        state, asked = control(gains, state, measured, command)
+        evaluate()
+        x[:], torque[:] = later, asked
+        if k % _REPORT_EVERY == 0 or k == ticks - 1:
+            _check_kept(plant, reference, widths, k, x[:n])
+            if progress is not None:
+                progress((k + 1) / ticks)
+    return run
+
+
+def _holding_torque(plant: Plant, gains: Gains, x: np.ndarray) -> np.ndarray:
+    n = len(plant.joints)
+    rest = np.zeros(n)
+    torque = plant.torque(x[:n], rest, rest, x[2 * n :]).full().ravel()
+    return np.clip(torque, -gains.highest, gains.highest)
+
+
+def _check_kept(
+    plant: Plant, reference: Reference, widths: np.ndarray, k: int, q: np.ndarray
+) -> None:
+    error = np.where(plant.driven, np.abs(q - reference.q[k]) / widths, 0.0)
+    if not np.all(np.isfinite(q)) or np.max(error) > _LOST:
+        joint = plant.joints[int(np.argmax(np.where(np.isfinite(error), error, np.inf)))]
+        raise DataError(
+            f"simulation: the controller lost joint {joint} at {reference.time[k]:.3f} s; expected "
+            "it to stay within its range; lower the bandwidth or the speed limits, or raise the "
+            "torque limit"
+        )
+
+
+def _log(
+    robot: Robot,
+    plant: Plant,
+    parameters: PlantParameters,
+    reference: Reference,
+    settings: SimulationSettings,
+    run: _Run,
+) -> SimulatedLog:
+    n, ticks = len(plant.joints), reference.time.size
+    q, qd, z = run.states[:, :n], run.states[:, n : 2 * n], run.states[:, 2 * n :]
+    qdd = _accelerations(plant.acceleration, q, qd, z, run.torques)
+    before = np.vstack([run.torques[:1], run.torques[:-1]])
+    mean = (before + run.torques) / 2
+    rms = np.sqrt(np.mean(mean**2, axis=0))
+    noise = np.random.default_rng([settings.seed, 3]).normal(size=(ticks, n))
+    return SimulatedLog(
+        robot=robot.name,
+        joints=plant.joints,
+        driven=plant.driven,
+        time=reference.time,
+        q=run.measured,
+        qc=reference.q,
+        tau=mean + settings.torque_noise * rms * noise,
+        settings=settings,
+        truth=Truth(q, qd, qdd, run.torques, parameters.standard, parameters.drawn),
+    )
+
+
+def _accelerations(acceleration: ca.Function, *samples: np.ndarray) -> np.ndarray:
+    """(n, joints) qdd for rows of q, qd, z, tau."""
+    values = acceleration.map(samples[0].shape[0])(*(sample.T for sample in samples))
+    return values[0].full().T.copy()

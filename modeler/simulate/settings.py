@@ -1,0 +1,72 @@
+"""What a simulated measurement is asked to be."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from modeler.core.errors import DataError
+from modeler.robot import Limits
+
+_EMPTY: Mapping = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class SimulationSettings:
+    """Motion, controller and sensors of a simulated measurement.
+
+    Attributes:
+        duration: s.
+        rate: control ticks and samples per second.
+        seed: of motion and noise; another seed is another measurement of the same robot.
+        parameter_seed: of the true parameters that the robot file leaves open.
+        encoder_counts: per turn of a revolute joint; 0 for an ideal encoder.
+        linear_resolution: of the encoder of a prismatic joint, m; 0 for an ideal encoder.
+        torque_noise: standard deviation of the white noise on measured torques, as a share of the
+            rms torque of the joint.
+        bandwidth: of the velocity loop, Hz; lowered where the coupled robot asks for it.
+        feedforward: True if the controller adds commanded speed, and commanded acceleration times
+            the joint's own inertia.
+        limits: range of motion by joint, in place of the robot file's.
+        torque_limits: largest motor torque by joint, N m or N; where none is given, twice what the
+            commanded motion needs.
+    """
+
+    duration: float = 20.0
+    rate: float = 1000.0
+    seed: int = 0
+    parameter_seed: int = 0
+    encoder_counts: int = 1_000_000
+    linear_resolution: float = 1e-6
+    torque_noise: float = 0.01
+    bandwidth: float = 20.0
+    feedforward: bool = True
+    limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
+    torque_limits: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+
+
+def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:
+    """Nothing, if the settings can be simulated with these joints.
+
+    Raises:
+        DataError: names the setting, what was got and what is expected.
+    """
+    for name in ("duration", "rate", "bandwidth"):
+        value = getattr(settings, name)
+        if not (math.isfinite(value) and value > 0):
+            raise DataError(f"simulation, {name}: got {value}; expected a number above 0")
+    for name in ("seed", "parameter_seed", "encoder_counts", "linear_resolution", "torque_noise"):
+        value = getattr(settings, name)
+        if not (math.isfinite(value) and value >= 0):
+            raise DataError(f"simulation, {name}: got {value}; expected 0 or more")
+    for joint, value in settings.torque_limits.items():
+        if joint not in joints:
+            raise DataError(
+                f"simulation, torque_limits: no moving joint {joint}; "
+                f"expected one of {', '.join(joints)}"
+            )
+        if not value > 0:
+            raise DataError(
+                f"simulation, torque_limits of joint {joint}: got {value}; expected a number "
+                "above 0"
+            )

@@ -1,0 +1,175 @@
+"""The table with exact entries: every cell a sympy expression, every right angle exact."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy
+
+from modeler.core.errors import DerivationError
+from modeler.core.expression import Expression
+from modeler.robot import Joint, Robot
+
+_FUNCTIONS = {
+    "sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt,
+    "exp": sympy.exp, "abs": sympy.Abs, "sign": sympy.sign, "tanh": sympy.tanh,
+}  # fmt: skip
+_RIGHT_ANGLE_TOLERANCE = 1e-9
+
+
+def geometric_symbol(name: str) -> sympy.Symbol:
+    """The symbol of that name; the only place where geometric symbols are made."""
+    return sympy.Symbol(name, real=True)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of the table, exact.
+
+    T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r), where theta = rate q + offset for a
+    revolute joint, r = rate q + offset for a prismatic one.
+
+    Attributes:
+        parent: index of the antecedent row, None for the base.
+        index: index of the joint variable in q; None for a fixed frame.
+        theta: constant part of theta.
+        r: constant part of r.
+        rate: +1 or -1.
+    """
+
+    joint: Joint
+    parent: int | None
+    index: int | None
+    gamma: sympy.Expr
+    b: sympy.Expr
+    alpha: sympy.Expr
+    d: sympy.Expr
+    theta: sympy.Expr
+    r: sympy.Expr
+    rate: int
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """The exact table of a robot.
+
+    Attributes:
+        rows: in table order.
+        gravity: acceleration of gravity in frame 0.
+        values: number of every symbol that is left in the entries.
+    """
+
+    robot: Robot
+    rows: tuple[Row, ...]
+    gravity: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
+    values: Mapping[str, float]
+
+    @property
+    def joints(self) -> int:
+        """Number of joint variables."""
+        return sum(row.index is not None for row in self.rows)
+
+    def ancestors(self, k: int) -> list[int]:
+        """Rows from `k` down to the base, `k` first."""
+        chain: list[int] = []
+        at: int | None = k
+        while at is not None:
+            chain.append(at)
+            at = self.rows[at].parent
+        return chain
+
+
+def exact_geometry(robot: Robot) -> Geometry:
+    """The table of `robot` with exact entries.
+
+    A symbol keeps its letter unless its value decides the structure: a symbol worth 0 is 0, one
+    given by an expression is that expression, an angle within 1e-9 of a multiple of pi/2 is that
+    multiple.
+    """
+    numbers = robot.symbol_values()
+    symbols = _symbols(robot, numbers)
+    rows: list[Row] = []
+    places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
+    index = 0
+    for joint in robot.joints:
+        cells = _Cells(joint, symbols, numbers)
+        theta, rate_theta = cells.affine(joint.theta, angle=True)
+        r, rate_r = cells.affine(joint.r, angle=False)
+        rows.append(
+            Row(
+                joint=joint,
+                parent=places[joint.antecedent],
+                index=index if joint.moves else None,
+                gamma=cells.angle(joint.gamma),
+                b=cells.length(joint.b),
+                alpha=cells.angle(joint.alpha),
+                d=cells.length(joint.d),
+                theta=theta,
+                r=r,
+                rate=(rate_theta if joint.angular else rate_r) if joint.moves else 1,
+            )
+        )
+        index += joint.moves
+    gravity = tuple(_fold(entry, symbols) for entry in robot.gravity)
+    used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
+    return Geometry(
+        robot, tuple(rows), (gravity[0], gravity[1], gravity[2]),
+        {name: numbers[name] for name in numbers if name in used},
+    )  # fmt: skip
+
+
+def _symbols(robot: Robot, numbers: Mapping[str, float]) -> dict[str, sympy.Expr]:
+    found: dict[str, sympy.Expr] = {}
+    for name, expression in robot.symbols.items():
+        if numbers[name] == 0.0:
+            found[name] = sympy.Integer(0)
+        elif _is_plain_number(expression):
+            found[name] = geometric_symbol(name)
+        else:
+            found[name] = _fold(expression, found)
+    return found
+
+
+def _is_plain_number(expression: Expression) -> bool:
+    return not expression.names and "pi" not in expression.text
+
+
+def _fold(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    return sympy.sympify(
+        expression.fold(
+            values, _FUNCTIONS, sympy.pi, lambda x: sympy.Rational(x.numerator, x.denominator)
+        )
+    )
+
+
+@dataclass(frozen=True)
+class _Cells:
+    joint: Joint
+    symbols: Mapping[str, sympy.Expr]
+    numbers: Mapping[str, float]
+
+    def length(self, cell: Expression) -> sympy.Expr:
+        return _fold(cell, self.symbols)
+
+    def angle(self, cell: Expression) -> sympy.Expr:
+        return self._snap(_fold(cell, self.symbols))
+
+    def affine(self, cell: Expression, angle: bool) -> tuple[sympy.Expr, int]:
+        """(constant part, coefficient of the joint variable)."""
+        q = sympy.Symbol(self.joint.variable, real=True)
+        folded = sympy.expand(_fold(cell, {**self.symbols, self.joint.variable: q}))
+        rate = folded.coeff(q, 1)
+        constant = folded - rate * q
+        if constant.has(q) or rate not in (0, 1, -1):
+            raise DerivationError(
+                f"joint {self.joint.name}: got {cell.text}; expected {q} or -{q} plus a constant"
+            )
+        return (self._snap(constant) if angle else constant), int(rate)
+
+    def _snap(self, value: sympy.Expr) -> sympy.Expr:
+        turns = float(value.subs(self._values())) / float(sympy.pi / 2)
+        if value.free_symbols and abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
+            return round(turns) * sympy.pi / 2
+        return value
+
+    def _values(self) -> dict[sympy.Symbol, float]:
+        return {geometric_symbol(name): value for name, value in self.numbers.items()}

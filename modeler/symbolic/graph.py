@@ -1,0 +1,263 @@
+"""Expression graph: hash-consed, with exact constants and folding while it is built.
+
+A value is a *reference*: an integer whose sign is the sign of the value and whose magnitude is a
+node; 0 is the constant zero, 1 the constant one. So negation costs nothing, `x - x` and `0*x`
+vanish where they arise, and equal expressions are one node. A node is *static* if it holds only
+numbers and geometric symbols; products and sums collect their static factors, as a compiler would
+fold numbers, so that symbolic lengths cost no more operations than numeric ones.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Union
+
+import numpy as np
+
+Number = int | Fraction
+Operand = Union["Expr", int, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """One operation.
+
+    Attributes:
+        op: "num" (args: a positive Fraction), "sym" (args: name), "add", "mul", "div" (args: two
+            references), or a function name (args: one reference).
+        static: True if it depends on numbers and geometric symbols only.
+    """
+
+    op: str
+    args: tuple[Any, ...]
+    static: bool
+
+
+class Graph:
+    """Nodes in order of creation: arguments always stand before their users."""
+
+    def __init__(self) -> None:
+        one = Node("num", (Fraction(1),), True)
+        self.nodes: list[Node] = [Node("num", (Fraction(0),), True), one]
+        self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
+
+    def symbol(self, name: str, static: bool = False) -> "Expr":
+        """The input of that name; `static` for geometric symbols."""
+        return Expr(self, self._node("sym", (name,), static))
+
+    def constant(self, value: Number) -> "Expr":
+        """An exact number."""
+        return Expr(self, self._number(Fraction(value)))
+
+    def lift(self, value: Operand) -> "Expr":
+        """`value` as an expression of this graph."""
+        return value if isinstance(value, Expr) else self.constant(value)
+
+    def call(self, name: str, argument: "Expr") -> "Expr":
+        """A function of one argument; odd and even functions take the sign out."""
+        ref = argument.ref
+        sign = 1
+        if ref < 0 and name in ("sin", "tan", "sign", "tanh"):
+            sign, ref = -1, -ref
+        elif ref < 0 and name in ("cos", "abs"):
+            ref = -ref
+        if ref == 0:
+            return self.constant(1 if name in ("cos", "exp") else 0)
+        return Expr(self, sign * self._node(name, (ref,), self.nodes[abs(ref)].static))
+
+    def _node(self, op: str, args: tuple[Any, ...], static: bool) -> int:
+        key = (op, args)
+        index = self._index.get(key)
+        if index is None:
+            index = len(self.nodes)
+            self.nodes.append(Node(op, args, static))
+            self._index[key] = index
+        return index
+
+    def _number(self, value: Fraction) -> int:
+        if value == 0:
+            return 0
+        index = self._node("num", (abs(value),), True)
+        return index if value > 0 else -index
+
+    def _value(self, ref: int) -> Fraction:
+        value = self.nodes[abs(ref)].args[0]
+        return value if ref > 0 else -value
+
+    def _is_number(self, ref: int) -> bool:
+        return ref == 0 or self.nodes[abs(ref)].op == "num"
+
+    def mul(self, a: int, b: int) -> int:
+        """Reference of a * b."""
+        if a == 0 or b == 0:
+            return 0
+        sign = 1 if (a > 0) == (b > 0) else -1
+        a, b = abs(a), abs(b)
+        if a == 1 or b == 1:
+            return sign * a * b
+        first, second = self.nodes[a], self.nodes[b]
+        if first.op == "num" and second.op == "num":
+            return sign * self._number(first.args[0] * second.args[0])
+        if second.static and not first.static:
+            a, b, first, second = b, a, second, first
+        if first.static and not second.static:
+            factor, rest = self._static_factor(b)
+            if factor != 1:
+                return sign * self.mul(self.mul(a, factor), rest)
+        elif a > b:
+            a, b = b, a
+        return sign * self._node("mul", (a, b), first.static and second.static)
+
+    def _static_factor(self, ref: int) -> tuple[int, int]:
+        """(static factor, dynamic rest) of a positive reference."""
+        node = self.nodes[ref]
+        if node.op == "mul" and self.nodes[abs(node.args[0])].static and not node.static:
+            return node.args
+        return 1, ref
+
+    def add(self, a: int, b: int) -> int:
+        """Reference of a + b."""
+        if a == 0 or b == 0:
+            return a + b
+        if a == -b:
+            return 0
+        if self._is_number(a) and self._is_number(b):
+            return self._number(self._value(a) + self._value(b))
+        merged = self._merge(a, b)
+        if merged is not None:
+            return merged
+        if abs(a) > abs(b):
+            a, b = b, a
+        sign = 1 if a > 0 else -1
+        static = self.nodes[abs(a)].static and self.nodes[abs(b)].static
+        return sign * self._node("add", (sign * a, sign * b), static)
+
+    def _merge(self, a: int, b: int) -> int | None:
+        """k x + l x = (k + l) x, and (x + y) - y = x."""
+        if a == b:
+            return self.mul(self._number(Fraction(2)), a)
+        if not (self.nodes[abs(a)].static or self.nodes[abs(b)].static):
+            (k, x), (l, y) = self._static_factor(abs(a)), self._static_factor(abs(b))
+            if x == y:
+                return self.mul(self.add(k if a > 0 else -k, l if b > 0 else -l), x)
+        for total, part in ((a, b), (b, a)):
+            node = self.nodes[abs(total)]
+            if node.op == "add":
+                sign = 1 if total > 0 else -1
+                x, y = sign * node.args[0], sign * node.args[1]
+                if x == -part:
+                    return y
+                if y == -part:
+                    return x
+        return None
+
+    def div(self, a: int, b: int) -> int:
+        """Reference of a / b."""
+        if b == 0:
+            raise ZeroDivisionError("division by an expression that is exactly zero")
+        if a == 0:
+            return 0
+        if self._is_number(b):
+            return self.mul(a, self._number(1 / self._value(b)))
+        if abs(a) == abs(b):
+            return 1 if a == b else -1
+        sign = 1 if (a > 0) == (b > 0) else -1
+        a, b = abs(a), abs(b)
+        if self.nodes[b].static and a != 1:
+            return sign * self.mul(self.div(1, b), a)
+        static = self.nodes[a].static and self.nodes[b].static
+        return sign * self._node("div", (a, b), static)
+
+    def reachable(self, outputs: Iterable["Expr"]) -> list[int]:
+        """Nodes that the outputs need, arguments first; node 0 left out."""
+        needed: set[int] = set()
+        stack = [abs(output.ref) for output in outputs]
+        while stack:
+            index = stack.pop()
+            if index in needed or index == 0:
+                continue
+            needed.add(index)
+            node = self.nodes[index]
+            if node.op not in ("num", "sym"):
+                stack.extend(abs(arg) for arg in node.args)
+        return sorted(needed)
+
+    def operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
+        """(additions, multiplications) per call; static parts and functions are not counted."""
+        dynamic = [self.nodes[i].op for i in self.reachable(outputs) if not self.nodes[i].static]
+        return dynamic.count("add"), dynamic.count("mul") + dynamic.count("div")
+
+    def evaluate(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
+        """Values of the outputs; `values` gives a number or an array of samples per symbol."""
+        found: dict[int, Any] = {0: 0.0}
+        for index in self.reachable(outputs):
+            found[index] = _evaluate(self.nodes[index], values, found)
+        return [found[abs(o.ref)] if o.ref >= 0 else -found[-o.ref] for o in outputs]
+
+
+_FUNCTIONS = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
+    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
+}  # fmt: skip
+
+
+def _evaluate(node: Node, values: Mapping[str, Any], found: Mapping[int, Any]) -> Any:
+    if node.op == "num":
+        return float(node.args[0])
+    if node.op == "sym":
+        return values[node.args[0]]
+    args = [found[arg] if arg >= 0 else -found[-arg] for arg in node.args]
+    if node.op == "add":
+        return args[0] + args[1]
+    if node.op == "mul":
+        return args[0] * args[1]
+    if node.op == "div":
+        return args[0] / args[1]
+    return _FUNCTIONS[node.op](args[0])
+
+
+class Expr:
+    """A value of a graph, with Python operators."""
+
+    __slots__ = ("graph", "ref")
+
+    def __init__(self, graph: Graph, ref: int) -> None:
+        self.graph = graph
+        self.ref = ref
+
+    @property
+    def is_zero(self) -> bool:
+        """True for the structural zero."""
+        return self.ref == 0
+
+    def __add__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.add(self.ref, self.graph.lift(other).ref))
+
+    def __sub__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.add(self.ref, -self.graph.lift(other).ref))
+
+    def __mul__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.mul(self.ref, self.graph.lift(other).ref))
+
+    def __truediv__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.div(self.ref, self.graph.lift(other).ref))
+
+    def __neg__(self) -> "Expr":
+        return Expr(self.graph, -self.ref)
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def __rsub__(self, other: Operand) -> "Expr":
+        return self.graph.lift(other) - self
+
+    def __rtruediv__(self, other: Operand) -> "Expr":
+        return self.graph.lift(other) / self
+
+    def __pow__(self, exponent: int) -> "Expr":
+        if not isinstance(exponent, int):
+            raise TypeError(f"only integer powers, got exponent {exponent!r}")
+        result = self.graph.constant(1)
+        for _ in range(abs(exponent)):
+            result = result * self
+        return result if exponent >= 0 else 1 / result
