@@ -15,6 +15,7 @@ import sympy
 from modeler.base.field import ExactField
 from modeler.effects import EnergyBlock
 from modeler.symbolic import Geometry, StandardColumn
+from modeler.symbolic.geometry import cos_sin
 
 PRIME = 2**31 - 1
 """Products of two residues fit in 64 bits."""
@@ -91,7 +92,8 @@ class ModularState:
             self.motion.append((R, p, w, v))
 
     def _cos_sin(self, angle: sympy.Expr) -> tuple[Residues, Residues]:
-        return self.value(sympy.cos(angle)), self.value(sympy.sin(angle))
+        c, s = cos_sin(angle)
+        return self.value(c), self.value(s)
 
     def energy_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
         """(2 points, columns): rows of 2T, then of the power of gravity and constant forces."""

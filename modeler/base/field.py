@@ -11,7 +11,8 @@ from typing import Any
 import sympy
 from sympy.polys.fields import field as rational_functions
 
-from modeler.symbolic.geometry import Geometry
+from modeler.base.trigonometry import in_cosines
+from modeler.symbolic.geometry import Geometry, cos_sin
 
 Element = Any
 """An element of the field: a sympy `FracElement`, or a rational number."""
@@ -56,6 +57,11 @@ class ExactField:
             self._found[value] = found
         return found
 
+    def cos_sin(self, angle: sympy.Expr) -> tuple[Element, Element]:
+        """Cosine and sine of a constant angle."""
+        c, s = cos_sin(angle)
+        return self.element(c), self.element(s)
+
     def _convert(self, value: sympy.Expr) -> Element:
         if value.is_Rational:
             return self._one * sympy.QQ(int(value.p), int(value.q))
@@ -80,29 +86,7 @@ class ExactField:
         """The element as a sympy expression in the symbols, cosines and sines."""
         if not self._generator:
             return sympy.Rational(int(element.numerator), int(element.denominator))
-        numerator, denominator = (
-            self._polynomial(part) for part in (element.numer, element.denom)
-        )
-        result = numerator / denominator
-        for letter, kind in self.letters.items():
-            if kind == "angle":
-                result = _as_cosines(result, sympy.Dummy(), letter, self._t(letter))
-        return _readable(result)
-
-    def _t(self, angle: sympy.Expr) -> sympy.Symbol:
-        return sympy.Symbol(f"t_{list(self.letters).index(angle)}", real=True)
-
-    def _polynomial(self, part: Any) -> sympy.Expr:
-        stands = [
-            self._t(letter) if kind == "angle" else letter for letter, kind in self.letters.items()
-        ]
-        terms = []
-        for monomial, coefficient in part.terms():
-            term = sympy.Rational(int(coefficient.numerator), int(coefficient.denominator))
-            for letter, exponent in zip(stands, monomial, strict=True):
-                term = term * letter**exponent
-            terms.append(term)
-        return sympy.Add(*terms)
+        return in_cosines(element.numer, element.denom, self.letters)
 
     def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
         """The element modulo a prime, with residues for the letters (tan(a/2) for an angle a)."""
@@ -124,7 +108,7 @@ def geometry_field(geometry: Geometry) -> ExactField:
         if row.index is None or row.joint.angular:
             constants.append(row.r)
         for angle in angles:
-            constants += [sympy.cos(angle), sympy.sin(angle)]
+            constants += cos_sin(angle)
     return ExactField(constants)
 
 
@@ -150,37 +134,3 @@ def _residue(part: Any, point: list[int], prime: int) -> int:
             term = term * pow(value, exponent, prime) % prime
         total += term
     return total % prime
-
-
-def _as_cosines(
-    value: sympy.Expr, mark: sympy.Dummy, angle: sympy.Expr, t: sympy.Symbol
-) -> sympy.Expr:
-    """A rational function of t = tan(angle/2) as one of cos(angle) and sin(angle)."""
-    if not value.has(t):
-        return value
-    c, s = sympy.cos(angle), sympy.sin(angle)
-    top, bottom = sympy.fraction(sympy.together(value))
-    top, bottom = sympy.Poly(top, t), sympy.Poly(bottom, t)
-    # Divide both by (1 + t**2)**K: t**i / (1 + t**2)**K is then a polynomial in cos and sin.
-    K = (max(top.degree(), bottom.degree()) + 1) // 2
-    return _cosine_form(top, K, c, s) / _cosine_form(bottom, K, c, s)
-
-
-def _cosine_form(poly: sympy.Poly, K: int, c: sympy.Expr, s: sympy.Expr) -> sympy.Expr:
-    # In pairs: t**2/(1+t**2) = (1-c)/2, 1/(1+t**2) = (1+c)/2, t/(1+t**2) = s/2.
-    C, S = sympy.Dummy("c"), sympy.Dummy("s")
-    total = sympy.Integer(0)
-    for (i,), coefficient in poly.terms():
-        pairs, single = divmod(i, 2)
-        factor = ((1 - C) / 2) ** pairs * ((1 + C) / 2) ** (K - pairs - single)
-        total += coefficient * factor * (S / 2 if single else 1)
-    reduced = sympy.rem(sympy.expand(total), S**2 + C**2 - 1, S)
-    return sympy.factor(reduced).subs({C: c, S: s})
-
-
-def _readable(value: sympy.Expr) -> sympy.Expr:
-    """Monomials as they are; sums factored, with sin**2 written for 1 - cos**2."""
-    value = sympy.cancel(value) if value.has(sympy.cos, sympy.sin) else sympy.factor(value)
-    if value.has(sympy.cos):
-        value = sympy.factor(sympy.fu(sympy.factor(value)))
-    return value

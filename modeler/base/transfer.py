@@ -95,8 +95,8 @@ class Constant:
 def placement(row: Row, K: ExactField) -> Constant:
     """Rz(gamma) Tz(b) Rx(alpha) Tx(d): the antecedent to the frame before the joint motion."""
     zero, one = K.zero, K.one
-    gamma = rotation_z(K.element(sympy.cos(row.gamma)), K.element(sympy.sin(row.gamma)), zero, one)
-    alpha = rotation_x(K.element(sympy.cos(row.alpha)), K.element(sympy.sin(row.alpha)), zero, one)
+    gamma = rotation_z(*K.cos_sin(row.gamma), zero, one)
+    alpha = rotation_x(*K.cos_sin(row.alpha), zero, one)
     R = product(gamma, alpha, zero)
     p = apply(R, [K.element(row.d), zero, zero], zero)
     return Constant(R, [p[0], p[1], p[2] + K.element(row.b)])
@@ -105,12 +105,9 @@ def placement(row: Row, K: ExactField) -> Constant:
 def joint_constant(row: Row, K: ExactField) -> Constant:
     """The constant part that commutes with the joint motion: Tz(r) or Rz(theta), or both."""
     zero, one = K.zero, K.one
-    turns, slides = row.index is not None and row.joint.angular, row.index is not None and (
-        not row.joint.angular
-    )
-    c, s = (one, zero) if turns else (
-        K.element(sympy.cos(row.theta)), K.element(sympy.sin(row.theta))
-    )  # fmt: skip
+    turns = row.index is not None and row.joint.angular
+    slides = row.index is not None and not row.joint.angular
+    c, s = (one, zero) if turns else K.cos_sin(row.theta)
     r = zero if slides else K.element(row.r)
     return Constant(rotation_z(c, s, zero, one), [zero, zero, r])
 

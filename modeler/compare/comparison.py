@@ -69,7 +69,9 @@ class Comparison:
 
     def summary(self) -> str:
         """Plain-text table, one line per joint, units in the table."""
-        head = f"{'joint':<6}{'error':>8}{'rms':>13}{'largest':>13}  {'at':<28}{'R2':>7}{'bias':>13}"
+        head = (
+            f"{'joint':<6}{'error':>8}{'rms':>13}{'largest':>13}  {'at':<28}{'R2':>7}{'bias':>13}"
+        )
         lines = [head]
         for item in self.joints:
             unit = item.joint.effort_unit

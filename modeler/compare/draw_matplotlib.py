@@ -1,7 +1,7 @@
 """A picture as PNG or SVG, by matplotlib; no window, no global state."""
 
 import io
-from typing import Any, Literal
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -21,7 +21,7 @@ from modeler.compare.picture import (
     Series,
 )
 
-_SETTINGS = {
+_SETTINGS: Any = {
     "font.size": 9,
     "axes.titlesize": 9.5,
     "axes.titlelocation": "left",
@@ -32,13 +32,18 @@ _SETTINGS = {
 }
 
 
-def image(picture: Picture, kind: Literal["png", "svg"]) -> bytes:
-    """The picture as the bytes of a PNG (150 dpi) or SVG file, 12 inches wide, without a date."""
+def images(picture: Picture) -> dict[str, bytes]:
+    """The picture as PNG (150 dpi) and SVG files, 12 inches wide, without a date or version."""
     with matplotlib.rc_context(_SETTINGS):
         figure = _figure(picture)
-        stream = io.BytesIO()
-        metadata = {"Date": None} if kind == "svg" else {"Software": None}
-        figure.savefig(stream, format=kind, dpi=150, metadata=metadata)
+        png = _saved(figure, "png", {"Software": None})
+        figure.set_layout_engine("none")  # laid out by now; the layout is the slow part
+        return {"png": png, "svg": _saved(figure, "svg", {"Date": None, "Creator": None})}
+
+
+def _saved(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
+    stream = io.BytesIO()
+    figure.savefig(stream, format=kind, dpi=150, metadata=metadata)
     return stream.getvalue()
 
 
@@ -59,13 +64,34 @@ def _figure(picture: Picture) -> Figure:
             _draw_panel(axes[row, column], panel)
             if not picture.shared_time or row == last:
                 axes[row, column].set_xlabel(panel.x_label)
+    _legend(figure, picture, axes)
     return figure
+
+
+def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
+    """One legend for the picture: the series of panels that have several."""
+    handles: dict[str, Any] = {}
+    for row, panels in enumerate(picture.panels):
+        for column, panel in enumerate(panels):
+            if len(panel.series) > 1:
+                drawn, labels = axes[row, column].get_legend_handles_labels()
+                handles |= dict(zip(labels, drawn, strict=True))
+    if handles:
+        figure.legend(
+            list(handles.values()),
+            list(handles),
+            loc="outside upper right",
+            ncols=len(handles),
+            frameon=False,
+        )
 
 
 def _draw_panel(axes: Any, panel: Panel) -> None:
     axes.set_title(panel.title)
     axes.set_ylabel(panel.y_label)
-    if panel.scale == "log" and any(np.isfinite(s.y).any() for s in panel.series if isinstance(s, Curve)):
+    if panel.scale == "log" and any(
+        np.isfinite(s.y).any() for s in panel.series if isinstance(s, Curve)
+    ):
         axes.set_xscale("log")
         axes.set_yscale("log")
     if panel.shade is not None:
@@ -79,8 +105,6 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
         )
     for series in panel.series:
         _draw(axes, series)
-    if len(panel.series) > 1:
-        axes.legend(frameon=False, fontsize=8, loc="upper right", ncols=2)
 
 
 def _draw(axes: Any, series: Series) -> None:

@@ -47,15 +47,13 @@ def _figure(picture: Picture) -> go.Figure:
         height=picture.height,
         margin={"l": 62, "r": 14, "t": 54, "b": 48},
         font={"family": "system-ui, sans-serif", "size": 12, "color": "#222"},
-        legend={"orientation": "h", "x": 1, "xanchor": "right", "y": 1.0, "yref": "container"},
+        legend={"orientation": "h", "x": 0, "y": 1, "yref": "container", "yanchor": "top"},
         hovermode="closest",
     )
     return figure
 
 
-def _add_panel(
-    figure: go.Figure, panel: Panel, at: tuple[int, int], labelled: set[str]
-) -> None:
+def _add_panel(figure: go.Figure, panel: Panel, at: tuple[int, int], labelled: set[str]) -> None:
     place = {"row": at[0], "col": at[1]}
     for series in panel.series:
         trace = _trace(series)

@@ -17,7 +17,8 @@ def overview_picture(comparison: Comparison) -> Picture:
     panels = (
         (
             Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
-            Panel("Where: share of squared residual [%]", "velocity", "joint", (_regions(comparison),)),
+            Panel("Where: share of squared residual [%]", "velocity", "joint",
+                  (_regions(comparison),)),
         ),
         (
             Panel("Follows its own ... [%]", "coordinate", "joint",

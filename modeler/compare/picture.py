@@ -110,7 +110,9 @@ def picture_csv(picture: Picture) -> str:
     lines = ["panel,series,x,y,error"]
     for panel in (panel for row in picture.panels for panel in row):
         for series in panel.series:
-            lines += [f"{_quote(panel.title)},{_quote(series.label)},{row}" for row in _rows(series)]
+            lines += [
+                f"{_quote(panel.title)},{_quote(series.label)},{row}" for row in _rows(series)
+            ]
     return "\n".join(lines) + "\n"
 
 
@@ -126,7 +128,7 @@ def _rows(series: Series) -> list[str]:
         return [f"{_quote(name)},{value:.5g}," for name, value in pairs]
     if isinstance(series, Means):
         triples = zip(series.x, series.y, series.error, strict=True)
-        return [f"{x:.5g},{y:.5g},{error:.5g}" for x, y, error in triples]
+        return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
     both = zip(series.x, series.y, strict=True)
     return [f"{x:.7g},{y:.5g}," for x, y in both if np.isfinite(y)]
 

@@ -3,6 +3,7 @@
 import base64
 import html
 import math
+import statistics
 from collections.abc import Sequence
 from pathlib import Path
 from string import Template
@@ -10,24 +11,34 @@ from string import Template
 import plotly.offline
 
 from modeler.compare.comparison import Comparison, JointComparison
-from modeler.compare.draw_matplotlib import image
+from modeler.compare.draw_matplotlib import images
 from modeler.compare.draw_plotly import figure_json
 from modeler.compare.overview_picture import overview_picture
 from modeler.compare.picture import Picture, picture_csv
 from modeler.compare.pictures import all_pictures, joint_pictures
 from modeler.compare.verdict import (
+    best_other,
     best_pattern,
     headline,
     joint_verdict,
+    kind_of_residual,
     looks_like_noise,
     percent,
 )
 from modeler.core.files import write_atomically
 
+_TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
+_REGION_PHRASES = {
+    "fast -": "fast in the negative direction",
+    "slow -": "slow in the negative direction",
+    "around zero": "around zero speed",
+    "slow +": "slow in the positive direction",
+    "fast +": "fast in the positive direction",
+}
 _HERE = Path(__file__).parent
 _HEAD = (
     '<tr><th>joint</th><th class="text">relative error</th><th>rms residual</th>'
-    "<th>rms torque</th><th>largest residual</th><th class=\"text\">at</th><th>R&sup2;</th>"
+    '<th>rms torque</th><th>largest residual</th><th class="text">at</th><th>R&sup2;</th>'
     "<th>mean residual</th><th>samples</th></tr>"
 )
 
@@ -58,11 +69,7 @@ def write_pictures(folder: Path, comparison: Comparison) -> tuple[Path, ...]:
     """
     written = []
     for picture in all_pictures(comparison):
-        files = {
-            "png": image(picture, "png"),
-            "svg": image(picture, "svg"),
-            "csv": picture_csv(picture).encode(),
-        }
+        files = {**images(picture), "csv": picture_csv(picture).encode()}
         for kind, content in files.items():
             place = Path(folder) / f"{picture.name}.{kind}"
             write_atomically(place, content)
@@ -82,7 +89,7 @@ def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
         facts="\n".join(_fact(name, text) for name, text in _facts(comparison)),
         verdict="\n".join(_verdict_lines(comparison)),
         table="\n".join([_HEAD, *(_table_row(item, comparison) for item in comparison.joints)]),
-        overview=_figure(overview_picture(comparison)) if comparison.joints else "",
+        overview=_figure(overview_picture(comparison), titled=False) if comparison.joints else "",
         joints="\n".join(_joint_section(comparison, item) for item in comparison.joints),
         provenance="\n".join(lines),
         plotly=plotly.offline.get_plotlyjs(),
@@ -92,36 +99,53 @@ def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
 
 def _facts(comparison: Comparison) -> list[tuple[str, str]]:
     """The three answers of the first screen."""
-    joints = comparison.joints
-    if not joints:
+    if not comparison.joints:
         return []
-    ranked = sorted(joints, key=lambda item: item.relative_error, reverse=True)
-    good = ", ".join(f"joint {i.joint.name} {percent(i.relative_error)}" for i in ranked[::-1][:3])
-    where = ranked[0]
-    moment = f"{where.worst.start:.2f}-{where.worst.end:.2f} s of {where.worst.log}"
-    left = sorted(
-        ((found, item) for item in joints if (found := best_pattern(item))),
-        key=lambda entry: entry[0][1],
-        reverse=True,
-    )
-    if left:
-        named = "; ".join(
-            f"joint {item.joint.name}: {percent(found[1])} follows {found[0].phrase}"
-            for found, item in left[:3]
-        )
-        structure = f"{len(left)} of {len(joints)} joints show a pattern. {named}."
-    elif all(looks_like_noise(item) for item in joints):
-        structure = "No: the residual of every joint looks like noise."
-    else:
-        structure = "No pattern in a joint's own motion, but not all of it is noise: see below."
     return [
-        ("How good?", f"Best: {good}."),
-        (
-            "Where does it fail?",
-            f"Most on joint {where.joint.name} ({percent(where.relative_error)}), worst at {moment}.",
-        ),
-        ("Does the residual still have structure?", structure),
+        ("How good?", _how_good(comparison.joints)),
+        ("Where does it fail?", _where(comparison.joints)),
+        ("Does the residual still have structure?", _what_is_left(comparison.joints)),
     ]
+
+
+def _how_good(joints: tuple[JointComparison, ...]) -> str:
+    below = sum(item.relative_error < 0.1 for item in joints)
+    middle = percent(statistics.median(item.relative_error for item in joints))
+    text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
+    defined = [item for item in joints if not math.isnan(item.r2)]
+    if defined:
+        worst = min(defined, key=lambda item: item.r2)
+        text += f" Lowest R\u00b2: {worst.r2:.3f} (joint {worst.joint.name})."
+    return text
+
+
+def _where(joints: tuple[JointComparison, ...]) -> str:
+    worst = max(joints, key=lambda item: item.relative_error)
+    window = worst.worst
+    region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
+    return (
+        f"Most on joint {worst.joint.name} ({percent(worst.relative_error)}): "
+        f"{percent(region.energy_share)} of its squared residual while {_REGION_PHRASES[region.name]}"
+        f" ({percent(region.time_share)} of the samples); worst at {window.start:.2f}-"
+        f"{window.end:.2f} s of {window.log}."
+    )
+
+
+def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
+    named = []
+    for item in joints:
+        pattern, other = best_pattern(item), best_other(item)
+        if other is not None:
+            named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
+        elif pattern is not None:
+            named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
+    if named:
+        named.sort(reverse=True)
+        listed = "; ".join(f"{text} ({percent(share)})" for share, text in named[:3])
+        return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
+    if all(looks_like_noise(item) for item in joints):
+        return "No: the residual of every joint looks like noise."
+    return "No pattern in the joints' motion, but not all of it is noise: see below."
 
 
 def _facts_on_data(comparison: Comparison) -> list[str]:
@@ -137,26 +161,18 @@ def _facts_on_data(comparison: Comparison) -> list[str]:
 def _verdict_lines(comparison: Comparison) -> list[str]:
     lines = []
     for item in comparison.joints:
-        kind, tag = _kind(item)
+        kind, name = kind_of_residual(item), html.escape(item.joint.name)
+        first, _, rest = html.escape(joint_verdict(item)).partition(": ")
         lines.append(
-            f'<li class="{kind}"><span class="tag">{tag}</span>'
-            f'<a href="#joint-{html.escape(item.joint.name)}">'
-            f"{html.escape(joint_verdict(item))}</a></li>"
+            f'<li class="{kind}"><span class="tag">{_TAGS[kind]}</span>'
+            f'<span><a href="#joint-{name}">{first}</a>: {rest}</span></li>'
         )
     lines += [
-        f'<li><span class="tag">not judged</span>Joint {html.escape(name)}: '
-        f"{html.escape(reason)}.</li>"
+        f'<li><span class="tag">not judged</span><span>Joint {html.escape(name)}: '
+        f"{html.escape(reason)}.</span></li>"
         for name, reason in comparison.unjudged
     ]
     return lines
-
-
-def _kind(item: JointComparison) -> tuple[str, str]:
-    if best_pattern(item) is not None:
-        return "pattern", "pattern left"
-    if looks_like_noise(item):
-        return "noise", "noise only"
-    return "other", "not only noise"
 
 
 def _table_row(item: JointComparison, comparison: Comparison) -> str:
@@ -187,10 +203,11 @@ def _joint_section(comparison: Comparison, item: JointComparison) -> str:
     )
 
 
-def _figure(picture: Picture) -> str:
+def _figure(picture: Picture, titled: bool = True) -> str:
+    heading = f"<h3>{html.escape(picture.title)}</h3>\n" if titled else ""
     numbers = base64.b64encode(picture_csv(picture).encode()).decode()
     return (
-        f"<figure>\n<h3>{html.escape(picture.title)}</h3>\n"
+        f"<figure>\n{heading}"
         f'<div class="plot" style="height:{picture.height}px"></div>'
         f'<script type="application/json">{figure_json(picture)}</script>\n'
         f"<figcaption>{html.escape(picture.caption)} "

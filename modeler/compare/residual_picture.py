@@ -9,7 +9,7 @@ from modeler.compare.prediction import Prediction
 from modeler.compare.thinning import thin_points
 from modeler.compare.time_picture import running_time
 
-_DOTS = 1500
+_DOTS = 1200
 _BINS = 24
 _FEWEST = 8  # samples of a bin whose mean is drawn
 _CLOUD = Style(GREY, width=2.6, opacity=0.45)
@@ -29,12 +29,13 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
         title=f"Joint {name}: does the residual still have structure?",
         caption=(
             "Grey: samples. Blue: mean of the residual in each bin, whiskers two standard errors "
-            "(widened for samples that resemble their neighbours). A blue line that leaves zero by "
-            "more than its whiskers is a pattern the model does not have: a step at zero velocity "
-            "is Coulomb friction, a slope viscous friction, a wave over position gravity or ripple,"
-            " a slope over acceleration inertia. The percentage is the share of the residual "
-            "variance that such a curve predicts on motion not used to draw it. A flat spectrum "
-            "is noise; a narrow peak is an oscillation."
+            "(from the spread between separate passes through the bin; none where there was only "
+            "one). A blue line that leaves zero by more than its whiskers is a pattern the model "
+            "does not have: a step at zero velocity looks like Coulomb friction, a slope like "
+            "viscous friction, a wave over position like gravity or ripple, a slope over "
+            "acceleration like inertia. The percentage is the share of the residual variance that "
+            "such a curve predicts on motion not used to draw it. A flat spectrum is noise, a "
+            "narrow peak an oscillation."
         ),
         panels=(
             (panels["velocity"], panels["position"], panels["acceleration"]),
@@ -46,15 +47,16 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
     )
 
 
-def binned_means(
-    x: np.ndarray, e: np.ndarray, inflation: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean of x, mean of e and two standard errors in up to 24 bins of x, half of them by count.
 
+    Consecutive samples share their noise, so the standard error comes from the spread between
+    separate passes through the bin: s^2 = G/(G-1) sum_g (sum_{i in g} (e_i - mean))^2 / n^2 with
+    G passes g. A bin with one pass has no whisker (NaN).
+
     Args:
-        x: coordinate, (n,).
+        x: coordinate, (n,), in time order.
         e: residual, (n,).
-        inflation: variance of a mean of e over that of as many independent samples.
     """
     even = np.linspace(x.min(), x.max(), _BINS // 2 + 1)
     dense = np.quantile(x, np.linspace(0.0, 1.0, _BINS // 2 + 1))
@@ -63,17 +65,18 @@ def binned_means(
     count = np.bincount(which)
     filled = np.flatnonzero(count >= _FEWEST)
     count = np.maximum(count, 1)
-    centre = np.bincount(which, x) / count
     mean = np.bincount(which, e) / count
-    variance = np.bincount(which, (e - mean[which]) ** 2) / np.maximum(count - 1, 1)
-    independent = np.maximum(count / inflation, 1.0)
-    error = 2.0 * np.sqrt(variance / independent)
+    starts = np.concatenate(([0], np.flatnonzero(np.diff(which)) + 1))
+    deviation = np.add.reduceat(e - mean[which], starts)
+    passes = np.bincount(which[starts], minlength=count.size)
+    scatter = np.bincount(which[starts], deviation**2, minlength=count.size)
+    correction = np.where(passes > 1, passes / np.maximum(passes - 1, 1), np.nan)
+    error = 2.0 * np.sqrt(correction * scatter) / count
+    centre = np.bincount(which, x) / count
     return centre[filled], mean[filled], error[filled]
 
 
-def _against(
-    prediction: Prediction, item: JointComparison, coordinate: str, label: str
-) -> Panel:
+def _against(prediction: Prediction, item: JointComparison, coordinate: str, label: str) -> Panel:
     rows = prediction.used[:, item.index]
     e = (prediction.measured - prediction.predicted)[rows, item.index]
     if coordinate == "time":
@@ -82,7 +85,7 @@ def _against(
     else:
         x, marks = coordinate_values(prediction, item.index, coordinate)[rows], ()
     kept = thin_points(x, e, _DOTS)
-    centre, mean, error = binned_means(x, e, _inflation(item))
+    centre, mean, error = binned_means(x, e)
     title = label[0].upper() + label[1:]
     if item.structure is not None:
         title = f"{title}: {item.structure.share(coordinate):.0%}"
@@ -99,16 +102,15 @@ def _against(
     )
 
 
-def _inflation(item: JointComparison) -> float:
-    return item.spectrum.inflation if item.spectrum is not None else 1.0
-
-
 def _spectrum_panel(item: JointComparison) -> Panel:
     unit = item.joint.effort_unit
     colour = item.spectrum
     nothing = np.array([np.nan])
+    title = "Spectrum"
+    if colour is not None:
+        title += f": {colour.peak_share:.0%} of the power near {colour.peak:.3g} Hz"
     return Panel(
-        title="Spectrum" if colour is None else f"Spectrum: peak at {colour.peak:.3g} Hz",
+        title=title,
         x_label="frequency [Hz]",
         y_label=f"density [({unit})^2/Hz]",
         series=(

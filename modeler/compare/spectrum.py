@@ -19,7 +19,6 @@ class Spectrum:
     period: float  # s between samples
     correlation: np.ndarray  # (lags,) autocorrelation at 0, 1, ... samples; correlation[0] = 1
     memory: float  # s until the autocorrelation is below 0.2; one period for white noise
-    inflation: float  # variance of a mean over that of as many independent samples, >= 1
     frequency: np.ndarray  # (m,) Hz, without 0
     density: np.ndarray  # (m,) (N m)^2/Hz or N^2/Hz
     peak: float  # Hz, frequency of the largest density
@@ -44,8 +43,6 @@ def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
     frequency, density = _welch(pieces, period)
     below = np.flatnonzero(correlation < _FORGOTTEN)
     memory = int(below[0]) if below.size else correlation.size
-    crossing = np.flatnonzero(correlation <= 0.0)
-    positive = correlation[1 : crossing[0] if crossing.size else correlation.size]
     top = int(np.argmax(density))
     near = density[max(top - 2, 0) : top + 3].sum()
     total = float(density.sum())
@@ -53,7 +50,6 @@ def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
         period=period,
         correlation=correlation,
         memory=memory * period,
-        inflation=1.0 + 2.0 * float(positive.sum()),
         frequency=frequency,
         density=density,
         peak=float(frequency[top]),
@@ -93,7 +89,8 @@ def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
 
 def _welch(pieces: list[np.ndarray], period: float) -> tuple[np.ndarray, np.ndarray]:
     """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
-    window = min(_LONGEST, max(piece.size for piece in pieces))
+    # a quarter of the longest segment: about seven windows to average over
+    window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
     total, weight = np.zeros(window // 2 + 1), 0.0
     frequency = total
     for piece in pieces:

@@ -31,7 +31,7 @@ class Structure:
     """
 
     shares: tuple[tuple[str, float], ...]  # coordinate id -> share, in the order of COORDINATES
-    together: float  # one function of each motion coordinate of the joint, added
+    together: float  # a sum of one function of each motion coordinate, or the best one alone
     across: tuple[tuple[str, float], ...]  # joint name -> share, by a function of its velocity
 
     def share(self, coordinate: str) -> float:
@@ -53,9 +53,11 @@ def structure(prediction: Prediction, joint: int) -> Structure | None:
         for name, family in families.items()
     )
     motion = stack([family for name, family in families.items() if name != "time"])
+    # many columns cost something on unseen motion: a sum may do worse than its best part
+    alone = max(share for name, share in shares if name != "time")
     return Structure(
         shares=shares,
-        together=explained_share(motion, e, *_MOTION),
+        together=max(alone, explained_share(motion, e, *_MOTION)),
         across=tuple(
             (info.name, _across(prediction, e, rows, other))
             for other, info in enumerate(prediction.joints)

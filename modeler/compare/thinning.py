@@ -1,5 +1,7 @@
 """Fewer points for a picture, without losing a peak."""
 
+from itertools import pairwise
+
 import numpy as np
 
 LIMIT = 4000
@@ -25,7 +27,7 @@ def thin_curves(curves: tuple[np.ndarray, ...], limit: int = LIMIT) -> np.ndarra
     for values in curves:
         low = np.where(np.isnan(values), np.inf, values)
         high = np.where(np.isnan(values), -np.inf, values)
-        for start, stop in zip(edges[:-1], edges[1:], strict=True):
+        for start, stop in pairwise(edges):
             low_at, high_at = np.argmin(low[start:stop]), np.argmax(high[start:stop])
             kept.append(start + np.array([low_at, high_at]))
     return np.unique(np.concatenate(kept))

@@ -36,7 +36,7 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     at = (prediction.segment == window.segment) & (prediction.time == window.start)
     start = float(whole[np.flatnonzero(at)[0]])
     end = start + window.end - window.start
-    left = _column(prediction, item, every, whole, "All logs", label)
+    left = _column(prediction, item, every, whole, _whole_title(prediction), label)
     right = _column(
         prediction, item, zoom, prediction.time, f"Worst {WINDOW} s", f"time in {window.log} [s]"
     )
@@ -85,6 +85,10 @@ def running_time(
         marks.append((offset, prediction.logs[run]))
         offset += float(own.max() - own.min())
     return whole, "time, logs one after the other [s]", tuple(marks)
+
+
+def _whole_title(prediction: Prediction) -> str:
+    return "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
 
 
 def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -81,6 +81,13 @@ def best_other(item: JointComparison) -> tuple[str, float] | None:
     return (name, share) if share >= own + NOTICEABLE else None
 
 
+def kind_of_residual(item: JointComparison) -> str:
+    """`pattern`, `noise` or `other`: what a reader should see first."""
+    if best_pattern(item) is not None or best_other(item) is not None:
+        return "pattern"
+    return "noise" if looks_like_noise(item) else "other"
+
+
 def looks_like_noise(item: JointComparison) -> bool:
     """No pattern, no memory, no line: as far as this page can see, noise."""
     return (
@@ -143,7 +150,7 @@ def _other_joint(item: JointComparison) -> str | None:
     if found is None:
         return None
     return (
-        f"{percent(found[1])} follows the velocity of joint {found[0]} more than its own, as with "
+        f"{percent(found[1])} of that follows the velocity of joint {found[0]} more than its own, as with "
         "coupled drives"
     )
 

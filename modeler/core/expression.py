@@ -95,7 +95,9 @@ def parse(value: str | int | float) -> Expression:
         ExpressionError: not a number or a valid expression; the message says what was got.
     """
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ExpressionError(f"got {value!r}; expected a number or an expression such as \"q1 + pi/2\"")
+        raise ExpressionError(
+            f'got {value!r}; expected a number or an expression such as "q1 + pi/2"'
+        )
     if isinstance(value, float) and not math.isfinite(value):
         raise ExpressionError(f"got {value!r}; expected a finite number")
     text = value.strip() if isinstance(value, str) else repr(value)
@@ -143,8 +145,8 @@ def _check(node: ast.expr, text: str, names: set[str]) -> None:
 def _exact(node: ast.Constant, text: str) -> Fraction:
     if isinstance(node.value, bool) or not isinstance(node.value, int | float):
         raise ExpressionError(f'got "{text}": {node.value!r} is not a number')
-    if not math.isfinite(node.value):  # 1e400 reads as inf
-        raise ExpressionError(f'got "{text}": the number is too large')
+    if isinstance(node.value, float) and not math.isfinite(node.value):  # 1e400 reads as inf
+        raise ExpressionError(f'got "{text}": the number is too large; expected a finite number')
     return Fraction(repr(node.value))
 
 

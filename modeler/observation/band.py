@@ -14,6 +14,7 @@ SHARE = 0.99
 
 POSITION_BANDS = 25.0
 LEAST_POSITION = 30.0  # Hz
+ENOUGH_POSITION = 100.0  # Hz; above it only 5 bands are kept: the rest would be noise
 PARALLEL_BANDS = 4.0
 LEAST_PARALLEL = 5.0  # Hz
 
@@ -25,7 +26,9 @@ def motion_band(piece: Piece) -> float:
 
     From the periodogram P(f) of each position (Hann window, trend removed): energy of the velocity
     (2 pi f)^2 max(P - floor, 0), where floor is ten times the median of P over the upper half of
-    the frequencies, where measured positions hold noise only. 0 if nothing moves.
+    the frequencies, where measured positions hold noise only. Twice the resolution 1/T is taken
+    off: the window alone is that wide, and a piece of half a second would look fast. 0 if nothing
+    moves.
     """
     samples = len(piece.time)
     ramp = np.linspace(0.0, 1.0, samples)[:, None]
@@ -40,7 +43,7 @@ def motion_band(piece: Piece) -> float:
         total = energy[:, j].sum()
         if total > 0.0 and np.ptp(piece.q[:, j]) > 0.0:
             bands.append(float(frequency[np.searchsorted(np.cumsum(energy[:, j]), SHARE * total)]))
-    return max(bands)
+    return max(0.0, max(bands) - 2.0 / (samples * piece.step))
 
 
 def choose_cutoffs(
@@ -48,8 +51,8 @@ def choose_cutoffs(
 ) -> tuple[Processing, tuple[str, ...]]:
     """The processing with both cut-offs chosen, and a sentence for each choice.
 
-    Position filter: 25 times the motion band, at least 30 Hz, at most 0.4 of the sampling rate;
-    a filter too close to the motion looks like a flexible joint. Parallel filter: 4 times the
+    Position filter: 25 times the motion band within 30 to 100 Hz, never less than 5 times, at most
+    0.4 of the sampling rate; a filter too close to the motion looks like a flexible joint. Parallel filter: 4 times the
     motion band, at least 5 Hz, at most half the position filter. The EMPS benchmark, whose
     authors chose 100 Hz and 16 Hz by hand, comes out at 91 Hz and 15 Hz.
     """
@@ -60,10 +63,12 @@ def choose_cutoffs(
     said = [f"motion band {band:.3g} Hz (99 % of the velocity's energy), sampled at {rate:.4g} Hz"]
     position = processing.position_cutoff
     if position is None:
-        position = _two_digits(min(max(LEAST_POSITION, POSITION_BANDS * band), HIGHEST * rate))
+        wanted = max(LEAST_POSITION, min(POSITION_BANDS * band, ENOUGH_POSITION), 5.0 * band)
+        position = _two_digits(min(wanted, HIGHEST * rate))
         said.append(
-            f"position filter {position:g} Hz: {POSITION_BANDS:g} x the band, at least "
-            f"{LEAST_POSITION:g} Hz, at most {HIGHEST:g} of the sampling rate"
+            f"position filter {position:g} Hz: {POSITION_BANDS:g} x the band within "
+            f"{LEAST_POSITION:g} to {ENOUGH_POSITION:g} Hz, never less than 5 x, at most "
+            f"{HIGHEST:g} of the sampling rate"
         )
     if 0.0 < position < 5.0 * band:
         said.append(

@@ -12,6 +12,7 @@ from modeler.observation.processing import Processing
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
+_TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
 _IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
 
@@ -74,8 +75,8 @@ def floors_of(
 ) -> dict[str, float]:
     """Speed of each shaft below which its rows are masked; infinite for one that stands still.
 
-    `low_speed` times the shaft's top speed over all logs (its 99.9 % quantile: one spike of noise
-    is no speed).
+    `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
+    transient (an axis that slams into its first position) must not mask the motion after it.
     """
     floors = {}
     given: Mapping[str, float] = processing.speed_floors or {}
@@ -86,7 +87,7 @@ def floors_of(
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
         idle = not travel.size or np.ptp(travel) < _IDLE_TRAVEL[part.unit]
-        top = float(np.quantile(speeds, 0.999)) if speeds.size else 0.0
+        top = float(np.quantile(speeds, _TOP)) if speeds.size else 0.0
         floors[part.name] = float("inf") if idle else processing.low_speed * top
     return floors
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from modeler.core.expression import Expression, ExpressionError, parse
 from modeler.robot.linear import Linear, NotLinear, linear_form
-from modeler.robot.place import Place, near, shown
+from modeler.robot.place import Place, listed, near, shown
 
 _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
@@ -23,14 +23,22 @@ def expression_at(value: Any, place: Place) -> Expression:
     try:
         return parse(value)
     except ExpressionError as error:
-        raise place.error(str(error)) from None
+        told = str(error)
+        if isinstance(value, str):
+            told = told.replace(f'"{value.strip()}"', shown(value.strip()))
+        raise place.error(told) from None
     except (ValueError, RecursionError, OverflowError, MemoryError):
         raise place.error(
             f"got {shown(value)}, which cannot be read; expected a number or a short expression"
         ) from None
 
 
-def form_at(expression: Expression, symbols: Mapping[str, float], place: Place) -> Linear:
+def form_at(
+    expression: Expression,
+    symbols: Mapping[str, float],
+    place: Place,
+    example: str = "q5 + q6",
+) -> Linear:
     """The expression as a linear form in the names that are not among `symbols`.
 
     Raises:
@@ -41,7 +49,7 @@ def form_at(expression: Expression, symbols: Mapping[str, float], place: Place) 
     except NotLinear:
         raise place.error(
             f"got {shown(expression.text)}, which is not linear in its variables; "
-            'expected sums such as "q5 + q6"'
+            f"expected a sum such as {shown(example)}"
         ) from None
     except (ArithmeticError, RecursionError):
         raise place.error(
@@ -50,19 +58,18 @@ def form_at(expression: Expression, symbols: Mapping[str, float], place: Place) 
         ) from None
 
 
-def check_declared(
-    expression: Expression, symbols: Mapping[str, Any], place: Place, also: str = ""
-) -> None:
-    """Refuse names that are not declared symbols.
+def check_declared(expression: Expression, known: Mapping[str, Any], place: Place) -> None:
+    """Refuse names that are not known: declared symbols, and joint variables where they may stand.
 
     Raises:
         RobotError: names the first undeclared one and those it looks like.
     """
     for name in sorted(expression.names):
-        if name not in symbols:
+        if name not in known:
+            advice = near(name, known) or "; declare it in [symbols] with its value"
             raise place.error(
-                f"got {shown(expression.text)}: {name} is not declared; expected {also}numbers or "
-                f"names of [symbols]{near(name, symbols) or '; declare it there with its value'}"
+                f"got {shown(expression.text)}: {name} is not declared; expected numbers or names "
+                f"among {listed(list(known)[:12])}{advice}"
             )
 
 
@@ -129,6 +136,13 @@ def text_at(value: Any, place: Place, example: str) -> str:
     """
     if not isinstance(value, str) or not value.strip():
         raise place.error(f"got {shown(value)}; expected text such as {example}")
+    return value
+
+
+def name_of(value: Any) -> Any:
+    """A row number that stands without quotes as its name: 1 as "1"; anything else as it is."""
+    if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**6:
+        return str(value)
     return value
 
 

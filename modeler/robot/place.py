@@ -24,7 +24,8 @@ class Place:
     def error(self, what: str) -> RobotError:
         """The error to raise: the place and `what`, as one line."""
         where = f"{self.file}: {self.spot}" if self.spot else self.file
-        return RobotError(" ".join(f"{where}: {what}".split()))
+        words = (w if len(w) <= _LONGEST else f"{w[:_LONGEST]}..." for w in what.split())
+        return RobotError(" ".join([*f"{where}:".split(), *words]))
 
 
 def shown(value: Any) -> str:
@@ -47,10 +48,10 @@ def listed(names: Iterable[str]) -> str:
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """`; did you mean "viscous"?` for a misspelt name, else nothing."""
+    """` (did you mean "viscous"?)` for a misspelt name, else nothing."""
     # Letter case is the commonest slip: d3 for D3.
     known = {known.lower(): known for known in names}
     found = difflib.get_close_matches(name.lower(), known, n=2, cutoff=0.6)
     if not found:
         return ""
-    return f"; did you mean {' or '.join(shown(known[key]) for key in found)}?"
+    return f" (did you mean {' or '.join(shown(known[key]) for key in found)}?)"

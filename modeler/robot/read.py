@@ -61,8 +61,8 @@ def read_robot(robot: str | Path) -> Robot:
         raise RobotError(
             f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
         ) from None
-    except (OSError, ValueError) as error:
-        raise RobotError(f"{path}: cannot be read ({error}); check the path") from None
+    except OSError as error:
+        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if not found:
         raise RobotError(_not_found(path))
     if path.suffix.lower() in (".par", ".urdf", ".xacro"):

@@ -10,6 +10,7 @@ from modeler.robot.cells import (
     expression_at,
     form_at,
     list_at,
+    name_of,
     number_at,
     plain_number,
     table_at,
@@ -27,7 +28,7 @@ def joint_at(name: Any, moving: Mapping[str, Joint], place: Place) -> Joint:
     Raises:
         RobotError: no such joint; lists those there are.
     """
-    key = str(name) if isinstance(name, int) and not isinstance(name, bool) else name
+    key = name_of(name)
     if not isinstance(key, str) or key not in moving:
         hint = near(key, moving) if isinstance(key, str) else ""
         raise place.error(
@@ -51,7 +52,7 @@ def read_coupling(
         expression = expression_at(cell, here)
         variables = {joint.variable: joint for joint in moving.values()}
         known = {**symbols, **dict.fromkeys(variables, 0.0)}
-        check_declared(expression, known, here, also=f"{listed(variables)}, ")
+        check_declared(expression, known, here)
         form = form_at(expression, symbols, here)
         if form.constant != 0.0:
             raise here.error(

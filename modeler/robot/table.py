@@ -11,6 +11,7 @@ from modeler.robot.cells import (
     expression_at,
     form_at,
     list_at,
+    name_of,
     table_at,
 )
 from modeler.robot.joint import Joint, JointKind
@@ -56,7 +57,7 @@ def table_rows(value: Any, place: Place) -> tuple[tuple[Row, Place], ...]:
                 "give each row its own name"
             )
         row["j"] = name
-        row["a"] = _as_name(row.get("a", names[-1] if names else "0"))
+        row["a"] = name_of(row.get("a", names[-1] if names else "0"))
         rows.append((row, here))
     if not rows:
         raise place.at("rows").error(
@@ -117,12 +118,8 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
     return dict(zip(columns, cells, strict=True))
 
 
-def _as_name(cell: Any) -> Any:
-    return str(cell) if isinstance(cell, int) and not isinstance(cell, bool) else cell
-
-
 def _row_name(cell: Any, place: Place) -> str:
-    name = _as_name(cell)
+    name = name_of(cell)
     if not isinstance(name, str) or not _NAME.fullmatch(name) or not name.isascii():
         raise place.error(
             f"got {shown(cell)}; expected a name of letters and digits such as "
@@ -135,7 +132,7 @@ def _row_name(cell: Any, place: Place) -> str:
 
 def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
     antecedents = {row["j"]: row["a"] for row, _ in rows}
-    seen = {"0"}
+    seen = ["0"]
     for row, place in rows:
         name, antecedent = row["j"], row["a"]
         here = place.at("column a")
@@ -143,7 +140,7 @@ def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
             hint = near(antecedent, antecedents) if isinstance(antecedent, str) else ""
             raise here.error(
                 f'got {shown(antecedent)}; expected "0" (the base) or the name of an earlier row '
-                f"({listed(seen - {'0'})}){hint}"
+                f"({listed(seen[1:])}){hint}"
             )
         if antecedent not in seen:
             cycle = _cycle(name, antecedents)
@@ -156,7 +153,7 @@ def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
                 f"got {shown(antecedent)}, which is a later row; move row {shown(antecedent)} "
                 f"above row {shown(name)}"
             )
-        seen.add(name)
+        seen.append(name)
 
 
 def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
@@ -214,9 +211,9 @@ def _cell(
     kind, own = kinds[row["j"]], f"q{row['j']}"
     home = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}.get(kind)
     _check_variables(expression, own, home, column, kinds, place)
-    check_declared(expression, {**symbols, own: 0.0}, place)
+    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:
-        _check_motion(expression, own, symbols, place)
+        _check_motion(expression, own, column, symbols, place)
     else:
         form_at(expression, symbols, place)
     if column in _ANGLES:
@@ -251,17 +248,19 @@ def _check_variables(
 
 
 def _check_motion(
-    expression: Expression, own: str, symbols: Mapping[str, float], place: Place
+    expression: Expression, own: str, column: str, symbols: Mapping[str, float], place: Place
 ) -> None:
+    # A prismatic joint's offset is a length.
+    example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
     if own not in expression.names:
         raise place.error(
             f"got {shown(expression.text)}, without the joint variable; expected {own}, as in "
-            f'"{own}" or "{own} + pi/2"; a row that does not move has sigma 2'
+            f"{shown(example)}; a row that does not move has sigma 2"
         )
-    form = form_at(expression, symbols, place)
+    form = form_at(expression, symbols, place, example)
     if form.coefficients.get(own) not in (1.0, -1.0):
         raise place.error(
             f"got {shown(expression.text)}: {own} has the coefficient "
             f"{form.coefficients.get(own, 0.0):g}; expected 1 or -1, as in "
-            f'"{own} + pi/2" or "-{own}" (a gear ratio belongs into the drive gain)'
+            f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
         )

@@ -1,15 +1,12 @@
-"""A cascaded position and velocity controller, as drives have it."""
+"""A cascaded position and velocity controller, as drives have it, scheduled with the inertia."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.robot import Limits
-from modeler.simulate.plant import Plant, sample_poses
-
 _SPEED_FILTER = 150.0  # Hz, on the differenced encoder position
-# Zero-order hold (0.5 tick), latency (1), difference (0.5), speed filter: seconds of delay by which
-# the velocity loop stays stable; at 0.6 rad of phase some 45 degrees of margin are left.
+# Zero-order hold (0.5 tick), latency (1), difference (0.5), and the speed filter delay the velocity
+# loop; where that takes more than 0.6 rad of phase at the bandwidth, the bandwidth is lowered.
 _DELAY_TICKS = 2.0
 _PHASE = 0.6
 _LOWER_LOOPS = 0.25  # position loop and integral action, relative to the velocity loop
@@ -17,24 +14,22 @@ _LOWER_LOOPS = 0.25  # position loop and integral action, relative to the veloci
 
 @dataclass(frozen=True, eq=False)
 class Gains:
-    """Of the P-PI cascade; arrays are (joints,), in the order of q.
+    """Of the P-PI cascade, for unit inertia.
 
     Attributes:
-        position: rad/s of speed per rad of position error.
-        speed: torque per speed error, N m s/rad or N s/m.
-        integral: torque per integrated speed error, N m/rad or N/m.
-        inertia: torque per commanded acceleration; 0 without feed-forward.
-        speed_forward: 1 if the commanded speed is added to the speed the position loop asks for.
-        highest: saturation, N m or N.
+        position: rad/s of speed per rad of position error, 1/s.
+        speed: acceleration per speed error, 1/s.
+        integral: acceleration per integrated speed error, 1/s2.
+        forward: 1 if commanded speed and acceleration are fed forward, else 0.
+        highest: (joints,) saturation, N m or N; 0 for a joint without motor.
         filter_share: of the new difference in the filtered speed, per tick.
         tick: s.
     """
 
-    position: np.ndarray
-    speed: np.ndarray
-    integral: np.ndarray
-    inertia: np.ndarray
-    speed_forward: float
+    position: float
+    speed: float
+    integral: float
+    forward: float
     highest: np.ndarray
     filter_share: float
     tick: float
@@ -55,66 +50,61 @@ class ControllerState:
     effort: np.ndarray
 
 
-def tuned_gains(
-    plant: Plant,
-    limits: tuple[Limits, ...],
-    rate: float,
-    bandwidth: float,
-    feedforward: bool,
-    highest: np.ndarray,
-) -> Gains:
-    """Gains from the plant's own inertia.
-
-    Each velocity loop gets `bandwidth` [Hz] with the median inertia of its joint. The fastest mode
-    of the coupled loops is the largest eigenvalue of inv(M) diag(gain); where delay and that mode
-    together would take more than 0.6 rad of phase at some pose, all loops are slowed down.
-    """
-    masses = [plant.inertia(pose).full() for pose in sample_poses(limits)]
-    own = np.median([np.diag(mass) for mass in masses], axis=0)
-    omega = 2 * np.pi * bandwidth
-    fastest = max(
-        float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(mass, np.diag(own * omega))))))
-        for mass in masses
-    )
+def tuned_gains(rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray) -> Gains:
+    """Gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
     delay = _DELAY_TICKS / rate + 1 / (2 * np.pi * _SPEED_FILTER)
-    omega *= min(1.0, _PHASE / (delay * fastest))
-    ones = np.ones(own.size)
+    omega = min(2 * np.pi * bandwidth, _PHASE / delay)
     return Gains(
-        position=_LOWER_LOOPS * omega * ones,
-        speed=own * omega,
-        integral=_LOWER_LOOPS * own * omega**2,
-        inertia=own * feedforward,
-        speed_forward=float(feedforward),
-        highest=np.where(plant.driven, highest, 0.0),
+        position=_LOWER_LOOPS * omega,
+        speed=omega,
+        integral=_LOWER_LOOPS * omega**2,
+        forward=float(feedforward),
+        highest=highest,
         filter_share=1 - float(np.exp(-2 * np.pi * _SPEED_FILTER / rate)),
         tick=1 / rate,
     )
 
 
+def felt_inertia(inertia: np.ndarray, driven: np.ndarray) -> np.ndarray:
+    """(joints, joints) inertia that the motors feel, joints without motor swinging freely.
+
+    The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
+    """
+    if np.all(driven):
+        return inertia
+    felt = np.zeros_like(inertia)
+    felt[np.ix_(driven, driven)] = np.linalg.inv(np.linalg.inv(inertia)[np.ix_(driven, driven)])
+    return felt
+
+
 def control(
     gains: Gains,
     state: ControllerState,
+    inertia: np.ndarray,
     measured: np.ndarray,
     command: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> tuple[ControllerState, np.ndarray]:
     """The next state, and the torque the controller asks for; (joints,).
 
-    tau = sat(kv (kp (qc - q) + qdc - v) + integral + J qddc); the integral stands still where the
-    torque is saturated and the error would drive it further.
+    tau = sat(M (kv (kp (qc - q) + qdc - v) + qddc) + effort), effort' = M ki (the same error). With
+    fixed gains an arm without rotor inertias loses its wrist: its inertia varies a hundredfold.
+    Gravity, Coriolis torques and friction are left to the integral action. The integral of a joint
+    stands still while its torque is saturated and the error would drive it further.
 
     Args:
         gains: of the cascade.
         state: after the last tick.
+        inertia: (joints, joints) M that the motors feel at the measured position.
         measured: encoder position now.
         command: commanded q, qd, qdd now.
     """
     q, qd, qdd = command
-    speed = state.speed + gains.filter_share * (
-        (measured - state.measured) / gains.tick - state.speed
-    )
-    error = gains.position * (q - measured) + gains.speed_forward * qd - speed
-    effort = state.effort + gains.integral * gains.tick * error
-    wanted = gains.speed * error + effort + gains.inertia * qdd
+    difference = (measured - state.measured) / gains.tick
+    speed = state.speed + gains.filter_share * (difference - state.speed)
+    error = gains.position * (q - measured) + gains.forward * qd - speed
+    rise = inertia @ (gains.integral * gains.tick * error)
+    effort = state.effort + rise
+    wanted = inertia @ (gains.speed * error + gains.forward * qdd) + effort
     torque = np.minimum(np.maximum(wanted, -gains.highest), gains.highest)
-    winding = (wanted != torque) & (np.sign(wanted) == np.sign(error))
+    winding = (wanted != torque) & (wanted * rise > 0)
     return ControllerState(measured, speed, np.where(winding, state.effort, effort)), torque

@@ -73,7 +73,7 @@ def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits,
         states=z.shape[0],
         acceleration=ca.Function("acceleration", [q, qd, z, tau], [ca.cse(solved), effects.rate]),
         torque=ca.Function("torque", [q, qd, qdd, z], [inertia @ qdd + load]),
-        inertia=ca.Function("inertia", [q], [inertia]),
+        inertia=ca.Function("inertia", [q], [ca.densify(inertia)]),
         resistance=ca.Function("resistance", [q, qd, z], [effects.torque]),
         energy=ca.Function("energy", [q, qd], [links.kinetic + rotors, links.potential]),
     )

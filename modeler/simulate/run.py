@@ -2,18 +2,17 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
-from modeler.simulate.controller import ControllerState, Gains, control, tuned_gains
+from modeler.simulate.controller import ControllerState, Gains, control, felt_inertia, tuned_gains
 from modeler.simulate.integrate import steps_per_tick, tick_function
 from modeler.simulate.limits import motion_limits
 from modeler.simulate.log import SimulatedLog, Truth
-from modeler.simulate.native import compiled_where_possible
+from modeler.simulate.native import FastFunction
 from modeler.simulate.parameters import PlantParameters, plant_parameters
 from modeler.simulate.plant import Plant, build_plant
 from modeler.simulate.settings import SimulationSettings, check_settings
@@ -59,9 +58,7 @@ def simulate(
     parameters = plant_parameters(robot, limits, settings.parameter_seed)
     plant = build_plant(robot, parameters, limits)
     highest = _torque_limits(plant, reference, settings)
-    gains = tuned_gains(
-        plant, limits, settings.rate, settings.bandwidth, settings.feedforward, highest
-    )
+    gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
     resolution = np.array([
         2 * np.pi / settings.encoder_counts if joint.angular and settings.encoder_counts
         else 0.0 if joint.angular else settings.linear_resolution
@@ -84,10 +81,11 @@ def _torque_limits(plant: Plant, reference: Reference, settings: SimulationSetti
     count = samples[0].shape[1]
     torques = plant.torque.map(count)(*samples, np.zeros((plant.states, count))).full()
     needed = 2 * np.max(np.abs(torques), axis=1)
-    return np.array([
+    set_or_needed = [
         settings.torque_limits.get(name, value)
         for name, value in zip(plant.joints, needed, strict=True)
-    ])  # fmt: skip
+    ]
+    return np.where(plant.driven, set_or_needed, 0.0)
 
 
 def _closed_loop(
@@ -100,29 +98,24 @@ def _closed_loop(
 ) -> _Run:
     """All ticks: read the encoders, hold the torque asked for one tick ago, move on, control."""
     n, ticks = len(plant.joints), reference.time.size
-    steps = steps_per_tick(plant, limits, gains.tick)
-    advance: Any = compiled_where_possible(tick_function(plant, gains.tick, steps))
-    x, torque, later = np.zeros(2 * n + plant.states), np.zeros(n), np.zeros(2 * n + plant.states)
-    buffer, evaluate = advance.buffer()
-    buffer.set_arg(0, x.data)
-    buffer.set_arg(1, torque.data)
-    buffer.set_res(0, later.data)
-
-    x[:n] = reference.q[0]
+    x = np.concatenate([reference.q[0], np.zeros(n + plant.states)])
     # The brakes open with the torque that carries the robot, as drives remember it.
-    torque[:] = _holding_torque(plant, gains, x)
-    state = ControllerState(quantised(x[:n], resolution), np.zeros(n), torque.copy())
+    torque = _holding_torque(plant, gains, x)
+    state = ControllerState(quantised(x[:n], resolution), np.zeros(n), torque)
+    steps = steps_per_tick(plant, limits, gains.tick)
+    advance = FastFunction(tick_function(plant, gains.tick, steps))
+    mass = FastFunction(plant.inertia)
     widths = np.array([limit.upper - limit.lower for limit in limits])
     run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)))
     for k in range(ticks):
         run.states[k], run.torques[k] = x, torque
         measured = run.measured[k] = quantised(x[:n], resolution)
+        x = advance(x, torque)
+        inertia = felt_inertia(mass(measured).reshape(n, n), plant.driven)
         command = reference.q[k], reference.qd[k], reference.qdd[k]
-        state, asked = control(gains, state, measured, command)
-        evaluate()
-        x[:], torque[:] = later, asked
+        state, torque = control(gains, state, inertia, measured, command)
         if k % _REPORT_EVERY == 0 or k == ticks - 1:
-            _check_kept(plant, reference, widths, k, x[:n])
+            _check_kept(plant, reference, widths, k, run.states[k, :n])
             if progress is not None:
                 progress((k + 1) / ticks)
     return run

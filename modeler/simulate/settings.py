@@ -24,9 +24,8 @@ class SimulationSettings:
         linear_resolution: of the encoder of a prismatic joint, m; 0 for an ideal encoder.
         torque_noise: standard deviation of the white noise on measured torques, as a share of the
             rms torque of the joint.
-        bandwidth: of the velocity loop, Hz; lowered where the coupled robot asks for it.
-        feedforward: True if the controller adds commanded speed, and commanded acceleration times
-            the joint's own inertia.
+        bandwidth: of the velocity loops, Hz; lowered where `rate` is too slow for it.
+        feedforward: True if the controller uses commanded speed and acceleration.
         limits: range of motion by joint, in place of the robot file's.
         torque_limits: largest motor torque by joint, N m or N; where none is given, twice what the
             commanded motion needs.

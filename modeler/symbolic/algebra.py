@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import sympy
 
-from modeler.symbolic.geometry import Geometry, Row
+from modeler.symbolic.geometry import Geometry, Row, cos_sin
 from modeler.symbolic.graph import Expr, Graph
 
 Scalar = Any
@@ -47,7 +47,7 @@ class GraphAlgebra:
         if value.is_Symbol:
             return self.graph.symbol(value.name, static=True)
         if value is sympy.pi:
-            return self.graph.symbol("pi", static=True)
+            return self.graph.pi()
         args = [self.static(arg) for arg in value.args]
         if value.is_Add or value.is_Mul:
             total = args[0]
@@ -77,7 +77,8 @@ class GraphAlgebra:
     def cos_sin(self, row: Row) -> tuple[Expr, Expr]:
         """Cosine and sine of theta; right angles are taken out exactly."""
         if row.index is None or not row.joint.angular:
-            return self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
+            c, s = cos_sin(row.theta)
+            return self.static(c), self.static(s)
         q = self.graph.symbol(f"q{row.index}")
         angle = q if row.rate > 0 else -q
         quarters = row.theta / (sympy.pi / 2)

@@ -78,6 +78,23 @@ class Geometry:
         return chain
 
 
+def cos_sin(angle: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """Cosine and sine of a constant angle: exact 0 and +-1 at right angles, else left standing.
+
+    They are not turned into radicals: cos(pi/3) and sin(pi/3) stay a point of the unit circle, which
+    is all that grouping has to know of them.
+    """
+    quarters = angle / (sympy.pi / 2)
+    if quarters.is_Integer:
+        return sympy.cos(angle), sympy.sin(angle)
+    if angle.is_number and angle.is_negative:
+        c, s = cos_sin(-angle)
+        return c, -s
+    if angle.is_number:
+        return sympy.cos(angle, evaluate=False), sympy.sin(angle, evaluate=False)
+    return sympy.cos(angle), sympy.sin(angle)
+
+
 def exact_geometry(robot: Robot) -> Geometry:
     """The table of `robot` with exact entries.
 

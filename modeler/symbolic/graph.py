@@ -5,14 +5,23 @@ node; 0 is the constant zero, 1 the constant one. So negation costs nothing, `x 
 vanish where they arise, and equal expressions are one node. A node is *static* if it holds only
 numbers and geometric symbols; products and sums collect their static factors, as a compiler would
 fold numbers, so that symbolic lengths cost no more operations than numeric ones.
+
+Two expressions are equal when they are equal as functions, however they are written: every node
+carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
+circle, and a new node whose value is known is the known node. So c*c + s*s is 1, and what vanishes
+identically is the zero. (Two different rational functions of degree d share a value with a
+probability of about d * 2**-61; emitted code is compared with other derivations anyway.)
 """
 
+import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Union
 
 import numpy as np
+
+PRIME = 2**61 - 1
 
 Number = int | Fraction
 Operand = Union["Expr", int, Fraction]
@@ -23,8 +32,8 @@ class Node:
     """One operation.
 
     Attributes:
-        op: "num" (args: a positive Fraction), "sym" (args: name), "add", "mul", "div" (args: two
-            references), or a function name (args: one reference).
+        op: "num" (args: a positive Fraction), "pi" (no args), "sym" (args: name), "add", "mul",
+            "div" (args: two references), or a function name (args: one reference).
         static: True if it depends on numbers and geometric symbols only.
     """
 
@@ -40,6 +49,8 @@ class Graph:
         one = Node("num", (Fraction(1),), True)
         self.nodes: list[Node] = [Node("num", (Fraction(0),), True), one]
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
+        self._residue = [0, 1]
+        self._by_residue = {0: 0, 1: 1}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -52,6 +63,10 @@ class Graph:
     def lift(self, value: Operand) -> "Expr":
         """`value` as an expression of this graph."""
         return value if isinstance(value, Expr) else self.constant(value)
+
+    def pi(self) -> "Expr":
+        """The constant pi: a node of its own, not a rational number."""
+        return Expr(self, self._node("pi", (), True))
 
     def call(self, name: str, argument: "Expr") -> "Expr":
         """A function of one argument; odd and even functions take the sign out."""
@@ -66,13 +81,45 @@ class Graph:
         return Expr(self, sign * self._node(name, (ref,), self.nodes[abs(ref)].static))
 
     def _node(self, op: str, args: tuple[Any, ...], static: bool) -> int:
+        """Reference of the operation: a known one of the same value, or a new node."""
         key = (op, args)
-        index = self._index.get(key)
-        if index is None:
-            index = len(self.nodes)
-            self.nodes.append(Node(op, args, static))
-            self._index[key] = index
-        return index
+        ref = self._index.get(key)
+        if ref is None:
+            residue = self._modular(op, args)
+            ref = self._known(residue)
+            if ref is None:
+                ref = len(self.nodes)
+                self.nodes.append(Node(op, args, static))
+                self._residue.append(residue)
+                self._by_residue[residue] = ref
+            self._index[key] = ref
+        return ref
+
+    def _known(self, residue: int) -> int | None:
+        if residue in self._by_residue:
+            return self._by_residue[residue]
+        opposite = self._by_residue.get(PRIME - residue)
+        return None if opposite is None else -opposite
+
+    def _modular(self, op: str, args: tuple[Any, ...]) -> int:
+        """Value of an operation modulo the prime, at the graph's random point."""
+        if op == "num":
+            return args[0].numerator * pow(args[0].denominator, -1, PRIME) % PRIME
+        if op in ("sym", "pi"):
+            return _random_residue(f"{op} {args}")
+        values = [self._residue[arg] if arg > 0 else -self._residue[-arg] for arg in args]
+        if op == "add":
+            return (values[0] + values[1]) % PRIME
+        if op == "mul":
+            return values[0] * values[1] % PRIME
+        if op == "div":
+            return values[0] * pow(values[1], -1, PRIME) % PRIME
+        if op in ("sin", "cos"):
+            # tan of half the angle is drawn for each angle; 1 + t*t is never 0 modulo this prime.
+            t = _random_residue(f"angle {values[0] % PRIME}")
+            top = 2 * t if op == "sin" else 1 - t * t
+            return top * pow(1 + t * t, -1, PRIME) % PRIME
+        return _random_residue(f"{op} {values[0] % PRIME}")
 
     def _number(self, value: Fraction) -> int:
         if value == 0:
@@ -178,7 +225,7 @@ class Graph:
                 continue
             needed.add(index)
             node = self.nodes[index]
-            if node.op not in ("num", "sym"):
+            if node.op not in ("num", "pi", "sym"):
                 stack.extend(abs(arg) for arg in node.args)
         return sorted(needed)
 
@@ -195,6 +242,10 @@ class Graph:
         return [found[abs(o.ref)] if o.ref >= 0 else -found[-o.ref] for o in outputs]
 
 
+def _random_residue(name: str) -> int:
+    return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "big") % PRIME
+
+
 _FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
     "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
@@ -204,6 +255,8 @@ _FUNCTIONS = {
 def _evaluate(node: Node, values: Mapping[str, Any], found: Mapping[int, Any]) -> Any:
     if node.op == "num":
         return float(node.args[0])
+    if node.op == "pi":
+        return np.pi
     if node.op == "sym":
         return values[node.args[0]]
     args = [found[arg] if arg >= 0 else -found[-arg] for arg in node.args]

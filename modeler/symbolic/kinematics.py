@@ -11,7 +11,7 @@ from typing import Any
 import sympy
 
 from modeler.symbolic.algebra import Algebra, Scalar, Vector
-from modeler.symbolic.geometry import Geometry, Row
+from modeler.symbolic.geometry import Geometry, Row, cos_sin
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -91,7 +91,8 @@ def pose(row: Row, algebra: Algebra) -> Pose:
 
 
 def _static_rotation(angle: sympy.Expr, algebra: Algebra) -> tuple[Scalar, Scalar]:
-    return algebra.static(sympy.cos(angle)), algebra.static(sympy.sin(angle))
+    c, s = cos_sin(angle)
+    return algebra.static(c), algebra.static(s)
 
 
 def poses(geometry: Geometry, algebra: Algebra) -> list[Pose]:

@@ -1,0 +1,115 @@
+"""Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
+
+from dataclasses import dataclass
+
+from modeler.base.result import BaseParameters
+from modeler.codegen import layout
+from modeler.codegen.block import Block, make_block
+from modeler.codegen.functions import Function, module_functions
+from modeler.codegen.manifest import module_spec
+from modeler.codegen.names import graph_places, module_prefix, symbol_macros
+from modeler.codegen.render import render
+from modeler.core.contract import MANIFEST, RUNTIME, Emitted, ModuleSpec
+from modeler.core.errors import EmitError
+from modeler.core.resources import resource_dir
+from modeler.symbolic import SymbolicModel
+
+
+@dataclass(frozen=True)
+class _Written:
+    """One function as finished strings."""
+
+    name: str
+    does: str
+    equation: str
+    arguments: list[str]
+    declaration: str
+    definition: str
+    lines: list[str]
+    additions: int
+    multiplications: int
+
+
+def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
+    """The module of a robot: C source and header, runtime, build files, manifest, tables.
+
+    Args:
+        model: as derived.
+        base: the base parameters of the same model.
+
+    Raises:
+        EmitError: something has no C99 form; says what.
+    """
+    if not base.parameters:
+        raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
+    prefix = module_prefix(model.robot.name)
+    macros = symbol_macros(prefix, model.geometry.values)
+    parameters = [f"beta[{i}]" for i in range(base.rank)]
+    parameters += [f"chi[{k}]" for k in range(len(model.columns))]
+    places = graph_places(model.geometry.joints, macros, parameters)
+    blocks = [(f, _block(f, places)) for f in module_functions(model, base)]
+    spec = module_spec(model, base, blocks)
+    values = _values(spec, macros, [_written(prefix, f, block) for f, block in blocks])
+    files = {
+        f"{prefix}.c": render("module.c", **values),
+        f"{prefix}.h": render("module.h", **values),
+        **_runtime(),
+        "Makefile": render("Makefile", **values),
+        "CMakeLists.txt": render("CMakeLists.txt", **values),
+        "base_parameters.md": render("base_parameters.md", **values),
+        "README.md": render("README.md", **values),
+        MANIFEST: spec.to_json(),
+    }
+    return Emitted(spec, files)
+
+
+def _block(function: Function, places: dict[str, str]) -> Block | None:
+    if not function.entries:
+        return None
+    name = function.output.name
+    return make_block([(f"{name}[{index}]", value) for index, value in function.entries], places)
+
+
+def _written(prefix: str, function: Function, block: Block | None) -> _Written:
+    name = f"{prefix}_{function.role}"
+    return _Written(
+        name=name,
+        does=function.does,
+        equation=function.equation,
+        arguments=layout.argument_lines(function),
+        declaration=layout.prototype(name, layout.arguments(function, "")),
+        definition=layout.prototype(name, layout.arguments(function, "restrict ")),
+        lines=layout.body_lines(function, block),
+        additions=block.additions if block else 0,
+        multiplications=block.multiplications if block else 0,
+    )
+
+
+def _values(spec: ModuleSpec, macros: dict[str, str], functions: list[_Written]) -> dict[str, object]:
+    standard, base = layout.parameter_lines(spec)
+    return {
+        "spec": spec,
+        "prefix": spec.prefix,
+        "macro": spec.prefix.upper(),
+        "title": layout.comment_text(spec.title or spec.robot),
+        "symbols": layout.symbol_lines(spec, macros),
+        "standard": standard,
+        "base": base,
+        "joints": ", ".join(joint.name for joint in spec.joints),
+        "relations": [layout.relation(parameter) for parameter in spec.base],
+        "functions": functions,
+        "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
+        "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
+        "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
+        "signature": spec.signature(),
+        "runtime_sources": [name for name in RUNTIME if name.endswith(".c")],
+    }
+
+
+def _runtime() -> dict[str, str]:
+    folder = resource_dir("csrc")
+    places = (folder / "include", folder)
+    return {
+        name: (places[0] if name.endswith(".h") else places[1]).joinpath(name).read_text("utf-8")
+        for name in RUNTIME
+    }

@@ -1,0 +1,140 @@
+"""Finished strings that the templates lay out: relations, comments, argument lists, bodies."""
+
+import textwrap
+from collections.abc import Iterable, Sequence
+
+from modeler.codegen.block import Block
+from modeler.codegen.functions import Function
+from modeler.codegen.printer import float_text
+from modeler.core.contract import ArgumentSpec, BaseSpec, ModuleSpec
+
+_WIDTH = 100
+_FEW = 16  # outputs that are always 0, up to which each is written in its own line
+
+
+def relation(base: BaseSpec) -> str:
+    """`ZZ2R = ZZ2 + YY3 + D4**2*M4`; a name alone where nothing is grouped."""
+    text = ""
+    for term in base.terms:
+        coefficient = term.coefficient
+        if coefficient in ("1", "-1"):
+            piece = coefficient.removesuffix("1") + term.parameter
+        elif _is_sum(coefficient):
+            piece = f"({coefficient})*{term.parameter}"
+        else:
+            piece = f"{coefficient}*{term.parameter}"
+        text += (f" - {piece[1:]}" if piece.startswith("-") else f" + {piece}") if text else piece
+    return base.name if text == base.name else f"{base.name} = {text}"
+
+
+def _is_sum(coefficient: str) -> bool:
+    depth = 0
+    for previous, letter in zip(" " + coefficient, coefficient, strict=False):
+        depth += (letter == "(") - (letter == ")")
+        if letter in "+-" and depth == 0 and previous == " " and coefficient[0] != letter:
+            return True
+    return False
+
+
+def comment_text(text: str) -> str:
+    """`text` such that it can stand in a C comment: no end of comment, ASCII only, one line."""
+    text = " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
+    return text.encode("ascii", "replace").decode()
+
+
+def symbol_lines(spec: ModuleSpec, macros: dict[str, str]) -> list[tuple[str, str]]:
+    """(macro, value) of every geometric symbol."""
+    return [(macros[symbol.name], float_text(symbol.value)) for symbol in spec.symbols]
+
+
+def parameter_lines(spec: ModuleSpec) -> tuple[list[str], list[str]]:
+    """Comment lines that say which column is which parameter: (standard, base)."""
+    standard = [
+        f"{i:4d}  {parameter.name:<8} {parameter.unit}" for i, parameter in enumerate(spec.standard)
+    ]
+    base = []
+    for i, parameter in enumerate(spec.base):
+        base += _wrap(f"{i:4d}  {relation(parameter)}  [{parameter.unit}]", " " * 8)
+    return [comment_line(line) for line in standard], base
+
+
+def _wrap(text: str, indent: str) -> list[str]:
+    lines = textwrap.wrap(
+        text, _WIDTH - 4, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False,
+        drop_whitespace=True, initial_indent="",
+    )  # fmt: skip
+    return [line.replace("*/", "* /") for line in lines]
+
+
+def comment_line(text: str) -> str:
+    """One line for the inside of a C comment, spaces kept."""
+    return text.rstrip().replace("*/", "* /")
+
+
+def argument_lines(function: Function) -> list[str]:
+    """Comment lines that say of every argument its length, order and unit."""
+    lines = []
+    for argument in (*function.inputs, function.output):
+        length = " x ".join(str(size) for size in argument.shape)
+        order = ", row-major" if len(argument.shape) > 1 else ""
+        lines.append(f"{argument.name:<7}{length:<9}{argument.meaning}{order} [{argument.unit}]")
+    return lines
+
+
+def arguments(function: Function, restrict: str) -> list[str]:
+    """C parameters: inputs const; `restrict` is put before the output's name."""
+    return [
+        *(f"const double *{argument.name}" for argument in function.inputs),
+        f"double *{restrict}{function.output.name}",
+    ]
+
+
+def prototype(name: str, parameters: Sequence[str]) -> str:
+    """`void name(...)`, in lines of readable length."""
+    indent = " " * (len(name) + 6)
+    return "\n".join(
+        textwrap.wrap(
+            f"void {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})", _WIDTH,
+            subsequent_indent=indent, break_long_words=False, break_on_hyphens=False,
+        )  # fmt: skip
+    ).replace(chr(160), " ")
+
+
+def body_lines(function: Function, block: Block | None) -> list[str]:
+    """All statements of a function."""
+    size = output_size(function.output)
+    written = {index for index, _ in function.entries}
+    zeros = [index for index in range(size) if index not in written]
+    lines = [f"(void){name};" for name in _unread(function, block)]
+    if len(zeros) > _FEW:
+        lines.append(f"for (int i = 0; i < {size}; i++)")
+        lines.append(f"    {function.output.name}[i] = 0.0;")
+    else:
+        lines += [f"{function.output.name}[{index}] = 0.0;" for index in zeros]
+    if block is not None:
+        for part in (block.constants, block.calls, block.body):
+            lines += ["", *part] if lines and part else part
+    return lines
+
+
+def output_size(argument: ArgumentSpec) -> int:
+    """How many numbers it holds."""
+    size = 1
+    for length in argument.shape:
+        size *= length
+    return size
+
+
+def _unread(function: Function, block: Block | None) -> Iterable[str]:
+    read = block.symbols if block else frozenset()
+    for argument in function.inputs:
+        name = argument.name
+        if not any(s == f"{name}{i}" or s == f"{name}[{i}]"
+                   for i in range(argument.shape[0]) for s in (f"{name}{i}", f"{name}[{i}]")
+                   if s in read):  # fmt: skip
+            yield name
+
+
+def number_lines(numbers: Sequence[int]) -> list[str]:
+    """The numbers of a C table, in lines of readable length."""
+    return textwrap.wrap(", ".join(str(number) for number in numbers), _WIDTH - 4)

@@ -1,0 +1,80 @@
+"""A shared library from emitted files, kept in a cache.
+
+The cache is keyed by everything that can change the library: sources, flags, compiler, processor.
+The library's file name is the hash of its own bytes, so a damaged one is noticed and built again;
+it is renamed into place, so that any number of processes may build the same robot at once.
+"""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from modeler.compiled.toolchain import Toolchain, compile_library, find_toolchain
+from modeler.core.errors import BuildError
+
+
+def build_library(sources: Mapping[str, str]) -> Path:
+    """Path of the shared library of these C files, compiled unless the cache has it.
+
+    Args:
+        sources: {file name: text}, headers included.
+
+    Raises:
+        BuildError: no compiler, the compiler refused, or the cache cannot be written.
+    """
+    tools = find_toolchain()
+    folder = cache_folder() / _key(sources, tools)
+    kept = _intact(folder)
+    if kept is not None:
+        return kept
+    try:
+        return _build(sources, tools, folder)
+    except OSError as error:
+        raise BuildError(
+            f"{folder}: the compiled library cannot be written ({error.strerror}); set "
+            "MODELER_CACHE to a folder you may write to"
+        ) from error
+
+
+def cache_folder() -> Path:
+    """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else ~/.cache/modeler."""
+    own = os.environ.get("MODELER_CACHE", "")
+    if own:
+        return Path(own)
+    shared = os.environ.get("XDG_CACHE_HOME", "")
+    return (Path(shared) if shared else Path.home() / ".cache") / "modeler"
+
+
+def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
+    parts = [*tools.command, *tools.flags, tools.identity]
+    for name in sorted(sources):
+        parts += [name, sources[name]]
+    # Lengths first: no two lists of parts give the same bytes.
+    text = "".join(f"{len(part)}:{part}" for part in parts)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _intact(folder: Path) -> Path | None:
+    """The library of `folder`, if it is still what was built."""
+    for path in sorted(folder.glob("*.so")):
+        if hashlib.sha256(path.read_bytes()).hexdigest() == path.stem:
+            return path
+    return None
+
+
+def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".build-") as scratch:
+        for name, text in sources.items():
+            (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
+        made = Path(scratch) / "library"
+        units = [str(Path(scratch) / name) for name in sorted(sources) if name.endswith(".c")]
+        compile_library(tools, units, str(made), scratch)
+        final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}.so"
+        made.replace(final)
+    for other in folder.glob("*.so"):
+        if other != final and hashlib.sha256(other.read_bytes()).hexdigest() != other.stem:
+            other.unlink(missing_ok=True)
+    return final

@@ -1,0 +1,159 @@
+"""The compiled model of a robot: dynamics over arrays of samples."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from modeler.compiled.bind import Library
+from modeler.compiled.build import build_library
+from modeler.core.checks import as_samples, as_vector, same_samples
+from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
+from modeler.core.errors import ManifestError, ShapeError
+
+# Below this the columns are one pass over few numbers; above, parameters may be a matrix.
+_PER_SAMPLE = ("q", "qd", "qdd")
+
+
+class CompiledModel:
+    """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
+
+    q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the order
+    of `spec.base`, chi (p,) in the order of `spec.standard`. All methods raise ShapeError for arrays
+    of another shape or with values that are not finite. Threads may share a model.
+
+    Attributes:
+        spec: the manifest.
+    """
+
+    def __init__(self, spec: ModuleSpec, library: Library) -> None:
+        self.spec = spec
+        self._library = library
+        self._functions = {
+            function.name.removeprefix(f"{spec.prefix}_"): function for function in spec.functions
+        }
+        self._joints = len(spec.joints)
+
+    def base_regressor(self, q: Any, qd: Any, qdd: Any) -> np.ndarray:
+        """Phi of the base parameters, (n, joints, c): tau = phi beta."""
+        return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd})
+
+    def regressor(self, q: Any, qd: Any, qdd: Any) -> np.ndarray:
+        """Phi of the standard parameters, (n, joints, p): tau = phi chi."""
+        return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd})
+
+    def observation(
+        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None
+    ) -> np.ndarray:
+        """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
+
+        Args:
+            q: positions.
+            qd: velocities.
+            qdd: accelerations.
+            out: is filled and returned if given; saves most of the time of a large W, which goes
+                into fresh memory pages.
+        """
+        states = self._states({"q": q, "qd": qd, "qdd": qdd})
+        shape = (len(states["q"]) * self._joints, len(self.spec.base))
+        W = np.empty(shape) if out is None else _checked_out(out, shape)
+        self._library.observation(states["q"], states["qd"], states["qdd"], W)
+        return W
+
+    def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any) -> np.ndarray:
+        """Tau, (n, joints), by the Newton-Euler recursion."""
+        return self._evaluate("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta)
+
+    def inertia_matrix(self, q: Any, beta: Any) -> np.ndarray:
+        """M(q), (n, joints, joints), rotor inertias included."""
+        return self._evaluate("inertia_matrix", {"q": q}, beta)
+
+    def gravity(self, q: Any, beta: Any) -> np.ndarray:
+        """g(q), (n, joints)."""
+        return self._evaluate("gravity", {"q": q}, beta)
+
+    def coriolis(self, q: Any, qd: Any, beta: Any) -> np.ndarray:
+        """c(q, qd), (n, joints): Coriolis and centripetal torques."""
+        return self._evaluate("coriolis", {"q": q, "qd": qd}, beta)
+
+    def friction(self, qd: Any, beta: Any) -> np.ndarray:
+        """f(qd), (n, joints): all effects but rotor inertias, offsets included."""
+        return self._evaluate("friction", {"qd": qd}, beta)
+
+    def base_parameters(self, chi: Any) -> np.ndarray:
+        """Beta, (c,), from chi, (p,), by the grouping relations."""
+        function = self._functions["base_parameters"]
+        given = as_vector(chi, "chi", len(self.spec.standard))
+        beta = np.empty(len(self.spec.base))
+        self._library.base_parameters(function, given, beta)
+        return beta
+
+    def _states(self, arrays: Mapping[str, Any]) -> dict[str, np.ndarray]:
+        checked = {name: as_samples(a, name, self._joints) for name, a in arrays.items()}
+        same_samples(checked)
+        return checked
+
+    def _evaluate(self, role: str, states: Mapping[str, Any], beta: Any = None) -> np.ndarray:
+        function: FunctionSpec = self._functions[role]
+        given = self._states(states)
+        samples = len(next(iter(given.values())))
+        if beta is not None:
+            given["beta"] = as_vector(beta, "beta", len(self.spec.base))
+        out = np.empty((samples, *function.outputs[0].shape))
+        self._library.batch(function, [given[a.name] for a in function.inputs], out)
+        return out
+
+
+def load(spec: ModuleSpec, files: Mapping[str, str]) -> CompiledModel:
+    """The compiled model of an emitted module; compiled once, then taken from the cache.
+
+    Args:
+        spec: the manifest.
+        files: {file name: text} with at least `spec.sources`; others are not looked at.
+
+    Raises:
+        ManifestError: a file is missing, or the code belongs to another manifest.
+        BuildError: no compiler, or it refused.
+    """
+    missing = [name for name in spec.sources if name not in files]
+    if missing:
+        raise ManifestError(
+            f"{spec.robot}: the module lacks {', '.join(missing)}; generate it again"
+        )
+    path = build_library({name: files[name] for name in spec.sources})
+    return CompiledModel(spec, Library(spec, path))
+
+
+def load_folder(folder: Path | str) -> CompiledModel:
+    """The compiled model of a folder that `modeler generate` wrote.
+
+    Raises:
+        ManifestError: the folder holds no module, or a part of it is missing or damaged.
+        BuildError: no compiler, or it refused.
+    """
+    folder = Path(folder)
+    manifest = folder / MANIFEST
+    if not manifest.is_file():
+        raise ManifestError(
+            f"{folder}: no {MANIFEST}; expected a folder that `modeler generate` wrote"
+        )
+    spec = module_from_json(manifest.read_text("utf-8"), str(manifest))
+    files = {
+        name: (folder / name).read_text("utf-8")
+        for name in spec.sources
+        if (folder / name).is_file()
+    }
+    return load(spec, files)
+
+
+def _checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    if not isinstance(out, np.ndarray) or out.shape != shape:
+        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
+        raise ShapeError(f"out: got {got}, expected an array {shape}")
+    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        raise ShapeError(
+            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
+            f"make one with np.empty({shape})"
+        )
+    return out

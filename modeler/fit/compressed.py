@@ -1,0 +1,68 @@
+"""The data of a fit as one small triangle per joint: everything else is computed from these."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Compressed:
+    """R of [W_j y_j] = Q R for the rows of each joint; c columns, n joints.
+
+    For any beta, ||y_j - W_j beta|| = ||R_j [-beta; 1]||: no row is needed again.
+
+    Attributes:
+        names: (c,) columns.
+        triangles: (n, c + 1, c + 1).
+        rows: (n,) rows of each joint.
+    """
+
+    names: tuple[str, ...]
+    triangles: np.ndarray
+    rows: np.ndarray
+
+    def residual_norms(self, beta: np.ndarray) -> np.ndarray:
+        """(n,) ||y_j - W_j beta||, N m or N."""
+        return np.linalg.norm(self.triangles @ np.append(-beta, 1.0), axis=1)
+
+    def torque_norms(self) -> np.ndarray:
+        """(n,) ||y_j||."""
+        return np.linalg.norm(self.triangles[:, :, -1], axis=1)
+
+    def whole(self, sigma: np.ndarray) -> np.ndarray:
+        """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
+        weighted = self.triangles / sigma[:, None, None]
+        return np.linalg.qr(weighted.reshape(-1, weighted.shape[2]), mode="r")
+
+    def without(self, names: Sequence[str]) -> "Compressed":
+        """The same data without some columns."""
+        kept = [i for i, name in enumerate(self.names) if name not in set(names)]
+        return Compressed(
+            tuple(self.names[i] for i in kept),
+            self.triangles[:, :, [*kept, len(self.names)]],
+            self.rows,
+        )
+
+
+def compress(
+    W: np.ndarray, y: np.ndarray, joint: np.ndarray, joints: int, names: Sequence[str]
+) -> Compressed:
+    """Compress y = W beta.
+
+    Args:
+        W: (rows, c).
+        y: (rows,).
+        joint: (rows,) index of the joint of each row.
+        joints: number of joints.
+        names: (c,).
+    """
+    size = W.shape[1] + 1
+    assert W.shape == (len(y), len(names)) and np.isfinite(W).all() and np.isfinite(y).all()
+    triangles = np.zeros((joints, size, size))
+    for j in range(joints):
+        own = joint == j
+        if own.any():
+            triangle = np.linalg.qr(np.column_stack([W[own], y[own]]), mode="r")
+            triangles[j, : len(triangle)] = triangle
+    return Compressed(tuple(names), triangles, np.bincount(joint, minlength=joints))

@@ -1,0 +1,127 @@
+"""Ordinary and weighted least squares with their covariance."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from modeler.fit.compressed import Compressed
+from modeler.fit.rank import Rank, independent_columns
+
+Method = Literal["ordinary", "weighted"]
+
+MAX_ITERATIONS = 500
+_SETTLED = 1e-9  # relative change of the weights
+_LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """The solution; c columns, n joints. Columns set aside have value 0 and no variance.
+
+    Attributes:
+        beta: (c,).
+        covariance: (c, c), rows and columns of parameters set aside are 0.
+        sigma: (n,) standard deviation of a row of each joint, N m or N; the weights are 1/sigma.
+        rank: columns kept and set aside.
+        iterations: of the weights; 0 for ordinary least squares.
+        settled: the weights reached their fixed point.
+        condition_number: of W, kept columns.
+        condition_scaled: with columns of length one.
+        degrees: rows less parameters.
+    """
+
+    beta: np.ndarray
+    covariance: np.ndarray
+    sigma: np.ndarray
+    rank: Rank
+    iterations: int
+    settled: bool
+    condition_number: float
+    condition_scaled: float
+    degrees: int
+
+
+def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
+    """The estimate of beta in y = W beta + rho.
+
+    Ordinary: one variance for all rows, sigma^2 (W^T W)^-1. Weighted: rows of joint j divided by
+    the standard deviation sigma_j of that joint's residual, and (sum_j W_j^T W_j / sigma_j^2)^-1
+    (Gautier 1997). The weights are iterated until they no longer change: after one step, the
+    misfit of one joint is still shared out to the others.
+
+    sigma_j^2 = ||r_j||^2 / (rows_j - h_j), h_j the parameters that joint j's rows determine
+    (trace of its part of the hat matrix; the h_j sum to the number of parameters).
+
+    Args:
+        data: compressed rows.
+        method: which weights.
+    """
+    scale = _floor(data)
+    rank = independent_columns(data.whole(np.maximum(_rms(data), scale))[:, :-1], data.names)
+    kept = np.asarray(rank.kept, dtype=int)
+    degrees = max(1, int(data.rows.sum()) - len(kept))
+    sigma = np.ones(len(data.rows))
+    beta, covariance = _solve(data, kept, sigma)
+    common = np.sqrt(np.sum(data.residual_norms(beta) ** 2) / degrees)
+    iterations, settled = 0, True
+    if method == "ordinary":
+        sigma = np.full(len(data.rows), max(common, scale.max()))
+        covariance = covariance * sigma[0] ** 2
+    else:
+        sigma = np.maximum(_spread(data, beta, covariance, sigma), scale)
+        settled = False
+        while not settled and iterations < MAX_ITERATIONS:
+            beta, covariance = _solve(data, kept, sigma)
+            updated = np.maximum(_spread(data, beta, covariance, sigma), scale)
+            settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
+            sigma, iterations = updated, iterations + 1
+    raw, scaled = _conditions(data, kept)
+    return Estimate(
+        beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees
+    )
+
+
+def _rms(data: Compressed) -> np.ndarray:
+    return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
+
+
+def _floor(data: Compressed) -> np.ndarray:
+    """Smallest sigma: exact data would otherwise divide by zero."""
+    rms = _rms(data)
+    return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
+
+
+def _solve(
+    data: Compressed, kept: np.ndarray, sigma: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """beta and (W^T S^-1 W)^-1 over all columns, by QR of the scaled kept columns."""
+    c = len(data.names)
+    beta, covariance = np.zeros(c), np.zeros((c, c))
+    if kept.size:
+        whole = data.whole(sigma)
+        lengths = np.linalg.norm(whole[:, kept], axis=0)
+        q, r = np.linalg.qr(whole[:, kept] / lengths)
+        inverse = np.linalg.solve(r, np.eye(len(kept))) / lengths[:, None]
+        beta[kept] = inverse @ (q.T @ whole[:, -1])
+        covariance[np.ix_(kept, kept)] = inverse @ inverse.T
+    return beta, covariance
+
+
+def _spread(
+    data: Compressed, beta: np.ndarray, covariance: np.ndarray, sigma: np.ndarray
+) -> np.ndarray:
+    """(n,) standard deviation of each joint's rows."""
+    W = data.triangles[:, :, :-1]
+    share = np.einsum("jik,kl,jil->j", W, covariance, W, optimize=True) / sigma**2
+    degrees = np.maximum(data.rows - share, 0.0)
+    spread = data.residual_norms(beta) / np.sqrt(np.maximum(degrees, 1e-12))
+    return np.where(degrees > 0.5, spread, np.maximum(_rms(data), 1e-300))
+
+
+def _conditions(data: Compressed, kept: np.ndarray) -> tuple[float, float]:
+    if not kept.size:
+        return float("inf"), float("inf")
+    whole = data.whole(np.ones(len(data.rows)))[:, kept]
+    scaled = whole / np.linalg.norm(whole, axis=0)
+    return float(np.linalg.cond(whole)), float(np.linalg.cond(scaled))

@@ -1,0 +1,193 @@
+"""Standard parameters as polynomials of masses, mass centres and inertias about them."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from sympy.polys.domains import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyRing
+
+from modeler.core.errors import RobotError
+from modeler.core.expression import FUNCTIONS, Expression, parse
+from modeler.effects import EnergyBlock
+from modeler.robot import Joint, PhysicalLink
+from modeler.symbolic import SymbolicModel
+from modeler.terms.ring import Poly, TrigRing
+
+
+@dataclass(frozen=True)
+class PhysicalParameters:
+    """What a workshop would measure.
+
+    Attributes:
+        ring: letters of the links, then the generators of the geometry.
+        letters: names of the physical parameters in order: per link mass, mass centre, inertia
+            about the mass centre, rotor inertia; then the letters of the geometry, gravity left out.
+        masses: those letters that stand alone as the mass of a link.
+        standard: {column: the standard parameter as a polynomial}.
+    """
+
+    ring: PolyRing
+    letters: tuple[str, ...]
+    masses: tuple[str, ...]
+    standard: Mapping[int, Poly]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all generators."""
+        return tuple(str(symbol) for symbol in self.ring.symbols)
+
+    def of(self, form: Mapping[int, Poly]) -> Poly:
+        """A linear form of standard parameters in physical parameters."""
+        total = self.ring.zero
+        for column, factor in form.items():
+            total = total + self.lifted(factor) * self.standard[column]
+        return total
+
+    def lifted(self, factor: Poly) -> Poly:
+        """A polynomial of the geometry in this ring."""
+        shift = (0,) * (self.ring.ngens - factor.ring.ngens)
+        return self.ring.zero.new({shift + at: value for at, value in factor.items()})
+
+
+def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalParameters:
+    """The physical parameters of a robot: the letters of `[physical]`, or m1, cx1, ..., Ixx1, ...
+
+    Huygens and Steiner: MS = m c, J = J_c + m (c.c 1 - c c').
+
+    Raises:
+        RobotError: an entry of `[physical]` is no polynomial, or uses the name of a joint's sine.
+    """
+    static = [str(symbol) for symbol in algebra.static_ring.symbols]
+    links = {joint.name: _link(model, joint) for joint in model.robot.moving}
+    rotors = [
+        column.name
+        for column in model.columns
+        if column.column is not None and column.column.block is EnergyBlock.KINETIC
+    ]
+    zeros = _zero_symbols(model)
+    known = {*static, *zeros}
+    letters = [name for name in _letters(links.values()) if name not in known] + rotors
+    ring = PolyRing(letters + static, QQ, lex)
+    standard = _standard(model, links, _Reader(model, ring, zeros))
+    masses = [x.mass.text for x in links.values() if x.mass.text in letters]
+    gravity = _gravity_only(algebra)
+    lengths = [str(atom) for atom in algebra.static_atoms if str(atom) not in gravity]
+    return PhysicalParameters(ring, tuple(letters + lengths), tuple(masses), standard)
+
+
+def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
+    found = model.robot.physical.get(joint.name)
+    if found is not None:
+        return found
+    x, y, z = (parse(f"c{axis}{joint.name}") for axis in "xyz")
+    inertia = tuple(
+        parse(f"I{axes}{joint.name}") for axes in ("xx", "xy", "xz", "yy", "yz", "zz")
+    )
+    return PhysicalLink(parse(f"m{joint.name}"), (x, y, z), inertia)
+
+
+def _entries(link: PhysicalLink) -> Iterator[Expression]:
+    yield link.mass
+    yield from link.centre
+    yield from link.inertia
+
+
+def _letters(links: Any) -> list[str]:
+    found: dict[str, None] = {}
+    for link in links:
+        for entry in _entries(link):
+            # in the order in which they are written, so that tables read like the paper
+            for name in sorted(entry.names, key=entry.text.index):
+                found.setdefault(name)
+    return list(found)
+
+
+def _zero_symbols(model: SymbolicModel) -> frozenset[str]:
+    values = model.robot.symbol_values()
+    return frozenset(name for name, value in values.items() if value == 0.0)
+
+
+def _gravity_only(algebra: TrigRing) -> frozenset[str]:
+    geometry = algebra.geometry
+    used = {symbol.name for entry in geometry.gravity for symbol in entry.free_symbols}
+    for row in geometry.rows:
+        for entry in (row.gamma, row.b, row.alpha, row.d, row.theta, row.r):
+            used -= {symbol.name for symbol in entry.free_symbols}
+    return frozenset(used)
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """Reads entries of `[physical]` as polynomials of `ring`."""
+
+    model: SymbolicModel
+    ring: PolyRing
+    zeros: frozenset[str]
+
+    def __call__(self, entry: Expression, joint: str) -> Poly:
+        generators = {str(symbol): x for symbol, x in zip(self.ring.symbols, self.ring.gens, strict=True)}
+        values = {name: QQ(0) if name in self.zeros else generators[name] for name in entry.names}
+        try:
+            derived = entry.names & self._derived()
+            if derived:
+                raise ValueError
+            return self.ring(entry.fold(values, _refused(), None, _rational))
+        except (TypeError, ValueError, ZeroDivisionError):
+            raise RobotError(
+                f'robot {self.model.robot.name}, [physical.{joint}]: got "{entry.text}"; expected '
+                "a polynomial of the link's letters and of symbols that are given by a number"
+            ) from None
+
+    def _derived(self) -> set[str]:
+        """Symbols given by an expression: they are no letters of the formulas."""
+        geometry = self.model.geometry
+        return set(self.model.robot.symbols) - set(geometry.values) - self.zeros
+
+
+def _refused() -> dict[str, Callable[[Any], Any]]:
+    def refuse(_: Any) -> Any:
+        raise ValueError
+
+    return dict.fromkeys(FUNCTIONS, refuse)
+
+
+def _rational(value: Fraction) -> Any:
+    return QQ(value.numerator, value.denominator)
+
+
+def _standard(
+    model: SymbolicModel, links: Mapping[str, PhysicalLink], read: _Reader
+) -> dict[int, Poly]:
+    found: dict[int, Poly] = {}
+    tables: dict[int, dict[str, Poly]] = {}
+    for place, column in enumerate(model.columns):
+        if column.column is None:
+            if column.row not in tables:
+                name = model.robot.joints[column.row].name
+                tables[column.row] = _at_origin(links[name], name, read)
+            found[place] = tables[column.row][column.prefix]
+        elif column.column.block is EnergyBlock.KINETIC:
+            found[place] = read(parse(column.name), column.name)
+    return found
+
+
+def _at_origin(link: PhysicalLink, joint: str, read: _Reader) -> dict[str, Poly]:
+    m = read(link.mass, joint)
+    x, y, z = (read(entry, joint) for entry in link.centre)
+    names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
+    J = {name: read(entry, joint) for name, entry in zip(names, link.inertia, strict=True)}
+    return {
+        "XX": J["XX"] + m * (y * y + z * z),
+        "XY": J["XY"] - m * x * y,
+        "XZ": J["XZ"] - m * x * z,
+        "YY": J["YY"] + m * (x * x + z * z),
+        "YZ": J["YZ"] - m * y * z,
+        "ZZ": J["ZZ"] + m * (x * x + y * y),
+        "MX": m * x,
+        "MY": m * y,
+        "MZ": m * z,
+        "M": m,
+    }

@@ -1,0 +1,123 @@
+"""Small robots for the simulator's tests, and the same robots built for Pinocchio by hand."""
+
+import numpy as np
+import pinocchio as pin
+from modeler.robot import Robot, robot_from_text
+from modeler.simulate import PlantParameters
+
+PENDULUM = """
+name = "pendulum"
+gravity = [0, "-9.81", 0]
+[mdh]
+columns = ["j", "a", "theta"]
+rows = [["1", "0", "q1"]]
+"""
+
+TWO_LINK = """
+name = "two"
+gravity = [0, "-9.81", 0]
+[mdh]
+columns = ["j", "a", "d", "theta"]
+rows = [["1", "0", 0, "q1"], ["2", "1", 0.5, "q2"]]
+"""
+
+ARM = """
+name = "arm"
+gravity = [0.3, -0.2, -9.7]
+[symbols]
+D3 = 0.4
+[mdh]
+columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0,   0,   0.1,     0.05, "q1 + pi/2", 0.3],
+  ["2", "1", 0, 0,   0,   "pi/2",  0.1,  "q2",        0.02],
+  ["3", "2", 0, 0.3, 0.1, "-pi/3", "D3", "q3",        0.05],
+]
+[effects]
+rotor_inertia = "all"
+viscous = "all"
+coulomb = "all"
+offset = "all"
+"""
+
+SIX = """
+name = "six"
+gravity = [0, 0, -9.81]
+[mdh]
+columns = ["j", "a", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0,       0,    "q1",        0.4],
+  ["2", "1", "pi/2",  0.05, "q2 + pi/2", 0],
+  ["3", "2", 0,       0.6,  "q3",        0.1],
+  ["4", "3", "-pi/2", 0.1,  "q4",        0.5],
+  ["5", "4", "pi/2",  0,    "q5",        0],
+  ["6", "5", "-pi/2", 0,    "q6 - 0.2",  0.1],
+]
+[effects]
+rotor_inertia = "all"
+viscous = "all"
+coulomb = "all"
+offset = "all"
+"""
+
+# A prismatic joint, a branch, a frame fixed on a link, and a joint after that frame.
+TREE = """
+name = "tree"
+gravity = [0, 0, -9.81]
+[mdh]
+columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0,   0,   0,      0,   "q1", 0.2],
+  ["2", "1", 1, 0.2, 0.1, "pi/2", 0.1, 0.4,  "q2 + 0.3"],
+  ["3", "2", 0, 0,   0,   "pi/4", 0.2, "q3", 0],
+  ["f", "1", 2, 0.5, 0.3, "pi/6", 0.1, 0.7,  0.2],
+  ["4", "f", 0, 0,   0,   "pi/3", 0.1, "q4", 0.1],
+]
+[effects]
+rotor_inertia = ["1", "4"]
+"""
+
+
+def robot(text: str, **changes: str) -> Robot:
+    """The robot of the text, with further tables appended: robot(ARM, limits="1 = ...")."""
+    tables = "".join(f"\n[{name}]\n{lines}\n" for name, lines in changes.items())
+    return robot_from_text(text + tables, "test.toml")
+
+
+def pinocchio_model(source: Robot, parameters: PlantParameters) -> pin.Model:
+    """The robot as Pinocchio bodies, from joint placements multiplied out here with numpy."""
+    symbols = source.symbol_values()
+    model = pin.Model()
+    model.gravity.linear = np.array([cell.number(symbols) for cell in source.gravity])
+    holders = {"0": (0, np.eye(4))}  # frame -> (joint it is fixed on, its pose there)
+    for row in source.joints:
+        values = {**symbols, row.variable: 0.0}
+        cells = ("gamma", "b", "alpha", "d", "theta", "r")
+        gamma, b, alpha, d, theta, r = (getattr(row, cell).number(values) for cell in cells)
+        pose = _turn(2, gamma) @ _shift(2, b) @ _turn(0, alpha) @ _shift(0, d)
+        pose = pose @ _turn(2, theta) @ _shift(2, r)
+        holder, there = holders[row.antecedent]
+        if not row.moves:
+            holders[row.name] = (holder, there @ pose)
+            continue
+        kind = pin.JointModelRZ() if row.angular else pin.JointModelPZ()
+        index = model.addJoint(holder, kind, pin.SE3(there @ pose), row.name)
+        body = parameters.bodies[row.name]
+        inertia = pin.Inertia(body.mass, body.centre, body.inertia)
+        model.appendBodyToJoint(index, inertia, pin.SE3.Identity())
+        holders[row.name] = (index, np.eye(4))
+    armature = [parameters.standard.get(f"Ia{row.name}", 0.0) for row in source.moving]
+    model.armature = np.array(armature)
+    return model
+
+
+def _turn(axis: int, angle: float) -> np.ndarray:
+    pose = np.eye(4)
+    pose[:3, :3] = pin.AngleAxis(angle, np.eye(3)[axis]).toRotationMatrix()
+    return pose
+
+
+def _shift(axis: int, length: float) -> np.ndarray:
+    pose = np.eye(4)
+    pose[axis, 3] = length
+    return pose

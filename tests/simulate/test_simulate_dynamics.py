@@ -1,0 +1,137 @@
+"""The plant against Pinocchio, closed forms and the laws of mechanics."""
+
+import dataclasses
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from modeler.core.errors import RobotError
+from modeler.robot import EffectUse, Robot
+from modeler.simulate import PlantParameters, motion_limits, plant_parameters
+from modeler.simulate.plant import Plant, build_plant
+from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
+
+FRICTION = "Fv1 = 0.5\nFs1 = 0.7\nOff1 = -0.2\n"
+
+
+def plant_of(source: Robot, seed: int = 0) -> tuple[Plant, PlantParameters]:
+    limits = motion_limits(source)
+    parameters = plant_parameters(source, limits, seed)
+    return build_plant(source, parameters, limits), parameters
+
+
+def column(function, *arguments) -> np.ndarray:
+    values = function(*arguments)
+    return (values[0] if isinstance(values, tuple) else values).full().ravel()
+
+
+@pytest.mark.parametrize("text", [ARM, SIX, TREE], ids=["arm", "six", "tree"])
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_forward_dynamics_agree_with_pinocchio(text, seed):
+    source = robot(text)
+    plant, parameters = plant_of(source, seed)
+    model = pinocchio_model(source, parameters)
+    data = model.createData()
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        q, qd, tau = rng.normal(size=(3, model.nv))
+        resistance = column(plant.resistance, q, qd, [])
+        ours = column(plant.acceleration, q, qd, [], tau + resistance)
+        theirs = pin.aba(model, data, q, qd, tau)
+        np.testing.assert_allclose(ours, theirs, rtol=1e-9, atol=1e-9 * np.abs(theirs).max())
+        back = column(plant.torque, q, qd, theirs, [])
+        scale = np.abs(back).max()
+        np.testing.assert_allclose(back, tau + resistance, rtol=0, atol=1e-10 * max(scale, 1))
+
+
+@pytest.mark.parametrize("text", [ARM, SIX, TREE], ids=["arm", "six", "tree"])
+def test_energies_agree_with_pinocchio(text):
+    source = dataclasses.replace(robot(text), effects=())
+    plant, parameters = plant_of(source)
+    model = pinocchio_model(source, parameters)
+    data = model.createData()
+    q, qd = np.random.default_rng(3).normal(size=(2, model.nv))
+    kinetic, potential = (float(value) for value in plant.energy(q, qd))
+    assert kinetic == pytest.approx(pin.computeKineticEnergy(model, data, q, qd), rel=1e-12)
+    assert potential == pytest.approx(pin.computePotentialEnergy(model, data, q), rel=1e-12)
+
+
+@pytest.mark.parametrize("text", [ARM, SIX, TREE], ids=["arm", "six", "tree"])
+def test_power_of_motors_and_friction_changes_the_energy(text):
+    """qd . (tau - friction) = d(T + U)/dt, with T and U formed apart from the torques."""
+    plant, _ = plant_of(robot(text))
+    rng = np.random.default_rng(4)
+    n = len(plant.joints)
+    for _ in range(5):
+        q, qd, tau = rng.normal(size=(3, n))
+        qdd = column(plant.acceleration, q, qd, [], tau)
+        h = 1e-5
+        ahead, behind = (
+            sum(float(e) for e in plant.energy(q + s * qd + s * s / 2 * qdd, qd + s * qdd))
+            for s in (h, -h)
+        )
+        power = qd @ (tau - column(plant.resistance, q, qd, []))
+        assert (ahead - behind) / (2 * h) == pytest.approx(power, rel=1e-6, abs=1e-6)
+
+
+def test_pendulum_is_that_of_the_textbook():
+    source = robot(
+        PENDULUM,
+        effects='rotor_inertia = "all"\nviscous = "all"\ncoulomb = "all"\noffset = "all"',
+        parameters="XX1 = 0.1\nXY1 = 0\nXZ1 = 0\nYY1 = 0.95\nYZ1 = 0\nZZ1 = 0.9\n"
+        "MX1 = 1.2\nMY1 = 0\nMZ1 = 0\nM1 = 2\nIa1 = 0.1\n" + FRICTION,
+    )
+    plant, parameters = plant_of(source)
+    assert parameters.drawn == ()
+    for q, qd, qdd in ((0.3, 1.1, -2.0), (-2.0, -0.4, 0.7)):
+        expected = 1.0 * qdd + 9.81 * 1.2 * np.cos(q) + 0.5 * qd + 0.7 * np.sign(qd) - 0.2
+        assert float(plant.torque(q, qd, qdd, [])) == pytest.approx(expected, rel=1e-12)
+
+
+def test_friction_opposes_motion_and_is_full_at_two_percent_of_the_top_speed():
+    source = robot(PENDULUM, effects='viscous = "all"\ncoulomb = "all"', parameters="Fs1 = 0.7")
+    plant, parameters = plant_of(source)
+    viscous = parameters.standard["Fv1"]
+    for speed in (-1.0, -0.04, 0.04, 1.0):  # the default top speed is 2 rad/s
+        resistance = float(plant.resistance(0.0, speed, []))
+        assert resistance == pytest.approx(viscous * speed + 0.7 * np.sign(speed), rel=1e-12)
+    assert float(plant.resistance(0.0, 0.0, [])) == 0.0
+
+
+def test_a_motor_that_turns_with_two_joints_loads_both():
+    parameters = "Iam2 = 0.3\nFvm2 = 0.4\nFsm2 = 0.5"
+    plain = robot(TWO_LINK)
+    coupled = robot(
+        TWO_LINK,
+        effects='coupled_inertia = ["2"]\ncoupled_friction = ["2"]',
+        coupling='2 = "2*q1 + q2"',
+        parameters=parameters,
+    )
+    q, qd, qdd = np.random.default_rng(5).normal(size=(3, 2))
+    with_motor = column(plant_of(coupled)[0].torque, q, qd, qdd, [])
+    without = column(plant_of(plain)[0].torque, q, qd, qdd, [])
+    shaft = np.array([2.0, 1.0])
+    motor = 0.3 * shaft @ qdd + 0.4 * shaft @ qd + 0.5 * np.sign(shaft @ qd)
+    np.testing.assert_allclose(with_motor - without, shaft * motor, rtol=1e-9)
+
+
+def test_an_effect_without_physics_is_named():
+    source = dataclasses.replace(robot(PENDULUM), effects=(EffectUse("levitation", ("1",)),))
+    with pytest.raises(RobotError, match="joint 1: effect levitation cannot be simulated"):
+        plant_of(source)
+
+
+def test_a_coupled_effect_without_coupling_is_named():
+    source = dataclasses.replace(
+        robot(TWO_LINK), effects=(EffectUse("coupled_inertia", ("2",)),), coupling={}
+    )
+    with pytest.raises(RobotError, match=r"joint 2: coupled_inertia .* coupling"):
+        plant_of(source)
+
+
+def test_a_joint_without_inertia_is_named():
+    nothing = "".join(
+        f"{p}2 = 0\n" for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+    )
+    with pytest.raises(RobotError, match="joint 2: nothing gives it an inertia"):
+        plant_of(robot(TWO_LINK, parameters=nothing))
