@@ -34,25 +34,6 @@ void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_
 void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_input inputs[4],
                      double *out, size_t out_step);
 
-/* Where the values of a compact regressor stand in the dense one: value k at (row[k], column[k]) of
- * rows x columns, everything else 0. */
-typedef struct {
-    size_t rows, columns, nonzeros;
-    const int *row, *column;
-} modeler_pattern;
-
-/* Observation matrix W, (samples*rows) x columns: the rows of one sample stand together.
- *
- * function   writes the `nonzeros` values of one sample from q, qd, qdd
- * pattern    their places
- * q qd qdd   samples x rows
- * values     room for `nonzeros` numbers
- * fill_zeros 0: W holds zeros already wherever the pattern has none
- */
-void modeler_observation(modeler_function_3 function, const modeler_pattern *pattern, size_t samples,
-                         const double *q, const double *qd, const double *qdd, double *values,
-                         int fill_zeros, double *W);
-
 #ifdef __cplusplus
 }
 #endif

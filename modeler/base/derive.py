@@ -1,8 +1,10 @@
 """From the symbolic model to the base parameters and their proof."""
 
 import dataclasses
+from collections.abc import Mapping
 
 import numpy as np
+import sympy
 
 from modeler.base.certificate import PRIME, ModularState, modular_rank
 from modeler.base.field import ExactField, geometry_field
@@ -57,15 +59,18 @@ def prove(model: SymbolicModel, K: ExactField, relations: Relations, seed: int) 
         _check_relations(model, K, relations, state)
     exact_rank = _modular_rank(model.columns, relations, state)
     if exact_rank != len(relations.kept):
-        shared = " (a motor shared by joints groups with links)"
+        shared = has_unproved_columns(model.columns)
         raise DerivationError(
-            f"{model.robot.name}: {len(relations.kept)} columns were kept, but only {exact_rank} are "
-            f"independent{shared if has_unproved_columns(model.columns) else ''}; remove one of them"
+            f"{model.robot.name}: of {len(relations.kept)} columns kept only {exact_rank} are "
+            "independent; "
+            + (
+                "a rotor shared by joints groups with their links: leave out coupled_inertia"
+                if shared
+                else "this is a defect of the derivation, please report the robot file"
+            )
         )
     samples = max(60, 3 * len(model.columns) // max(1, model.geometry.joints))
-    phi = regressor_values(
-        model, random_states(model, samples, np.random.default_rng(seed))
-    )
+    phi = regressor_values(model, random_states(model, samples, np.random.default_rng(seed)))
     numeric = numeric_rank(phi, range(len(model.columns)))
     return Proof(
         kind="exact" if numeric.rank == exact_rank else "exact for general lengths only",
@@ -137,6 +142,6 @@ def grouping_matrix(model: SymbolicModel, base: BaseParameters) -> np.ndarray:
     return K
 
 
-def coefficient_value(coefficient, values: dict) -> float:
+def coefficient_value(coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
     """A coefficient at the nominal geometry."""
     return float(coefficient.subs({s: values[s.name] for s in coefficient.free_symbols}))

@@ -68,5 +68,5 @@ def numeric_rank(phi: np.ndarray, columns: Sequence[int]) -> NumericRank:
     dropped = float(singular[rank]) if rank < len(singular) else 0.0
     return NumericRank(
         rank, (float(singular[rank - 1]), dropped), TOLERANCE,
-        f"{W.shape[0]} rows, {W.shape[1]} columns that are not structurally zero, scaled to length 1",
+        f"{W.shape[0]} rows, {W.shape[1]} columns (not structurally zero), scaled to length 1",
     )  # fmt: skip

@@ -131,7 +131,10 @@ def joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
     for m in range(len(points)):
         weights = [QQ(int(w.p), int(w.q)) for w in system[m, :]]
         found.append(
-            (_weighted([s[0] for s in samples], weights), _weighted([s[1] for s in samples], weights))
+            (
+                _weighted([s[0] for s in samples], weights),
+                _weighted([s[1] for s in samples], weights),
+            )
         )
     return tuple(found)
 

@@ -115,9 +115,7 @@ class _Step:
             rows += [[K.one if i == j else K.zero for i in range(12)] for j in absent]
             hidden = null_space(rows, 12, K.zero, K.one)
             steady = self._carried(self.motion[0][0])
-        moved = [
-            apply(to_antecedent, apply(steady, line[:10], K.zero), K.zero) for line in hidden
-        ]
+        moved = [apply(to_antecedent, apply(steady, line[:10], K.zero), K.zero) for line in hidden]
         return LinkGrouping(hidden, moved)
 
     def reach(self) -> Reach:
@@ -136,7 +134,9 @@ class _Step:
             gravity += product(self.before.gravity, R, K.zero)
         constant = Constant(self.constant.R, self.constant.p)
         after = _through(Reach([], twist, gravity), constant, K)
-        return Reach(row_reduce(energy)[0], row_reduce(after.twist)[0], row_reduce(after.gravity)[0])
+        return Reach(
+            row_reduce(energy)[0], row_reduce(after.twist)[0], row_reduce(after.gravity)[0]
+        )
 
     @property
     def _own_speed(self) -> int:
@@ -194,9 +194,7 @@ def _through(reach: Reach, step: Constant, K: ExactField) -> Reach:
         [p[(i + 1) % 3] * R[(i + 2) % 3][j] - p[(i + 2) % 3] * R[(i + 1) % 3][j] for j in range(3)]
         for i in range(3)
     ]
-    X = [[*line, zero, zero, zero] for line in R] + [
-        [*lower[i], *R[i]] for i in range(3)
-    ]
+    X = [[*line, zero, zero, zero] for line in R] + [[*lower[i], *R[i]] for i in range(3)]
     G = [[*line, zero] for line in R] + [[zero, zero, zero, K.one]]
     return Reach(
         product(reach.energy, L, zero), product(reach.twist, X, zero),

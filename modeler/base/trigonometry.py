@@ -81,7 +81,9 @@ class _Target:
 
     def shortest(self, poly: PolyElement) -> sympy.Expr:
         """The expanded form of fewest terms."""
-        forms = [self.reduced(poly, keep) for keep in product((True, False), repeat=len(self.angles))]
+        forms = [
+            self.reduced(poly, keep) for keep in product((True, False), repeat=len(self.angles))
+        ]
         best = min(forms, key=len)
         return sympy.Add(*(self._term(m, c) for m, c in best.terms()))
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from modeler.codegen.printer import (
     ATOM,
     PI,
+    SUM,
     Text,
     call_text,
     negative,
@@ -134,8 +135,19 @@ class _Writer:
         if value.is_zero:
             return "0.0"
         self.visit(abs(value.ref))
-        text = self.texts[abs(value.ref)]
-        return text.text if value.ref > 0 else negative(text).text
+        if value.ref > 0:
+            return self.texts[value.ref].text
+        return (self._turned(value.ref) or negative(self.texts[-value.ref])).text
+
+    def _turned(self, ref: int) -> Text | None:
+        """Text of a negative reference if it can do without a leading minus: -(a - b) = b - a."""
+        node = self.graph.nodes[abs(ref)]
+        if ref > 0 or node.op != "add" or self.texts[abs(ref)].level != SUM:
+            return None
+        first, second = (-arg for arg in node.args)
+        if first < 0 and second < 0:
+            return None
+        return sum_text(self.texts[abs(first)], first > 0, self.texts[abs(second)], second > 0)
 
     def visit(self, root: int) -> None:
         """Write `root` and what it needs, arguments first; no recursion, graphs are deep."""
@@ -172,7 +184,11 @@ class _Writer:
             return Text(self._place(node.args[0]), ATOM)
         args = [self.texts[abs(arg)] for arg in node.args]
         if node.op == "add":
-            return sum_text(args[0], node.args[0] > 0, args[1], node.args[1] > 0)
+            turned = [self._turned(arg) for arg in node.args]
+            return sum_text(
+                turned[0] or args[0], turned[0] is not None or node.args[0] > 0,
+                turned[1] or args[1], turned[1] is not None or node.args[1] > 0,
+            )  # fmt: skip
         if node.op in ("mul", "div"):
             assert all(arg > 0 for arg in node.args), "the graph takes signs out of products"
             return (product_text if node.op == "mul" else quotient_text)(*args)

@@ -1,6 +1,7 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from modeler.base.result import BaseParameters
 from modeler.codegen import layout
@@ -19,6 +20,7 @@ from modeler.symbolic import SymbolicModel
 class _Written:
     """One function as finished strings."""
 
+    unit: str
     name: str
     does: str
     equation: str
@@ -51,8 +53,11 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     spec = module_spec(model, base, blocks)
     values = _values(spec, macros, [_written(prefix, f, block) for f, block in blocks])
     files = {
-        f"{prefix}.c": render("module.c", **values),
         f"{prefix}.h": render("module.h", **values),
+        **{
+            f"{prefix}{unit}.c": _unit(unit, values)
+            for unit in ("", "_regressor", "_base_regressor")
+        },
         **_runtime(),
         "Makefile": render("Makefile", **values),
         "CMakeLists.txt": render("CMakeLists.txt", **values),
@@ -73,6 +78,7 @@ def _block(function: Function, places: dict[str, str]) -> Block | None:
 def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     name = f"{prefix}_{function.role}"
     return _Written(
+        unit=function.unit,
         name=name,
         does=function.does,
         equation=function.equation,
@@ -85,7 +91,7 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     )
 
 
-def _values(spec: ModuleSpec, macros: dict[str, str], functions: list[_Written]) -> dict[str, object]:
+def _values(spec: ModuleSpec, macros: dict[str, str], functions: list[_Written]) -> dict[str, Any]:
     standard, base = layout.parameter_lines(spec)
     return {
         "spec": spec,
@@ -98,12 +104,18 @@ def _values(spec: ModuleSpec, macros: dict[str, str], functions: list[_Written])
         "joints": ", ".join(joint.name for joint in spec.joints),
         "relations": [layout.relation(parameter) for parameter in spec.base],
         "functions": functions,
+        "observation": [layout.observation_prototype(spec.prefix, r) for r in ("", "restrict ")],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
         "signature": spec.signature(),
-        "runtime_sources": [name for name in RUNTIME if name.endswith(".c")],
+        "sources": [name for name in spec.sources if name.endswith(".c")],
     }
+
+
+def _unit(unit: str, values: dict[str, Any]) -> str:
+    functions = [function for function in values["functions"] if function.unit == unit]
+    return render("module.c", **{**values, "functions": functions, "main": not unit})
 
 
 def _runtime() -> dict[str, str]:

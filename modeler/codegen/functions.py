@@ -13,6 +13,7 @@ class Function:
     """One function, still as expressions.
 
     Attributes:
+        unit: C file it stands in, without the robot's name and `.c`.
         role: name without the robot's.
         does: what it computes, one sentence.
         equation: of the manifest.
@@ -21,6 +22,7 @@ class Function:
         entries: (index into the row-major output, value) of everything that is not zero.
     """
 
+    unit: str
     role: str
     does: str
     equation: str
@@ -88,16 +90,18 @@ def _regressors(
     per = "torque per unit of each"
     return (
         Function(
-            "regressor", "Regressor of the standard parameters.", "tau = phi chi", inputs,
+            "_regressor", "regressor", "Regressor of the standard parameters.", "tau = phi chi", inputs,
             ArgumentSpec("phi", (joints, p), "SI", f"{per} standard parameter"),
             tuple(sorted(standard, key=lambda entry: entry[0])),
         ),
         Function(
-            "base_regressor", "Regressor of the base parameters.", "tau = phi beta", inputs,
+            "_base_regressor", "base_regressor", "Regressor of the base parameters.",
+            "tau = phi beta", inputs,
             ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"), tuple(kept),
         ),
         Function(
-            "base_regressor_nonzeros", "The entries of phi beta's regressor that are not always 0.",
+            "_base_regressor", "base_regressor_nonzeros",
+            "The entries of the base regressor that are not always 0.",
             "values[k] = phi[nonzero_row[k]][nonzero_column[k]]", inputs,
             ArgumentSpec("values", (len(kept),), "SI", "entries, row after row"),
             tuple((k, value) for k, (_, value) in enumerate(kept)),
@@ -122,7 +126,7 @@ def _dynamics(
 
     def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
                  values: Sequence[Expr]) -> Function:  # fmt: skip
-        return Function(role, does, equation, inputs, given.tau, _entries(values))
+        return Function("", role, does, equation, inputs, given.tau, _entries(values))
 
     return (
         function(
@@ -130,7 +134,7 @@ def _dynamics(
             "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)", (q, qd, qdd, b), model.torque(beta),
         ),
         Function(
-            "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
+            "", "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
             "tau = M(q) qdd + ...", (q, b),
             ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
             _entries(matrix),
@@ -153,7 +157,7 @@ def _grouping(model: SymbolicModel, base: BaseParameters, given: _Arguments) -> 
             total = total + model.algebra.static(term.coefficient) * place[term.parameter]
         values.append(total)
     return Function(
-        "base_parameters", "Base parameters from standard ones: the grouping relations.",
+        "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
         "beta = K chi", (given.chi,), given.beta, _entries(values),
     )  # fmt: skip
 

@@ -94,10 +94,19 @@ def prototype(name: str, parameters: Sequence[str]) -> str:
     indent = " " * (len(name) + 6)
     return "\n".join(
         textwrap.wrap(
-            f"void {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})", _WIDTH,
-            subsequent_indent=indent, break_long_words=False, break_on_hyphens=False,
+            f"void {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})",
+            _WIDTH,
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
         )  # fmt: skip
     ).replace(chr(160), " ")
+
+
+def observation_prototype(prefix: str, restrict: str) -> str:
+    """Prototype of the loop over samples that fills W."""
+    states = ["const double *q", "const double *qd", "const double *qdd"]
+    return prototype(f"{prefix}_observation", ["size_t samples", *states, f"double *{restrict}W"])
 
 
 def body_lines(function: Function, block: Block | None) -> list[str]:

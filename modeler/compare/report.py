@@ -125,9 +125,9 @@ def _where(joints: tuple[JointComparison, ...]) -> str:
     region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
     return (
         f"Most on joint {worst.joint.name} ({percent(worst.relative_error)}): "
-        f"{percent(region.energy_share)} of its squared residual while {_REGION_PHRASES[region.name]}"
-        f" ({percent(region.time_share)} of the samples); worst at {window.start:.2f}-"
-        f"{window.end:.2f} s of {window.log}."
+        f"{percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({percent(region.time_share)} of the samples); "
+        f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
     )
 
 

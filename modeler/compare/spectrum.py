@@ -21,7 +21,7 @@ class Spectrum:
     memory: float  # s until the autocorrelation is below 0.2; one period for white noise
     frequency: np.ndarray  # (m,) Hz, without 0
     density: np.ndarray  # (m,) (N m)^2/Hz or N^2/Hz
-    peak: float  # Hz, frequency of the largest density
+    peak: float  # Hz, of the largest density, weighted over two frequency steps either side
     peak_share: float  # of the power, within two frequency steps of the peak
 
 
@@ -44,7 +44,8 @@ def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
     below = np.flatnonzero(correlation < _FORGOTTEN)
     memory = int(below[0]) if below.size else correlation.size
     top = int(np.argmax(density))
-    near = density[max(top - 2, 0) : top + 3].sum()
+    around = slice(max(top - 2, 0), top + 3)
+    near = float(density[around].sum())
     total = float(density.sum())
     return Spectrum(
         period=period,
@@ -52,8 +53,8 @@ def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
         memory=memory * period,
         frequency=frequency,
         density=density,
-        peak=float(frequency[top]),
-        peak_share=float(near) / total if total else 0.0,
+        peak=float(frequency[around] @ density[around]) / near if near else 0.0,
+        peak_share=near / total if total else 0.0,
     )
 
 

@@ -150,8 +150,8 @@ def _other_joint(item: JointComparison) -> str | None:
     if found is None:
         return None
     return (
-        f"{percent(found[1])} of that follows the velocity of joint {found[0]} more than its own, as with "
-        "coupled drives"
+        f"{percent(found[1])} of that follows the velocity of joint {found[0]} more than its own, "
+        "as with coupled drives"
     )
 
 

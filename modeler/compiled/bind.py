@@ -1,5 +1,6 @@
 """The library's functions, declared from the manifest; nothing else knows cffi."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,12 @@ import numpy as np
 
 from modeler.core.contract import FunctionSpec, ModuleSpec
 from modeler.core.errors import BuildError, ManifestError
+
+FUNCTIONS = {
+    "regressor": 3, "base_regressor": 3, "base_regressor_nonzeros": 3, "inverse_dynamics": 4,
+    "inertia_matrix": 2, "gravity": 2, "coriolis": 3, "friction": 2, "base_parameters": 1,
+}  # fmt: skip
+"""Functions that every module has, and how many inputs they read."""
 
 _RUNTIME = """
 typedef struct { const double *data; size_t step; } modeler_input;
@@ -33,6 +40,7 @@ class Library:
             ManifestError: it was emitted with another manifest.
         """
         self.spec = spec
+        _check_names(spec)
         self._ffi = cffi.FFI()
         self._ffi.cdef(_RUNTIME + _declarations(spec))
         try:
@@ -81,9 +89,7 @@ class Library:
         pointer = self._ffi.cast("void *", getattr(self._library, function.name))
         driver(pointer, samples, given, self._doubles(out), step)
 
-    def observation(
-        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, W: np.ndarray
-    ) -> None:
+    def observation(self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, W: np.ndarray) -> None:
         """Fill W, (n*joints, columns), from (n, joints) arrays."""
         states = [self._doubles(array) for array in (q, qd, qdd)]
         self._function("observation")(len(q), *states, self._doubles(W))
@@ -95,6 +101,21 @@ class Library:
     def _doubles(self, array: np.ndarray) -> Any:
         # The address itself: half the time of from_buffer; the caller holds the array.
         return self._ffi.cast("double *", array.ctypes.data)
+
+
+def _check_names(spec: ModuleSpec) -> None:
+    """Refuse manifests whose functions could not be declared, or that lack one."""
+    inputs = {function.name: len(function.inputs) for function in spec.functions}
+    for name in (spec.prefix, *inputs):
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
+            raise ManifestError(f'{spec.robot}: got the name "{name}", expected a C name')
+    for role, count in FUNCTIONS.items():
+        got = inputs.get(f"{spec.prefix}_{role}")
+        if got != count:
+            raise ManifestError(
+                f"{spec.robot}: the manifest names {got or 'no'} inputs of {role}, expected "
+                f"{count}; generate it again"
+            )
 
 
 def _declarations(spec: ModuleSpec) -> str:

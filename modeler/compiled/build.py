@@ -70,8 +70,8 @@ def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
         for name, text in sources.items():
             (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
         made = Path(scratch) / "library"
-        units = [str(Path(scratch) / name) for name in sorted(sources) if name.endswith(".c")]
-        compile_library(tools, units, str(made), scratch)
+        units = [name for name in sorted(sources) if name.endswith(".c")]
+        compile_library(tools, Path(scratch), units, made)
         final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}.so"
         made.replace(final)
     for other in folder.glob("*.so"):

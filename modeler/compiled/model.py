@@ -12,9 +12,6 @@ from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import ManifestError, ShapeError
 
-# Below this the columns are one pass over few numbers; above, parameters may be a matrix.
-_PER_SAMPLE = ("q", "qd", "qdd")
-
 
 class CompiledModel:
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
@@ -43,9 +40,7 @@ class CompiledModel:
         """Phi of the standard parameters, (n, joints, p): tau = phi chi."""
         return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd})
 
-    def observation(
-        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None
-    ) -> np.ndarray:
+    def observation(self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None) -> np.ndarray:
         """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
 
         Args:

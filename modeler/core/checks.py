@@ -63,7 +63,9 @@ def same_samples(arrays: dict[str, np.ndarray]) -> int:
     counts = {name: len(array) for name, array in arrays.items()}
     if len(set(counts.values())) > 1:
         got = ", ".join(f"{name} {count}" for name, count in counts.items())
-        raise ShapeError(f"different numbers of samples ({got}); expected one row per sample in each")
+        raise ShapeError(
+            f"different numbers of samples ({got}); expected one row per sample in each"
+        )
     return next(iter(counts.values()))
 
 
@@ -74,7 +76,9 @@ def _as_floats(value: Any, name: str, expected: str) -> np.ndarray:
             raise TypeError(f"type {array.dtype}")
         return np.ascontiguousarray(array, dtype=np.float64) if array.ndim else array
     except (TypeError, ValueError) as error:
-        raise ShapeError(f"{name}: got no array of real numbers ({error}); expected {expected}") from None
+        raise ShapeError(
+            f"{name}: got no array of real numbers ({error}); expected {expected}"
+        ) from None
 
 
 def _hint(array: np.ndarray, name: str, joints: int) -> str:

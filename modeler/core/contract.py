@@ -15,7 +15,7 @@ from modeler.core.errors import ManifestError
 
 FORMAT = 1
 
-RUNTIME = ("modeler_runtime.h", "modeler_batch.c", "modeler_observation.c")
+RUNTIME = ("modeler_runtime.h", "modeler_batch.c")
 """Hand-written C files that stand beside every emitted module."""
 
 MANIFEST = "manifest.json"
@@ -132,7 +132,8 @@ class ModuleSpec:
     @property
     def sources(self) -> tuple[str, ...]:
         """Names of the C files that the library is compiled from, headers included."""
-        return (f"{self.prefix}.c", f"{self.prefix}.h", *RUNTIME)
+        units = (".h", ".c", "_regressor.c", "_base_regressor.c")
+        return (*(self.prefix + unit for unit in units), *RUNTIME)
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""

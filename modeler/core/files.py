@@ -8,9 +8,9 @@ from modeler.core.errors import ModelerError
 
 
 def write_atomically(path: Path, content: bytes | str) -> None:
-    """Write `content` beside `path`, then rename: readers see the old file or the new one.
+    r"""Write `content` beside `path`, then rename: readers see the old file or the new one.
 
-    Text is written as UTF-8 with `\\n` line ends on every system.
+    Text is written as UTF-8 with `\n` line ends on every system.
 
     Raises:
         ModelerError: the folder is missing or not writable; says which.

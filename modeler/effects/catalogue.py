@@ -3,12 +3,8 @@
 from modeler.core.expression import parse
 from modeler.effects.effect import Effect, EffectColumn, EnergyBlock
 
-_ROTOR_INERTIA = EffectColumn(
-    "Ia", parse("a"), "kg m2", "kg", "rotor_inertia", EnergyBlock.KINETIC
-)
-_VISCOUS = EffectColumn(
-    "Fv", parse("v"), "N m s/rad", "N s/m", "friction", EnergyBlock.RAYLEIGH
-)
+_ROTOR_INERTIA = EffectColumn("Ia", parse("a"), "kg m2", "kg", "rotor_inertia", EnergyBlock.KINETIC)
+_VISCOUS = EffectColumn("Fv", parse("v"), "N m s/rad", "N s/m", "friction", EnergyBlock.RAYLEIGH)
 _COULOMB = EffectColumn("Fs", parse("sign(v)"), "N m", "N", "friction", EnergyBlock.COULOMB)
 _OFFSET = EffectColumn("Off", parse("1"), "N m", "N", "offset", EnergyBlock.POWER)
 

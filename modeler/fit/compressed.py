@@ -33,7 +33,7 @@ class Compressed:
     def whole(self, sigma: np.ndarray) -> np.ndarray:
         """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
         weighted = self.triangles / sigma[:, None, None]
-        return np.linalg.qr(weighted.reshape(-1, weighted.shape[2]), mode="r")
+        return triangle(weighted.reshape(-1, weighted.shape[2]))
 
     def without(self, names: Sequence[str]) -> "Compressed":
         """The same data without some columns."""
@@ -43,6 +43,11 @@ class Compressed:
             self.triangles[:, :, [*kept, len(self.names)]],
             self.rows,
         )
+
+
+def triangle(matrix: np.ndarray) -> np.ndarray:
+    """R of matrix = Q R, (min(rows, columns), columns)."""
+    return np.asarray(np.linalg.qr(matrix, mode="r"))
 
 
 def compress(
@@ -63,6 +68,6 @@ def compress(
     for j in range(joints):
         own = joint == j
         if own.any():
-            triangle = np.linalg.qr(np.column_stack([W[own], y[own]]), mode="r")
-            triangles[j, : len(triangle)] = triangle
+            own_triangle = triangle(np.column_stack([W[own], y[own]]))
+            triangles[j, : len(own_triangle)] = own_triangle
     return Compressed(tuple(names), triangles, np.bincount(joint, minlength=joints))

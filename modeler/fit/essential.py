@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import f as fisher
 
-from modeler.fit.compressed import Compressed
+from modeler.fit.compressed import Compressed, triangle
 from modeler.fit.least_squares import Estimate, Method, least_squares
 
 LEVEL = 0.05
@@ -94,8 +94,8 @@ def relative_error(data: Compressed, beta: np.ndarray) -> float:
 
 
 def _squares(whole: np.ndarray, kept: list[int]) -> float:
-    triangle = np.linalg.qr(whole[:, [*kept, whole.shape[1] - 1]], mode="r")
-    return float(np.sum(triangle[len(kept) :, -1] ** 2))
+    reduced = triangle(whole[:, [*kept, whole.shape[1] - 1]])
+    return float(np.sum(reduced[len(kept) :, -1] ** 2))
 
 
 def _weakest(whole: np.ndarray, kept: list[int]) -> int:

@@ -77,9 +77,7 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
             settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
             sigma, iterations = updated, iterations + 1
     raw, scaled = _conditions(data, kept)
-    return Estimate(
-        beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees
-    )
+    return Estimate(beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees)
 
 
 def _rms(data: Compressed) -> np.ndarray:
@@ -92,9 +90,7 @@ def _floor(data: Compressed) -> np.ndarray:
     return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
 
 
-def _solve(
-    data: Compressed, kept: np.ndarray, sigma: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """beta and (W^T S^-1 W)^-1 over all columns, by QR of the scaled kept columns."""
     c = len(data.names)
     beta, covariance = np.zeros(c), np.zeros((c, c))

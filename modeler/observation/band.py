@@ -52,9 +52,9 @@ def choose_cutoffs(
     """The processing with both cut-offs chosen, and a sentence for each choice.
 
     Position filter: 25 times the motion band within 30 to 100 Hz, never less than 5 times, at most
-    0.4 of the sampling rate; a filter too close to the motion looks like a flexible joint. Parallel filter: 4 times the
-    motion band, at least 5 Hz, at most half the position filter. The EMPS benchmark, whose
-    authors chose 100 Hz and 16 Hz by hand, comes out at 91 Hz and 15 Hz.
+    0.4 of the sampling rate; a filter too close to the motion looks like a flexible joint. Parallel
+    filter: 4 times the motion band, at least 5 Hz, at most half the position filter. The EMPS
+    benchmark, whose authors chose 100 Hz and 16 Hz by hand, comes out at 90 Hz and 14 Hz.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
     bands = np.array([motion_band(piece) for piece in pieces])

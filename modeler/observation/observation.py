@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -86,8 +86,5 @@ class Observation:
             evaluate: (b, n, ...) for the b samples of a segment in a window.
         """
         return np.concatenate(
-            [
-                stretch.filtered(lambda window, s=stretch.segment: evaluate(s, window))
-                for stretch in self.stretches
-            ]
+            [part.filtered(partial(evaluate, part.segment)) for part in self.stretches]
         )

@@ -72,9 +72,7 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         segments=tuple(segments),
         pieces=tuple(found for found, _ in split_logs),
         splits=tuple(report for _, report in split_logs),
-        derivatives=tuple(
-            _source(log, use) for log, use in zip(logs, logged, strict=True)
-        ),
+        derivatives=tuple(_source(log, use) for log, use in zip(logs, logged, strict=True)),
         dropped=tuple(dropped),
     )
 

@@ -103,9 +103,7 @@ def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarra
     )
 
 
-def _optional(
-    table: Table, prefix: str, spec: ModuleSpec, notes: list[str]
-) -> np.ndarray | None:
+def _optional(table: Table, prefix: str, spec: ModuleSpec, notes: list[str]) -> np.ndarray | None:
     names = [f"{prefix}{joint.name}" for joint in spec.joints]
     there = [name for name in names if name in table]
     if len(there) == len(names):

@@ -98,16 +98,12 @@ def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], S
     return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
 
 
-def _piece(
-    log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool
-) -> Piece:
+def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:
     measured = log.time[rows]
     samples = max(_LEAST, round((measured[-1] - measured[0]) / log.step) + 1)
     time = np.linspace(measured[0], measured[-1], samples)
     step = float(time[1] - time[0])
-    uniform = samples == len(rows) and bool(
-        np.all(np.abs(measured - time) <= JITTER * step)
-    )
+    uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
 
     def smooth(values: np.ndarray | None) -> np.ndarray | None:
         if values is None or not logged_motion:

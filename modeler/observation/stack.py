@@ -1,6 +1,7 @@
 """y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,15 +75,12 @@ def _stack(
 ) -> Observation:
     def gather(evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
         return np.concatenate(
-            [part.filtered(lambda w, s=part.segment: evaluate(s, w)) for part in stretches]
+            [part.filtered(partial(evaluate, part.segment)) for part in stretches]
         )
 
     def plain(name: str) -> np.ndarray:
         return np.concatenate(
-            [
-                part.rows.means(getattr(part.segment, name), part.segment.whole)
-                for part in stretches
-            ]
+            [part.rows.means(getattr(part.segment, name), part.segment.whole) for part in stretches]
         )
 
     counts = [len(part.rows.centres) for part in stretches]
@@ -106,9 +104,7 @@ def _stack(
     )
 
 
-def _log_report(
-    log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]
-) -> LogReport:
+def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:
     own = [part for part in stretches if part.segment.run == run]
     pieces, split = prepared.pieces[run], prepared.splits[run]
     clipped = (

@@ -11,7 +11,6 @@ from modeler.core.errors import RobotError
 from modeler.robot import INERTIAL, Robot
 from modeler.simulate.body import (
     Body,
-    body_from_standard,
     is_physical,
     pseudo_inertia,
     standard_from_body,
@@ -45,10 +44,10 @@ def stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
     return stated
 
 
-def link_bodies(
+def link_parameters(
     robot: Robot, pose: np.ndarray, rng: np.random.Generator
-) -> tuple[dict[str, Body], tuple[str, ...]]:
-    """Bodies of all moving links by joint name, and the names of parameters that were drawn.
+) -> tuple[dict[str, dict[str, float]], tuple[str, ...]]:
+    """Ten parameters of each moving link by joint and prefix, and the names that were drawn.
 
     Sizes follow from the lengths of the table at `pose`, masses from the reach; a box of uneven
     density stands for each link, so that the ten parameters are those of a real body.
@@ -57,7 +56,7 @@ def link_bodies(
         RobotError: stated numbers that no distribution of mass has; names the link.
     """
     drawn = _drawn_bodies(robot, pose, rng)
-    bodies, names = {}, []
+    links, names = {}, []
     for joint in robot.moving:
         stated = stated_inertia(robot, joint.name)
         values = _completed(stated, standard_from_body(drawn[joint.name]))
@@ -68,9 +67,9 @@ def link_bodies(
                 "expected a mass above 0 and inertias that some distribution of that mass can "
                 "have; correct them, or leave out what you do not know"
             )
-        bodies[joint.name] = body_from_standard(values)
+        links[joint.name] = {prefix: values[prefix] for prefix in INERTIAL}
         names += [f"{prefix}{joint.name}" for prefix in INERTIAL if prefix not in stated]
-    return bodies, tuple(names)
+    return links, tuple(names)
 
 
 def _completed(stated: Mapping[str, float], drawn: Mapping[str, float]) -> dict[str, float]:

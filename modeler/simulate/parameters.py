@@ -8,8 +8,8 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulate.body import Body, standard_from_body
-from modeler.simulate.links import link_bodies
+from modeler.simulate.body import Body, body_from_standard
+from modeler.simulate.links import link_parameters
 from modeler.simulate.physics import PHYSICS, EffectPhysics, JointScale
 from modeler.simulate.rigid import rigid_dynamics
 
@@ -44,13 +44,14 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
     """
     rng = np.random.default_rng([seed, 1])
     middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
-    bodies, drawn_links = link_bodies(robot, middle, rng)
+    links, drawn_links = link_parameters(robot, middle, rng)
+    bodies = {name: body_from_standard(values) for name, values in links.items()}
     scales = _scales(robot, bodies, limits, rng)
     standard: dict[str, float] = {}
     drawn = list(drawn_links)
     for joint, scale in zip(robot.moving, scales, strict=True):
         name = joint.name
-        standard |= {p + name: v for p, v in standard_from_body(bodies[name]).items()}
+        standard |= {p + name: v for p, v in links[name].items()}
         for effect in effects_of(robot, name):
             for prefix, value in effect.draw(rng, scale).items():
                 stated = robot.parameters.get(prefix + name)

@@ -18,8 +18,8 @@ from modeler.simulate.plant import Plant, build_plant
 from modeler.simulate.settings import SimulationSettings, check_settings
 from modeler.simulate.trajectory import Reference, exciting_reference
 
-_REPORT_EVERY = 500  # ticks between calls of the progress callback
-_LOST = 1.0  # tracking error, in ranges of motion, at which the controller has lost the robot
+_REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
+_LOST = 0.5  # tracking error, in ranges of motion, at which the controller has lost the robot
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,19 +105,19 @@ def _closed_loop(
     steps = steps_per_tick(plant, limits, gains.tick)
     advance = FastFunction(tick_function(plant, gains.tick, steps))
     mass = FastFunction(plant.inertia)
-    widths = np.array([limit.upper - limit.lower for limit in limits])
     run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)))
-    for k in range(ticks):
-        run.states[k], run.torques[k] = x, torque
-        measured = run.measured[k] = quantised(x[:n], resolution)
-        x = advance(x, torque)
-        inertia = felt_inertia(mass(measured).reshape(n, n), plant.driven)
-        command = reference.q[k], reference.qd[k], reference.qdd[k]
-        state, torque = control(gains, state, inertia, measured, command)
-        if k % _REPORT_EVERY == 0 or k == ticks - 1:
-            _check_kept(plant, reference, widths, k, run.states[k, :n])
-            if progress is not None:
-                progress((k + 1) / ticks)
+    for begin in range(0, ticks, _REPORT_EVERY):
+        with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
+            for k in range(begin, min(begin + _REPORT_EVERY, ticks)):
+                run.states[k], run.torques[k] = x, torque
+                measured = run.measured[k] = quantised(x[:n], resolution)
+                x = advance(x, torque)
+                inertia = felt_inertia(mass(measured).reshape(n, n), plant.driven)
+                command = reference.q[k], reference.qd[k], reference.qdd[k]
+                state, torque = control(gains, state, inertia, measured, command)
+        _check_kept(plant, reference, limits, begin, run.states[begin : k + 1, :n])
+        if progress is not None:
+            progress((k + 1) / ticks)
     return run
 
 
@@ -129,15 +129,18 @@ def _holding_torque(plant: Plant, gains: Gains, x: np.ndarray) -> np.ndarray:
 
 
 def _check_kept(
-    plant: Plant, reference: Reference, widths: np.ndarray, k: int, q: np.ndarray
+    plant: Plant, reference: Reference, limits: tuple[Limits, ...], begin: int, q: np.ndarray
 ) -> None:
-    error = np.where(plant.driven, np.abs(q - reference.q[k]) / widths, 0.0)
-    if not np.all(np.isfinite(q)) or np.max(error) > _LOST:
-        joint = plant.joints[int(np.argmax(np.where(np.isfinite(error), error, np.inf)))]
+    """Nothing, if the driven joints are near their commands in the samples from `begin` on."""
+    widths = np.array([limit.upper - limit.lower for limit in limits])
+    error = np.abs(q - reference.q[begin : begin + len(q)]) / widths
+    lost = ~(error <= _LOST) & plant.driven | ~np.isfinite(q)
+    if np.any(lost):
+        sample, joint = np.argwhere(lost)[0]
         raise DataError(
-            f"simulation: the controller lost joint {joint} at {reference.time[k]:.3f} s; expected "
-            "it to stay within its range; lower the bandwidth or the speed limits, or raise the "
-            "torque limit"
+            f"simulation: the controller lost joint {plant.joints[joint]} at "
+            f"{reference.time[begin + sample]:.3f} s; expected it to stay within half its range "
+            "of the command; lower the speed limits or the bandwidth, or raise the torque limit"
         )
 
 

@@ -61,9 +61,15 @@ def _effect_columns(robot: Robot, row: int, joint: Joint) -> list[StandardColumn
                 shaft = _shaft(robot, joint, effect.coupled)
                 found.append(
                     StandardColumn(
-                        column.prefix + joint.name, row, column.prefix, unit, column.kind,
-                        effect.id, column, shaft,
-                    )  # fmt: skip
+                        column.prefix + joint.name,
+                        row,
+                        column.prefix,
+                        unit,
+                        column.kind,
+                        effect.id,
+                        column,
+                        shaft,
+                    )
                 )
     return found
 

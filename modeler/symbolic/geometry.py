@@ -81,8 +81,8 @@ class Geometry:
 def cos_sin(angle: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     """Cosine and sine of a constant angle: exact 0 and +-1 at right angles, else left standing.
 
-    They are not turned into radicals: cos(pi/3) and sin(pi/3) stay a point of the unit circle, which
-    is all that grouping has to know of them.
+    They are not turned into radicals: cos(pi/3) and sin(pi/3) stay a point of the unit circle,
+    which is all that grouping has to know of them.
     """
     quarters = angle / (sympy.pi / 2)
     if quarters.is_Integer:

@@ -9,7 +9,6 @@ from modeler.symbolic.kinematics import Pose, cross, plus, times
 from modeler.symbolic.newton_euler import _INERTIA
 
 
-
 class Composite:
     """Mass, first moments and inertia (at its frame's origin) of a link and all that it carries."""
 
@@ -21,7 +20,7 @@ class Composite:
     def carry(self, other: "Composite", frame: Pose) -> None:
         """Add what hangs on `frame`, moved to this link's frame.
 
-        J = R J R^T + [p x]^T terms: with S = R MS, J += 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T).
+        J += R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T) with S = R MS.
         """
         p, S = frame.p, frame.to_antecedent(other.MS)
         half = [frame.to_antecedent(line) for line in other.J]
@@ -77,11 +76,15 @@ def _fill(
     assert row.index is not None
     z = [axis * row.rate for axis in (0, 0, 1)]
     if row.joint.angular:
-        f, n = [row.rate * x for x in (-link.MS[1], link.MS[0], 0 * link.M)], [
-            line[2] * row.rate for line in link.J
-        ]
+        f, n = (
+            [row.rate * x for x in (-link.MS[1], link.MS[0], 0 * link.M)],
+            [line[2] * row.rate for line in link.J],
+        )
     else:
-        f, n = [link.M * x for x in z], [row.rate * x for x in (link.MS[1], -link.MS[0], 0 * link.M)]
+        f, n = (
+            [link.M * x for x in z],
+            [row.rate * x for x in (link.MS[1], -link.MS[0], 0 * link.M)],
+        )
     for at in geometry.ancestors(k):
         other = geometry.rows[at]
         if other.index is not None:

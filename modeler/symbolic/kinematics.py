@@ -127,9 +127,7 @@ def screws(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list
         if row.parent is not None:
             for index, screw in found[row.parent].items():
                 moved = plus(screw.m, cross(screw.e, frames[k].p))
-                carried[index] = Screw(
-                    frames[k].to_link(screw.e), frames[k].to_link(moved)
-                )
+                carried[index] = Screw(frames[k].to_link(screw.e), frames[k].to_link(moved))
         if row.index is not None:
             axis = [x * row.rate for x in unit_z(algebra)]
             nothing = [zero, zero, zero]
@@ -139,9 +137,7 @@ def screws(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list
     return found
 
 
-def gravity_in_frames(
-    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
-) -> list[Vector]:
+def gravity_in_frames(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list[Vector]:
     """Acceleration of gravity in every frame."""
     base = [algebra.static(entry) for entry in geometry.gravity]
     found: list[Vector] = []

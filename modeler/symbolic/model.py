@@ -60,7 +60,9 @@ class SymbolicModel:
     def _gravity(self) -> list[Expr]:
         return [self.algebra.static(entry) for entry in self.geometry.gravity]
 
-    def _motions(self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: Sequence[Expr]) -> list[Motion]:
+    def _motions(
+        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: Sequence[Expr]
+    ) -> list[Motion]:
         state = State(qd, qdd, list(gravity))
         return motions(self.geometry, self.frames, state, self.algebra)
 

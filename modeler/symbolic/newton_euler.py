@@ -79,7 +79,8 @@ def _U(w: Vector, wd: Vector) -> list[Vector]:
 def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     """(force, moment at the origin) that one unit of each inertial parameter needs, in its frame.
 
-    f = M vd + U MS,  n = J wd + w x (J w) + MS x vd,  J = [[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]].
+    f = M vd + U MS and n = J wd + w x (J w) + MS x vd, where
+    J = [[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]].
     """
     w, wd, vd, U = motion.w, motion.wd, motion.vd, motion.U
     zero = 0 * vd[0]
@@ -148,9 +149,7 @@ def link_wrench(
     """Force and moment at the origin that a link needs: Newton and Euler."""
     J = [[parameters.get(name, zero) for name in line] for line in _INERTIA]
     MS = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
-    f = plus(
-        times(parameters.get("M", zero), motion.vd), [dot(line, MS) for line in motion.U]
-    )
+    f = plus(times(parameters.get("M", zero), motion.vd), [dot(line, MS) for line in motion.U])
     Jw = [dot(line, motion.w) for line in J]
     n = plus([dot(line, motion.wd) for line in J], cross(motion.w, Jw))
     return f, plus(n, cross(MS, motion.vd))

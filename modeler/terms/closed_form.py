@@ -47,7 +47,8 @@ class ClosedForm:
 
     Attributes:
         robot: its description.
-        parameters: names of all standard parameters, by column.
+        parameters: names of the parameters by column: the standard ones, or the base parameters at
+            the columns that they have.
         algebra: the generators of the functions.
         gravity_factor: name of the letter taken out of all gravity functions, "" if there is none:
             the gravity torque of joint i is that letter times g_i.
@@ -77,7 +78,8 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     Per function and per joint, either squares of the sine or squares of the cosine are eliminated,
     whichever leaves fewer monomials; where both leave as many, squares of cosines are kept. All
     choices are tried for up to four joints, beyond that one joint after the other. A robot file may
-    fix the choice (`[terms] keep_sine_squares`).
+    fix the choice: the functions of `[terms] keep_sine_squares` keep squares of sines, all others
+    squares of cosines.
 
     Args:
         model: any serial or tree-structured robot.
@@ -102,7 +104,10 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
         functions += _functions(letter, names, entries, algebra, keep)
     _check_names(model.robot, keep, functions)
     letter = str(algebra.ring.symbols[factor]) if factor is not None else ""
-    return ClosedForm(model.robot, model.names, algebra, letter, tuple(functions))
+    parameters = list(model.names)
+    for parameter in base.parameters if base is not None else ():
+        parameters[parameter.column] = parameter.name
+    return ClosedForm(model.robot, tuple(parameters), algebra, letter, tuple(functions))
 
 
 def function_name(letter: str, joints: Sequence[str]) -> str:
@@ -111,7 +116,7 @@ def function_name(letter: str, joints: Sequence[str]) -> str:
 
 
 def _functions(
-    letter: str, names: Sequence[str], entries: Entries, algebra: TrigRing, keep: frozenset[str]
+    letter: str, names: Sequence[str], entries: Entries, algebra: TrigRing, keep: frozenset[str] | None
 ) -> list[Function]:
     return [_function(letter, names, at, entry, algebra, keep) for at, entry in entries.items()]
 
@@ -122,11 +127,14 @@ def _function(
     at: tuple[int, ...],
     entry: Form,
     algebra: TrigRing,
-    keep: frozenset[str],
+    keep: frozenset[str] | None,
 ) -> Function:
     name = function_name(letter, [names[i] for i in at])
-    fewest = _all_sines(entry, algebra) if name in keep else _fewest(entry, algebra)
-    terms = collect(fewest, algebra)
+    if keep is None:
+        entry = _fewest(entry, algebra)
+    elif name in keep:
+        entry = _all_sines(entry, algebra)
+    terms = collect(entry, algebra)
     order = sorted(terms, reverse=True)
     return Function(name, KINDS[letter], at, {exponents: terms[exponents] for exponents in order})
 
@@ -196,8 +204,10 @@ def _divided(entry: Form, place: int | None, algebra: TrigRing) -> Form:
     return {column: poly.exquo(algebra.ring.gens[place]) for column, poly in entry.items()}
 
 
-def _kept_by_paper(robot: Robot) -> frozenset[str]:
-    names = robot.terms.get("keep_sine_squares", [])
+def _kept_by_paper(robot: Robot) -> frozenset[str] | None:
+    names = robot.terms.get("keep_sine_squares")
+    if names is None:
+        return None
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise RobotError(
             f'robot {robot.name}, [terms], keep_sine_squares: got {names!r}; expected a list of '
@@ -206,9 +216,9 @@ def _kept_by_paper(robot: Robot) -> frozenset[str]:
     return frozenset(names)
 
 
-def _check_names(robot: Robot, keep: frozenset[str], functions: Sequence[Function]) -> None:
+def _check_names(robot: Robot, keep: frozenset[str] | None, functions: Sequence[Function]) -> None:
     known = [function.name for function in functions]
-    for name in sorted(keep - set(known)):
+    for name in sorted((keep or set()) - set(known)):
         raise RobotError(
             f"robot {robot.name}, [terms], keep_sine_squares: got {name}, which is zero or no "
             f"function of this robot; expected names among {', '.join(known)}"

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
@@ -17,6 +18,9 @@ from modeler.symbolic import SymbolicModel
 from modeler.terms.ring import Poly, TrigRing
 
 
+_GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
+
+
 @dataclass(frozen=True)
 class PhysicalParameters:
     """What a workshop would measure.
@@ -24,7 +28,7 @@ class PhysicalParameters:
     Attributes:
         ring: letters of the links, then the generators of the geometry.
         letters: names of the physical parameters in order: per link mass, mass centre, inertia
-            about the mass centre, rotor inertia; then the letters of the geometry, gravity left out.
+            about the mass centre, rotor inertia; then lengths and angles, gravity left out.
         masses: those letters that stand alone as the mass of a link.
         standard: {column: the standard parameter as a polynomial}.
     """
@@ -45,6 +49,14 @@ class PhysicalParameters:
         for column, factor in form.items():
             total = total + self.lifted(factor) * self.standard[column]
         return total
+
+    def derivative(self, poly: Poly, letter: str) -> Poly:
+        """D poly / d letter; that of an angle by its cosine and sine."""
+        places = {name: x for name, x in zip(self.names, self.ring.gens, strict=True)}
+        if letter in places:
+            return poly.diff(places[letter])
+        c, s = places[f"cos({letter})"], places[f"sin({letter})"]
+        return c * poly.diff(s) - s * poly.diff(c)
 
     def lifted(self, factor: Poly) -> Poly:
         """A polynomial of the geometry in this ring."""
@@ -74,7 +86,7 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     standard = _standard(model, links, _Reader(model, ring, zeros))
     masses = [x.mass.text for x in links.values() if x.mass.text in letters]
     gravity = _gravity_only(algebra)
-    lengths = [str(atom) for atom in algebra.static_atoms if str(atom) not in gravity]
+    lengths = [name for name in _lengths(algebra) if name not in gravity]
     return PhysicalParameters(ring, tuple(letters + lengths), tuple(masses), standard)
 
 
@@ -82,11 +94,15 @@ def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
     found = model.robot.physical.get(joint.name)
     if found is not None:
         return found
-    x, y, z = (parse(f"c{axis}{joint.name}") for axis in "xyz")
-    inertia = tuple(
-        parse(f"I{axes}{joint.name}") for axes in ("xx", "xy", "xz", "yy", "yz", "zz")
-    )
-    return PhysicalLink(parse(f"m{joint.name}"), (x, y, z), inertia)
+    mass, x, y, z, *inertia = (parse(f"{letter}{joint.name}") for letter in _GENERIC)
+    for entry in (mass, x, y, z, *inertia):
+        if entry.text in model.robot.symbols:
+            raise RobotError(
+                f"robot {model.robot.name}: the symbol {entry.text} is also the name of a physical "
+                f"parameter of link {joint.name}; rename it in [symbols], or give the link's "
+                f"letters in [physical.{joint.name}]"
+            )
+    return PhysicalLink(mass, (x, y, z), tuple(inertia))
 
 
 def _entries(link: PhysicalLink) -> Iterator[Expression]:
@@ -108,6 +124,17 @@ def _letters(links: Any) -> list[str]:
 def _zero_symbols(model: SymbolicModel) -> frozenset[str]:
     values = model.robot.symbol_values()
     return frozenset(name for name, value in values.items() if value == 0.0)
+
+
+def _lengths(algebra: TrigRing) -> list[str]:
+    """Letters of the geometry; an angle stands for its cosine and sine."""
+    found: dict[str, None] = {}
+    for atom in algebra.static_atoms:
+        if atom.is_Symbol and atom.name != "pi":
+            found.setdefault(atom.name)
+        elif isinstance(atom, sympy.cos) and atom.free_symbols:
+            found.setdefault(str(atom.args[0]))
+    return list(found)
 
 
 def _gravity_only(algebra: TrigRing) -> frozenset[str]:

@@ -70,8 +70,8 @@ class StandIn:
         self._all = list(range(len(names)))
         q, qd, qdd = random.uniform(-3, 3, (3, 40 * n, n))
         W = self.regressor(q, qd, qdd).reshape(-1, len(names))
-        W = W / np.maximum(np.linalg.norm(W, axis=0), 1e-300)
-        # Keep first what stands last in the table: friction, then distal links.
+        length = np.linalg.norm(W, axis=0)
+        W = W / np.where(length > 1e-9, length, np.inf)
         R = np.linalg.qr(W, mode="r")
         kept = [k for k in range(len(names)) if abs(R[k, k]) > 1e-9]
         self.kept = kept
@@ -95,57 +95,55 @@ class StandIn:
     def regressor(self, q, qd, qdd):
         n, J = q.shape
         out = np.zeros((n, J, len(self.names)))
-        wrench = [None] * J
-        w = wd = np.zeros((n, 3))
-        a = np.tile(-np.asarray(self.gravity), (n, 1))
-        frames = []
-        z = np.array([0.0, 0.0, 1.0])
-        for j, row in enumerate(self.rows):
-            th = row.theta + (q[:, j] if row.sigma == 0 else 0.0) + np.zeros(n)
-            r = row.r + (q[:, j] if row.sigma == 1 else 0.0) + np.zeros(n)
-            ca, sa, c, s = np.cos(row.alpha), np.sin(row.alpha), np.cos(th), np.sin(th)
-            o = np.zeros(n)
-            R = np.stack([np.stack([c, -s, o], -1), np.stack([ca * s, ca * c, o - sa], -1),
-                          np.stack([sa * s, sa * c, o + ca], -1)], -2)  # fmt: skip
-            P = np.stack([o + row.d, -r * sa, r * ca], -1)
-            down = np.swapaxes(R, -1, -2)
-            a = a + np.cross(wd, P) + np.cross(w, np.cross(w, P))
-            a = np.einsum("nij,nj->ni", down, a)
-            w = np.einsum("nij,nj->ni", down, w)
-            wd = np.einsum("nij,nj->ni", down, wd)
-            if row.sigma == 0:
-                wd = wd + z * qdd[:, j : j + 1] + np.cross(w, z * qd[:, j : j + 1])
-                w = w + z * qd[:, j : j + 1]
-            else:
-                a = a + z * qdd[:, j : j + 1] + 2 * np.cross(w, z * qd[:, j : j + 1])
-            frames.append((R, P))
-            X = np.zeros((n, 6, 10))  # force, moment at the origin of frame j
-            X[:, :3, 6:9] = skew(wd) + skew(w) @ skew(w)
-            X[:, :3, 9] = a
-            X[:, 3:, :6] = inertia_columns(wd) + skew(w) @ inertia_columns(w)
-            X[:, 3:, 6:9] = -skew(a)
-            wrench[j] = X
+        frames, wrenches = self.wrenches(q, qd, qdd)
         column = {name: k for k, name in enumerate(self.names)}
         for j in range(J):
-            X = wrench[j]
+            X = wrenches[j]
             for i in range(j, -1, -1):
-                row = self.rows[i]
                 k = column[f"XX{j + 1}"]
-                out[:, i, k : k + 10] = X[:, 5] if row.sigma == 0 else X[:, 2]
+                out[:, i, k : k + 10] = X[:, 5] if self.rows[i].sigma == 0 else X[:, 2]
                 R, P = frames[i]
                 f = R @ X[:, :3]
                 X = np.concatenate([f, R @ X[:, 3:] + skew(P) @ f], axis=1)
-            if self.rotor:
-                out[:, j, column[f"Ia{j + 1}"]] = qdd[:, j]
-            if self.friction:
-                out[:, j, column[f"Fv{j + 1}"]] = qd[:, j]
-                out[:, j, column[f"Fs{j + 1}"]] = np.sign(qd[:, j])
-                out[:, j, column[f"Off{j + 1}"]] = 1.0
+            own = {"Ia": qdd[:, j], "Fv": qd[:, j], "Fs": np.sign(qd[:, j]), "Off": 1.0}
+            for prefix, values in own.items():
+                if f"{prefix}{j + 1}" in column:
+                    out[:, j, column[f"{prefix}{j + 1}"]] = values
         for j, E in self.coupling.items():
             E = np.asarray(E)
             for name, v in (("Iam", qdd @ E), ("Fvm", qd @ E), ("Fsm", np.sign(qd @ E))):
                 out[:, :, column[f"{name}{j + 1}"]] = v[:, None] * E
         return out
+
+    def wrenches(self, q, qd, qdd):
+        """(rotation, position) of each frame in its antecedent, and (n, 6, 10) force and moment."""
+        n, J = q.shape
+        w = wd = np.zeros((n, 3))
+        a = np.tile(-np.asarray(self.gravity), (n, 1))
+        z, o = np.array([0.0, 0.0, 1.0]), np.zeros(n)
+        frames, wrenches = [], []
+        for j, row in enumerate(self.rows):
+            th = row.theta + (q[:, j] if row.sigma == 0 else o)
+            r = row.r + (q[:, j] if row.sigma == 1 else o)
+            ca, sa, c, s = np.cos(row.alpha), np.sin(row.alpha), np.cos(th), np.sin(th)
+            R = np.stack([np.stack([c, -s, o], -1), np.stack([ca * s, ca * c, o - sa], -1),
+                          np.stack([sa * s, sa * c, o + ca], -1)], -2)  # fmt: skip
+            P = np.stack([o + row.d, -r * sa, r * ca], -1)
+            a = a + np.cross(wd, P) + np.cross(w, np.cross(w, P))
+            a, w, wd = (np.einsum("nji,nj->ni", R, v) for v in (a, w, wd))
+            if row.sigma == 0:
+                wd = wd + z * qdd[:, j : j + 1] + np.cross(w, z * qd[:, j : j + 1])
+                w = w + z * qd[:, j : j + 1]
+            else:
+                a = a + z * qdd[:, j : j + 1] + 2 * np.cross(w, z * qd[:, j : j + 1])
+            X = np.zeros((n, 6, 10))
+            X[:, :3, 6:9] = skew(wd) + skew(w) @ skew(w)
+            X[:, :3, 9] = a
+            X[:, 3:, :6] = inertia_columns(wd) + skew(w) @ inertia_columns(w)
+            X[:, 3:, 6:9] = -skew(a)
+            frames.append((R, P))
+            wrenches.append(X)
+        return frames, wrenches
 
     def base_regressor(self, q, qd, qdd):
         return self.regressor(q, qd, qdd)[:, :, self.kept]

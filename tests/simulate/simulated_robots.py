@@ -2,6 +2,7 @@
 
 import numpy as np
 import pinocchio as pin
+
 from modeler.robot import Robot, robot_from_text
 from modeler.simulate import PlantParameters
 

@@ -5,11 +5,12 @@ import dataclasses
 import numpy as np
 import pinocchio as pin
 import pytest
+from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
+
 from modeler.core.errors import RobotError
 from modeler.robot import EffectUse, Robot
 from modeler.simulate import PlantParameters, motion_limits, plant_parameters
 from modeler.simulate.plant import Plant, build_plant
-from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
 
 FRICTION = "Fv1 = 0.5\nFs1 = 0.7\nOff1 = -0.2\n"
 

@@ -4,6 +4,8 @@ import dataclasses
 
 import numpy as np
 import pytest
+from simulated_robots import ARM, PENDULUM, SIX, TREE, robot
+
 from modeler.core.errors import RobotError
 from modeler.robot import INERTIAL, Limits, builtin_names, read_robot
 from modeler.simulate import motion_limits, plant_parameters
@@ -14,7 +16,6 @@ from modeler.simulate.body import (
     standard_from_body,
     standard_from_pseudo_inertia,
 )
-from simulated_robots import ARM, PENDULUM, SIX, TREE, robot
 
 
 def cloud(seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -155,5 +156,5 @@ def test_limits():
         motion_limits(source, {"1": Limits(1, 1, 1, 1)})
     with pytest.raises(RobotError, match=r"joint 1: got speed 0, .*expected both above 0"):
         motion_limits(source, {"1": Limits(0, 1, 0, 1)})
-    with pytest.raises(RobotError, match="joint 1: .*expected finite numbers"):
+    with pytest.raises(RobotError, match=r"joint 1: .*expected finite numbers"):
         motion_limits(source, {"1": Limits(0, float("inf"), 1, 1)})

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from modeler.core.errors import DataError
 from modeler.robot import Limits
 from modeler.simulate.trajectory import exciting_reference

@@ -1,0 +1,15 @@
+"""Estimates of the base parameters, their certainty, and the model file."""
+
+from modeler.fit.essential import Essential as Essential
+from modeler.fit.identify import identify as identify
+from modeler.fit.least_squares import Method as Method
+from modeler.fit.model_file import IdentifiedModel as IdentifiedModel
+from modeler.fit.model_file import LogProvenance as LogProvenance
+from modeler.fit.model_file import load_model as load_model
+from modeler.fit.model_file import provenance as provenance
+from modeler.fit.model_file import save_model as save_model
+from modeler.fit.payload import Payload as Payload
+from modeler.fit.payload import identify_with_payloads as identify_with_payloads
+from modeler.fit.result import FitResult as FitResult
+from modeler.fit.result import JointFit as JointFit
+from modeler.fit.result import ParameterEstimate as ParameterEstimate

@@ -1,0 +1,145 @@
+"""Runs with a load on a link: its inertial parameters beside those of the robot."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.fit.identify import fit_columns
+from modeler.fit.least_squares import Method
+from modeler.fit.result import FitResult
+from modeler.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+_ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
+"""Where two load parameters cannot be told apart, the first in this order stays."""
+
+_TOLERANCE = 1e-8  # what is left of a column, as a share of its length, counts as zero
+
+
+@dataclass(frozen=True)
+class Payload:
+    """A load that is fixed on a link during some logs.
+
+    Attributes:
+        logs: names of those logs (`Log.name`).
+        link: row of the table; None: the last joint's link.
+        mass: kg, if it is known; its weight and inertia go to the side of the measurement.
+        name: suffix of its parameters.
+    """
+
+    logs: tuple[str, ...]
+    link: str | None = None
+    mass: float | None = None
+    name: str = "load"
+
+
+def identify_with_payloads(
+    model: "CompiledModel",
+    observation: Observation,
+    payloads: Sequence[Payload],
+    method: Method = "weighted",
+) -> FitResult:
+    """The fit of robot and loads together: y - m w_M = W beta + W_L chi_L.
+
+    W_L holds the ten standard inertial columns of the link on the rows of the loaded logs, zero on
+    the others, reduced to those that base and other load columns do not reproduce (Khalil, Gautier
+    and Lemoine 2007). The result's `parameters` are the bare robot, `loads` the loads.
+
+    Args:
+        model: the compiled robot.
+        observation: of loaded and unloaded logs together.
+        payloads: which logs carry what.
+        method: as for `identify`.
+
+    Raises:
+        DataError: a log or link that is not there, every log loaded, a mass that is not positive.
+    """
+    _check(model, observation, payloads)
+    base, y = observation.W, observation.y.copy()
+    names, units = list(observation.names), list(observation.units)
+    found: list[np.ndarray] = []
+    said: list[str] = []
+    for payload in payloads:
+        link = payload.link or model.spec.joints[-1].name
+        columns, labels, unit = _load_columns(model, observation, payload, link)
+        if payload.mass is not None:
+            y -= payload.mass * columns[:, labels.index("M")]
+            columns, labels, unit = columns[:, 1:], labels[1:], unit[1:]
+        kept = _independent(np.column_stack([base, *found]), columns)
+        gone = [f"{label}{link}" for i, label in enumerate(labels) if i not in kept]
+        if gone:
+            said.append(
+                f"{payload.name}: {', '.join(gone)} of the load cannot be told from the others "
+                "and are grouped with them"
+            )
+        found.append(columns[:, kept])
+        names += [f"{labels[i]}{link}_{payload.name}" for i in kept]
+        units += [unit[i] for i in kept]
+    W = np.column_stack([base, *found])
+    return fit_columns(observation, W, y, names, units, method, said)
+
+
+def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:
+    loaded: set[str] = set()
+    links = {parameter.joint for parameter in model.spec.standard}
+    for payload in payloads:
+        unknown = [name for name in payload.logs if name not in observation.logs]
+        if unknown or not payload.logs:
+            raise DataError(
+                f"payload {payload.name}: no log {unknown[0] if unknown else 'is named'}; there "
+                f"are {', '.join(observation.logs)}"
+            )
+        if payload.link is not None and payload.link not in links:
+            raise DataError(
+                f"payload {payload.name}: no link {payload.link}; {model.spec.robot} has "
+                f"{', '.join(sorted(links))}"
+            )
+        if payload.mass is not None and not payload.mass > 0.0:
+            raise DataError(f"payload {payload.name}: mass {payload.mass} kg; expected above 0")
+        loaded |= set(payload.logs)
+    if len({payload.name for payload in payloads}) < len(payloads):
+        raise DataError("two payloads have the same name; give each its own")
+    if loaded >= set(observation.logs):
+        raise DataError(
+            "every log carries a load, so it cannot be told from the last link; add a log of the "
+            "bare robot"
+        )
+
+
+def _load_columns(
+    model: "CompiledModel", observation: Observation, payload: Payload, link: str
+) -> tuple[np.ndarray, list[str], list[str]]:
+    """(rows, 10) columns, zero on the other logs; their letters; their units."""
+    place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
+    labels = [label for label in _ORDER if f"{label}{link}" in place]
+    columns = [place[f"{label}{link}"] for label in labels]
+    runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
+    everywhere = observation.filtered(
+        lambda s, w: model.regressor(s.q[w], s.qd[w], s.qdd[w])[:, :, columns]
+    )
+    rows = everywhere[observation.used]
+    rows[~np.isin(observation.row_run, runs)] = 0.0
+    return rows, labels, [model.spec.standard[i].unit for i in columns]
+
+
+def _independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
+    """Indices of the columns that neither `base` nor earlier columns reproduce."""
+    lengths = np.linalg.norm(base, axis=0)
+    basis = np.linalg.qr(base[:, lengths > 0.0] / lengths[lengths > 0.0])[0]
+    kept: list[int] = []
+    for i in range(columns.shape[1]):
+        length = np.linalg.norm(columns[:, i])
+        if length == 0.0:
+            continue
+        rest = columns[:, i] / length
+        for _ in range(2):  # Gram and Schmidt twice: once is not enough beside a long basis
+            rest = rest - basis @ (basis.T @ rest)
+        if np.linalg.norm(rest) > _TOLERANCE:
+            kept.append(i)
+            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
+    return kept

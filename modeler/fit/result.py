@@ -1,0 +1,210 @@
+"""What a fit hands back: values, how sure they are, and how much they leave unexplained."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import ManifestError
+from modeler.observation import Processing, processing_from_json
+
+
+@dataclass(frozen=True)
+class ParameterEstimate:
+    """One estimated parameter.
+
+    Attributes:
+        name: base parameter, or load parameter.
+        unit: SI.
+        value: 0 if it was set aside.
+        sigma: standard deviation; None if it was set aside.
+        essential: False if the model does as well without it.
+        status: "estimated" | "set aside".
+    """
+
+    name: str
+    unit: str
+    value: float
+    sigma: float | None
+    essential: bool
+    status: str
+
+    @property
+    def relative_sigma_percent(self) -> float | None:
+        """100 sigma / |value|; None where that means nothing."""
+        if self.sigma is None or self.value == 0.0:
+            return None
+        return 100.0 * self.sigma / abs(self.value)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "name": self.name,
+            "value": self.value,
+            "sigma": self.sigma,
+            "relative_sigma_percent": self.relative_sigma_percent,
+            "essential": self.essential,
+            "unit": self.unit,
+            "status": self.status,
+        }
+
+
+@dataclass(frozen=True)
+class JointFit:
+    """One joint.
+
+    Attributes:
+        name: joint.
+        unit: "N m" or "N".
+        rows: used.
+        relative_error: ||tau - W chi|| / ||tau||, filtered; None without rows or torque.
+        rms: of the residual.
+        sigma: standard deviation of its rows, the inverse of their weight.
+    """
+
+    name: str
+    unit: str
+    rows: int
+    relative_error: float | None
+    rms: float
+    sigma: float
+
+
+@dataclass(frozen=True, eq=False)
+class FitResult:
+    """A fitted model.
+
+    Attributes:
+        robot: name.
+        method: "ordinary" | "weighted".
+        status: "ok" | "rank deficient" | "not settled".
+        samples: after decimation.
+        rows: of W.
+        condition_number: of W, parameters set aside left out.
+        condition_scaled: with columns of length one.
+        relative_error: ||y - W beta|| / ||y||, after the same filter on both sides.
+        essential_error: the same with the essential parameters only.
+        joints: in the order of the manifest.
+        parameters: (c,) base parameters in the order of the manifest.
+        covariance: (c, c) of their values; 0 for those set aside.
+        loads: parameters of payloads, named `M6_load`; empty without payloads.
+        sentences: what a reader must know, plain text.
+        processing: with all choices filled in; use it for held-out logs.
+    """
+
+    robot: str
+    method: str
+    status: str
+    samples: int
+    rows: int
+    condition_number: float
+    condition_scaled: float
+    relative_error: float
+    essential_error: float
+    joints: tuple[JointFit, ...]
+    parameters: tuple[ParameterEstimate, ...]
+    covariance: np.ndarray
+    loads: tuple[ParameterEstimate, ...]
+    sentences: tuple[str, ...]
+    processing: Processing
+
+    @property
+    def beta(self) -> np.ndarray:
+        """(c,) values of the base parameters, manifest order, SI units."""
+        return np.array([parameter.value for parameter in self.parameters])
+
+    def summary(self) -> list[str]:
+        """Lines of text: parameters, joints, remarks."""
+        width = max([9, *(len(p.name) for p in (*self.parameters, *self.loads))])
+        lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}  unit"]
+        for parameter in (*self.parameters, *self.loads):
+            if parameter.sigma is None:
+                lines.append(f"{parameter.name:<{width}} {'set aside':>13}")
+                continue
+            share = parameter.relative_sigma_percent
+            percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
+            mark = "" if parameter.essential else "  (not essential)"
+            lines.append(
+                f"{parameter.name:<{width}} {parameter.value:>13.6g} {parameter.sigma:>10.3g} "
+                f"{percent:>8}  {parameter.unit}{mark}"
+            )
+        lines += [
+            f"{self.rows} rows of {self.samples} samples, condition number "
+            f"{self.condition_number:.4g} ({self.condition_scaled:.4g} with columns of length one)",
+            f"relative error {100.0 * self.relative_error:.3f} %",
+        ]
+        for joint in self.joints:
+            error = joint.relative_error
+            share_text = "-" if error is None else f"{100.0 * error:.2f} %"
+            lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
+        return lines + list(self.sentences)
+
+    def to_json(self) -> dict[str, Any]:
+        """The `fit` object that scripts read; numbers that mean nothing are null."""
+        return {
+            "robot": self.robot,
+            "method": self.method,
+            "status": self.status,
+            "samples": self.samples,
+            "rows": self.rows,
+            "condition_number": _finite(self.condition_number),
+            "condition_scaled": _finite(self.condition_scaled),
+            "relative_error": self.relative_error,
+            "essential_error": self.essential_error,
+            "joints": {
+                joint.name: {
+                    "relative_error": joint.relative_error,
+                    "rms": joint.rms,
+                    "sigma": joint.sigma,
+                    "rows": joint.rows,
+                    "unit": joint.unit,
+                }
+                for joint in self.joints
+            },
+            "parameters": [parameter.to_json() for parameter in self.parameters],
+            "loads": [parameter.to_json() for parameter in self.loads],
+            "sentences": list(self.sentences),
+            "processing": self.processing.to_json(),
+        }
+
+
+def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
+    """Read `FitResult.to_json` back; the covariance is stored beside it.
+
+    Raises:
+        ManifestError: an entry is missing or of the wrong kind; names it.
+    """
+    try:
+        return FitResult(
+            robot=raw["robot"],
+            method=raw["method"],
+            status=raw["status"],
+            samples=int(raw["samples"]),
+            rows=int(raw["rows"]),
+            condition_number=_number(raw["condition_number"]),
+            condition_scaled=_number(raw["condition_scaled"]),
+            relative_error=float(raw["relative_error"]),
+            essential_error=float(raw["essential_error"]),
+            joints=tuple(JointFit(name=name, **entry) for name, entry in raw["joints"].items()),
+            parameters=tuple(_parameter(entry) for entry in raw["parameters"]),
+            covariance=covariance,
+            loads=tuple(_parameter(entry) for entry in raw["loads"]),
+            sentences=tuple(raw["sentences"]),
+            processing=processing_from_json(raw["processing"]),
+        )
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
+
+
+def _parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
+    fields = {k: v for k, v in entry.items() if k != "relative_sigma_percent"}
+    return ParameterEstimate(**fields)
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _number(value: float | None) -> float:
+    return float("inf") if value is None else float(value)

@@ -1,0 +1,228 @@
+"""Every coefficient of every monomial: its name, what it is made of, how it depends on others."""
+
+import random
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from modeler.base import BaseParameters
+from modeler.core.errors import RobotError
+from modeler.symbolic import SymbolicModel
+from modeler.terms.closed_form import ClosedForm, Exponents, Form, Function, closed_form
+from modeler.terms.identifiability import (
+    SEED,
+    Identifiability,
+    identifiability,
+    random_point,
+    value_modulo,
+)
+from modeler.terms.physical import PhysicalParameters, physical_parameters
+from modeler.terms.printed import Print, read_print
+from modeler.terms.relations import BaseMap, Elimination, Relations, base_map, relations
+from modeler.terms.ring import Poly, TrigRing
+from modeler.terms.text import monomial_text
+
+PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """Factor of one monomial of one function.
+
+    Attributes:
+        name: "PG1", "PJ7", "PS40"; another prefix for those that a paper lacks.
+        function: "S213".
+        exponents: of the motion generators.
+        monomial: the same as text, "c3**2*s2".
+        standard: {column of a standard parameter: factor}.
+        base: {index of a base parameter: factor}.
+        physical: polynomial of masses, mass centres, inertias, lengths.
+    """
+
+    name: str
+    function: str
+    exponents: Exponents
+    monomial: str
+    standard: Form
+    base: Form
+    physical: Poly
+
+
+@dataclass(frozen=True)
+class CoefficientTable:
+    """The coefficients of a robot's closed form.
+
+    Attributes:
+        closed: the functions.
+        physical: the physical parameters.
+        base: base parameters.
+        printed: what the robot file says of a paper.
+        coefficients: in order of names; those that the paper lacks last.
+        relations: over Q, all lengths unknown.
+        known_geometry: names of coefficients that stay independent when the geometry is known,
+            first come first kept; generic lengths.
+        identifiability: of the physical parameters.
+        map: from base parameters to `known_geometry`.
+    """
+
+    closed: ClosedForm
+    physical: PhysicalParameters
+    base: BaseParameters
+    printed: Print
+    coefficients: tuple[Coefficient, ...]
+    relations: Relations
+    known_geometry: tuple[str, ...]
+    identifiability: Identifiability
+    map: BaseMap
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Coefficient]:
+        """Coefficients by name."""
+        return {coefficient.name: coefficient for coefficient in self.coefficients}
+
+    @cached_property
+    def name_at(self) -> Mapping[tuple[str, Exponents], str]:
+        """Name of the coefficient of a monomial of a function."""
+        return {(c.function, c.exponents): c.name for c in self.coefficients}
+
+    @property
+    def base_names(self) -> tuple[str, ...]:
+        """Names of the base parameters."""
+        return tuple(parameter.name for parameter in self.base.parameters)
+
+
+def coefficient_table(model: SymbolicModel, base: BaseParameters) -> CoefficientTable:
+    """All coefficients of the closed form, named, defined and related.
+
+    Raises:
+        DerivationError: the robot has no closed form worth printing.
+        RobotError: `[terms]` or `[physical]` of the robot file is wrong.
+    """
+    printed = read_print(model.robot)
+    closed = closed_form(model)
+    physical = physical_parameters(model, closed.algebra)
+    names = _names(closed, printed)
+    motion = closed.algebra.names[: closed.algebra.moving]
+    coefficients = tuple(
+        _coefficient(name, at, closed.by_name[function], physical, base, motion)
+        for name, (function, at) in names
+    )
+    found = relations({c.name: vector_of(c.standard) for c in coefficients})
+    by_name = {c.name: c for c in coefficients}
+    known = _known_geometry(coefficients, closed.algebra)
+    return CoefficientTable(
+        closed,
+        physical,
+        base,
+        printed,
+        coefficients,
+        found,
+        known,
+        identifiability(physical, [by_name[name].physical for name in found.independent]),
+        base_map(
+            known,
+            [by_name[name].base for name in known],
+            [parameter.name for parameter in base.parameters],
+            closed.algebra.static_ring,
+        ),
+    )
+
+
+def vector_of(form: Form) -> dict[Any, Any]:
+    """A linear form over Q: {(parameter, exponents of the geometry): rational number}."""
+    return {(column, at): value for column, factor in form.items() for at, value in factor.items()}
+
+
+def _coefficient(
+    name: str,
+    at: Exponents,
+    function: Function,
+    physical: PhysicalParameters,
+    base: BaseParameters,
+    motion: tuple[str, ...],
+) -> Coefficient:
+    form = function.terms[at]
+    # phi chi = phi_b beta, where the columns phi_b are columns of phi: the factor of a base
+    # parameter is that of the standard parameter whose column it has.
+    grouped = {
+        k: form[parameter.column]
+        for k, parameter in enumerate(base.parameters)
+        if parameter.column in form
+    }
+    return Coefficient(
+        name, function.name, at, monomial_text(at, motion), form, grouped, physical.of(form)
+    )
+
+
+def _names(closed: ClosedForm, printed: Print) -> list[tuple[str, tuple[str, Exponents]]]:
+    """Names in order of the functions; monomials that the paper lacks at the end."""
+    orders = {name: _monomials(closed, name, cells) for name, cells in printed.monomials.items()}
+    counts = dict.fromkeys(PREFIX, 0)
+    named, missing = [], []
+    for function in closed.functions:
+        order = orders.get(function.name, ()) if orders else tuple(function.terms)
+        for at in order:
+            counts[function.kind] += 1
+            named.append((f"{PREFIX[function.kind]}{counts[function.kind]}", (function.name, at)))
+        missing += [(function.name, at) for at in function.terms if at not in order]
+    return named + [(f"{printed.missing}{i}", at) for i, at in enumerate(missing, start=1)]
+
+
+def _monomials(closed: ClosedForm, name: str, cells: tuple[Any, ...]) -> tuple[Exponents, ...]:
+    where = f"robot {closed.robot.name}, [terms], monomials, {name}"
+    function = closed.by_name.get(name)
+    if function is None:
+        raise RobotError(
+            f"{where}: no such function; the functions are {', '.join(closed.by_name)}"
+        )
+    algebra = closed.algebra
+    motion = algebra.names[: algebra.moving]
+    found = tuple(_exponents(cell, algebra) for cell in cells)
+    for cell, at in zip(cells, found, strict=True):
+        if at not in function.terms or found.count(at) > 1:
+            have = ", ".join(monomial_text(t, motion) for t in function.terms)
+            raise RobotError(f'{where}: got "{cell.text}"; expected each at most once: {have}')
+    return found
+
+
+def _exponents(cell: Any, algebra: TrigRing) -> Exponents | None:
+    """Exponents of a monomial; None if it is none."""
+    generators = dict(zip(algebra.names, algebra.ring.gens[: algebra.moving], strict=False))
+    try:
+        value = algebra.ring(cell.fold(generators, {}, None, _integer))
+    except (KeyError, ValueError, TypeError, ZeroDivisionError):
+        return None
+    if len(value) != 1 or value.LC != 1:
+        return None
+    return next(iter(value))[: algebra.moving]
+
+
+def _integer(value: Fraction) -> int:
+    if value.denominator != 1:
+        raise ValueError
+    return value.numerator
+
+
+def _known_geometry(
+    coefficients: tuple[Coefficient, ...], algebra: TrigRing
+) -> tuple[str, ...]:
+    names = [str(symbol) for symbol in algebra.static_ring.symbols]
+    prime, point = random_point(names, random.Random(SEED))
+    elimination = Elimination(prime)
+    kept = []
+    for coefficient in coefficients:
+        vector = {
+            column: value_modulo(factor, point, prime)
+            for column, factor in coefficient.standard.items()
+        }
+        if coefficient.name in elimination.add(coefficient.name, vector):
+            kept.append(coefficient.name)
+    return tuple(kept)
+
+
+def by_function(table: CoefficientTable) -> Iterator[tuple[Function, list[Coefficient]]]:
+    """Functions with their coefficients, in order of names."""
+    for function in table.closed.functions:
+        yield function, [c for c in table.coefficients if c.function == function.name]

@@ -1,0 +1,198 @@
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from modeler.compare import JointInfo, Prediction, compare
+from modeler.compare.where import REGIONS, WINDOW
+from modeler.core.errors import DataError, ShapeError
+from known_defects import PERIOD, prediction
+
+
+def by_hand() -> Prediction:
+    """One prismatic joint, four samples, all numbers computable in the head."""
+    column = np.array([[-1.0], [0.0], [0.5], [1.0]])
+    return Prediction(
+        robot="slide",
+        joints=(JointInfo("1", "m", "N"),),
+        logs=("a.csv",),
+        run=np.zeros(4, dtype=int),
+        segment=np.zeros(4, dtype=int),
+        time=np.array([10.0, 11.0, 12.0, 13.0]),
+        q=column,
+        qd=column,
+        qdd=column,
+        measured=np.array([[3.0], [4.0], [100.0], [0.0]]),
+        predicted=np.array([[3.0], [1.0], [0.0], [4.0]]),
+        used=np.array([[True], [True], [False], [True]]),
+    )
+
+
+def test_numbers_of_a_case_worked_by_hand() -> None:
+    # residual 0, 3, masked, -4: norm 5; torque 3, 4, 0: norm 5, mean 7/3, spread 26/3
+    found = compare(by_hand())
+    joint = found.joints[0]
+    assert found.samples == joint.samples == 3
+    assert joint.relative_error == pytest.approx(1.0)
+    assert joint.rms == pytest.approx(5.0 / np.sqrt(3.0))
+    assert joint.bias == pytest.approx(-1.0 / 3.0)
+    assert joint.r2 == pytest.approx(1.0 - 25.0 / (26.0 / 3.0))
+    assert (joint.largest.value, joint.largest.log, joint.largest.time) == (4.0, "a.csv", 13.0)
+    assert joint.structure is None and joint.spectrum is None
+    shares = {region.name: region.energy_share for region in joint.regions}
+    assert shares == pytest.approx(
+        {"fast -": 0.0, "slow -": 0.0, "around zero": 9 / 25, "slow +": 0.0, "fast +": 16 / 25}
+    )
+    assert (joint.worst.start, joint.worst.end) == (13.0, 13.0)
+    assert joint.worst.energy_share == pytest.approx(16 / 25)
+
+
+def test_whole_is_the_stacked_joints() -> None:
+    p = prediction()
+    found = compare(p)
+    e = p.measured - p.predicted
+    assert found.relative_error == pytest.approx(np.linalg.norm(e) / np.linalg.norm(p.measured))
+    energy = sum(item.rms**2 * item.samples for item in found.joints)
+    assert energy == pytest.approx(np.sum(e**2))
+
+
+def test_json_keeps_the_contract() -> None:
+    found = compare(prediction())
+    told = json.loads(found.to_json())
+    assert told["samples"] == 6000
+    assert told["relative_error"] == pytest.approx(found.relative_error)
+    assert list(told["joints"]) == ["1", "2", "3"]
+    for name, item in zip("123", found.joints, strict=True):
+        joint = told["joints"][name]
+        assert {"relative_error", "rms", "max", "r2"} <= set(joint)
+        assert joint["max"] == item.largest.value
+        assert 0.0 < joint["relative_error"] < 1.0 and 0.9 < joint["r2"] < 1.0
+
+
+def test_json_of_a_constant_torque_is_valid() -> None:
+    p = prediction()
+    told = compare(dataclasses.replace(p, measured=np.full_like(p.measured, 2.0))).to_json()
+    assert json.loads(told)["joints"]["1"]["r2"] is None
+
+
+def test_summary_has_units_and_every_joint() -> None:
+    text = compare(by_hand()).summary()
+    assert "100.0%" in text and "2.89 N" in text and "13.00 s of a.csv" in text
+    assert len(compare(prediction()).summary().splitlines()) == 5
+
+
+def test_masked_rows_do_not_count() -> None:
+    p = prediction()
+    used = p.used.copy()
+    used[::2, 1] = False
+    spoilt = np.where(used, p.measured, np.nan)
+    whole, part = compare(p), compare(dataclasses.replace(p, measured=spoilt, used=used))
+    assert part.joints[1].samples == 3000
+    assert part.joints[0].rms == whole.joints[0].rms
+    kept = (p.measured - p.predicted)[1::2, 1]
+    assert part.joints[1].rms == pytest.approx(np.sqrt(np.mean(kept**2)))
+
+
+def test_joints_that_cannot_be_judged_are_named() -> None:
+    p = prediction()
+    used = p.used.copy()
+    used[:, 0] = False
+    measured = p.measured.copy()
+    measured[:, 2] = 0.0
+    found = compare(dataclasses.replace(p, used=used, measured=measured))
+    assert [item.joint.name for item in found.joints] == ["2"]
+    assert dict(found.unjudged)["1"] == "no sample counts (all masked)"
+    assert "measured torque is zero" in found.summary()
+
+
+def test_a_burst_is_found_where_it_is() -> None:
+    # 0.2 s wide, around 41 s, in the second log
+    found = compare(prediction(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))
+    worst = found.joints[1].worst
+    assert worst.log == "two.parquet"
+    assert worst.start <= 40.91 and worst.end >= 41.09
+    assert worst.end - worst.start <= WINDOW
+    burst = 19 * 400.0
+    assert worst.energy_share == pytest.approx(burst / (burst + 6000 * 0.25), abs=0.05)
+    assert worst.time_share == pytest.approx(WINDOW / PERIOD / 6000)
+    assert found.joints[1].largest.time == pytest.approx(41.0, abs=0.1)
+
+
+def test_worst_window_stays_inside_a_segment() -> None:
+    p = prediction(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1))
+    cut = dataclasses.replace(p, segment=p.segment + (p.time > 41.0))
+    worst = compare(cut).joints[1].worst
+    assert worst.end <= 41.0 + 1e-9 or worst.start > 41.0
+
+
+def test_regions_split_the_velocity() -> None:
+    found = compare(prediction(lambda q, qd, qdd, tau, t: 5.0 * (qd > 0.4 * np.abs(qd).max())))
+    regions = found.joints[1].regions
+    assert tuple(region.name for region in regions) == REGIONS
+    assert sum(region.samples for region in regions) == 6000
+    assert sum(region.energy_share for region in regions) == pytest.approx(1.0)
+    assert regions[4].energy_share > 0.8
+    assert regions[4].bias == pytest.approx(5.0, abs=0.1)
+    assert abs(regions[1].bias) < 0.1
+
+
+@pytest.mark.parametrize("name", ["time", "run", "segment", "q", "measured", "used"])
+def test_wrong_shape(name: str) -> None:
+    p = prediction()
+    # time itself sets the number of rows, so any other array is then the odd one out
+    with pytest.raises(ShapeError, match=r"got shape .* expected .*samples, 3 joints"):
+        compare(dataclasses.replace(p, **{name: getattr(p, name)[:-1]}))
+
+
+def test_used_must_be_bool() -> None:
+    p = prediction()
+    with pytest.raises(ShapeError, match=r"used: got int64, expected bool"):
+        compare(dataclasses.replace(p, used=p.used.astype(np.int64)))
+
+
+def test_run_without_a_log() -> None:
+    with pytest.raises(ShapeError, match=r"run: got log index 1, expected 0 to 0"):
+        compare(dataclasses.replace(prediction(), logs=("one.parquet",)))
+
+
+def test_no_joint() -> None:
+    with pytest.raises(ShapeError, match="at least one joint"):
+        compare(dataclasses.replace(prediction(), joints=()))
+
+
+def test_nothing_counts() -> None:
+    p = prediction()
+    with pytest.raises(DataError, match="none of the 6000 samples counts"):
+        compare(dataclasses.replace(p, used=np.zeros_like(p.used)))
+
+
+@pytest.mark.parametrize("name", ["q", "qd", "qdd", "measured", "predicted"])
+def test_not_a_number(name: str) -> None:
+    p = prediction()
+    values = getattr(p, name).copy()
+    values[4500, 2] = np.nan
+    with pytest.raises(DataError, match=rf"two.parquet: {name} of joint 3 is nan at 45 s"):
+        compare(dataclasses.replace(p, **{name: values}))
+
+
+def test_time_not_a_number() -> None:
+    p = prediction()
+    time = p.time.copy()
+    time[7] = np.nan
+    with pytest.raises(DataError, match=r"one.parquet: time of row 7 is nan"):
+        compare(dataclasses.replace(p, time=time))
+
+
+def test_time_runs_backwards() -> None:
+    p = prediction()
+    time = p.time.copy()
+    time[[10, 11]] = time[[11, 10]]
+    with pytest.raises(DataError, match=r"one.parquet: time goes from 0.11 to 0.1 s inside"):
+        compare(dataclasses.replace(p, time=time))
+
+
+def test_segment_over_two_logs() -> None:
+    p = prediction()
+    with pytest.raises(DataError, match=r"two.parquet: segment 0 goes on from another log"):
+        compare(dataclasses.replace(p, segment=np.zeros_like(p.segment)))

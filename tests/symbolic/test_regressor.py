@@ -1,0 +1,108 @@
+"""The symbolic model against other derivations and the laws of mechanics."""
+
+import numpy as np
+import pytest
+
+from modeler.base.numeric import random_states, regressor_values
+from modeler.robot import read_robot
+from modeler.symbolic import derive_model
+from modeler.symbolic.lagrange import lagrange_model
+from tests.robots import ROBOTS
+
+TEXTBOOK = ("wrist", "rx90", "puma560", "panda", "lwr", "orthoglide-leg-tree", "sr400-tree", "scara")
+
+
+def inertial(model) -> list[int]:
+    return [i for i, column in enumerate(model.columns) if column.column is None]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_newton_euler_agrees_with_lagrange(name):
+    model = derive_model(read_robot(name))
+    states = random_states(model, 30, np.random.default_rng(1))
+    chi = np.random.default_rng(2).normal(size=len(inertial(model)))
+    tau = regressor_values(model, states)[:, :, inertial(model)] @ chi
+    other = lagrange_model(model.geometry).torque(*states, chi)
+    np.testing.assert_allclose(tau, other, rtol=0, atol=1e-12 * np.abs(other).max())
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_regressor_agrees_with_pinocchio(name):
+    from tests.symbolic.oracles import pinocchio_regressor
+
+    robot = read_robot(name)
+    model = derive_model(robot)
+    states = random_states(model, 15, np.random.default_rng(3))
+    ours = regressor_values(model, states)[:, :, inertial(model)]
+    theirs = pinocchio_regressor(robot, *states)
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
+
+
+@pytest.mark.parametrize("name", TEXTBOOK)
+def test_rank_agrees_with_pinocchio(name):
+    from modeler.base import base_parameters
+    from tests.symbolic.oracles import pinocchio_regressor
+
+    robot = read_robot(name)
+    model = derive_model(robot)
+    states = random_states(model, 60, np.random.default_rng(4))
+    W = pinocchio_regressor(robot, *states).reshape(-1, len(inertial(model)))
+    singular = np.linalg.svd(W, compute_uv=False)
+    assert np.sum(singular > 1e-9 * singular[0]) == base_parameters(model).rank
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_recursion_agrees_with_the_regressor(name):
+    """tau by the backward recursion = phi chi, and tau = M qdd + c + g + f with M symmetric."""
+    model = derive_model(read_robot(name))
+    q, qd, qdd = random_states(model, 12, np.random.default_rng(5))
+    chi = np.random.default_rng(6).normal(size=len(model.columns))
+    symbols = {i: model.graph.symbol(f"chi{i}") for i in range(len(chi))}
+    values = dict(model.geometry.values) | {f"chi{i}": x for i, x in enumerate(chi)}
+    for kind, array in (("q", q), ("qd", qd), ("qdd", qdd)):
+        values |= {f"{kind}{i}": array[:, i] for i in range(array.shape[1])}
+
+    def evaluated(expressions) -> np.ndarray:
+        found = model.graph.evaluate(expressions, values)
+        return np.stack([x + np.zeros(len(q)) for x in found], axis=-1)
+
+    tau = regressor_values(model, (q, qd, qdd)) @ chi
+    scale = np.abs(tau).max()
+    np.testing.assert_allclose(evaluated(model.torque(symbols)), tau, rtol=0, atol=1e-12 * scale)
+    n = q.shape[1]
+    M = evaluated([x for row in model.inertia_matrix(symbols) for x in row]).reshape(-1, n, n)
+    np.testing.assert_array_equal(M, M.transpose(0, 2, 1))
+    effects = {i: s for i, s in symbols.items() if model.columns[i].kind != "rotor_inertia"}
+    parts = (
+        np.einsum("sij,sj->si", M, qdd)
+        + evaluated(model.torque(symbols, accelerations=False, gravity=False, effects=False))
+        + evaluated(model.torque(symbols, speeds=False, accelerations=False, effects=False))
+        + evaluated(model.torque(effects, links=False))
+    )
+    np.testing.assert_allclose(parts, tau, rtol=0, atol=1e-12 * scale)
+
+
+@pytest.mark.parametrize("name", ("wrist", "puma560", "scara", "sr400-tree"))
+def test_power_balance(name):
+    """tau . qd = d/dt (T + U), the right side by finite differences along a smooth motion."""
+    model = derive_model(read_robot(name))
+    n = model.geometry.joints
+    rng = np.random.default_rng(7)
+    phase, frequency = rng.uniform(0, 6, n), rng.uniform(0.5, 1.5, n)
+    step = 1e-4
+    t = 0.3 + step * np.arange(-2, 3)[:, None]
+    q, qd = np.sin(frequency * t + phase), frequency * np.cos(frequency * t + phase)
+    qdd = -(frequency**2) * q
+    chi = rng.normal(size=len(model.columns))
+    power = np.sum((regressor_values(model, (q, qd, qdd)) @ chi) * qd, axis=1)[2]
+    M = np.zeros((len(t), n, n))
+    zero = np.zeros_like(q)
+    gravity = regressor_values(model, (q, zero, zero)) @ chi
+    for j in range(n):
+        unit = zero.copy()
+        unit[:, j] = 1.0
+        M[:, :, j] = regressor_values(model, (q, zero, unit)) @ chi - gravity
+    T = 0.5 * np.einsum("si,sij,sj->s", qd, M, qd)
+    weights = np.array([1, -8, 0, 8, -1]) / (12 * step)
+    dT = weights @ T
+    assert power == pytest.approx(dT + gravity[2] @ qd[2], rel=1e-6)
