@@ -112,8 +112,16 @@ def _text_term(term: Term) -> str:
     sign, size = _sign(term.coefficient)
     if size == 1:
         return sign + term.parameter
-    text = f"({size})" if size.is_Add else str(size)
-    return f"{sign}{text}*{term.parameter}"
+    top, bottom = sympy.fraction(size)
+    if not bottom.free_symbols:
+        top, bottom = size, sympy.Integer(1)
+    front = "" if top == 1 else f"{_in_product(top)}*"
+    back = "" if bottom == 1 else f"/{_in_product(bottom)}"
+    return f"{sign}{front}{term.parameter}{back}"
+
+
+def _in_product(size: sympy.Expr) -> str:
+    return f"({size})" if size.is_Add else str(size)
 
 
 def _latex_term(term: Term) -> str:

@@ -1,11 +1,12 @@
 """The body of one C function: straight-line code as finished strings.
 
-Order: geometric constants, then sines and cosines (calls between arithmetic make the compiler spill
-every register: 144 against 112 ns for a 6R regressor), then output by output, depth first, so that a
-value is computed shortly before it is used. A value used once is written into the expression that
-uses it, as long as the line stays readable.
+Order: geometric constants, then sines and cosines (calls between arithmetic make the compiler
+spill every register: 144 against 112 ns for a 6R regressor), then output by output, depth first, so
+that a value is computed shortly before it is used. A value used once is written into the expression
+that uses it, as long as the line stays readable.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -213,11 +214,11 @@ class _Writer:
         short = _SHORT.get(node.op)
         if short is not None and not node.static:
             symbol = self.graph.nodes[abs(node.args[0])]
-            joint = symbol.args[0] if symbol.op == "sym" else ""
-            name = short + self.places[joint].strip("q[]") if joint else ""
-            if name and name not in self.names:
-                self.names.add(name)
-                return name
+            place = self.places[symbol.args[0]] if symbol.op == "sym" else ""
+            joint = re.fullmatch(r"q\[(\d+)\]", place)
+            if joint and short + joint[1] not in self.names:  # s0 = sin(q[0])
+                self.names.add(short + joint[1])
+                return short + joint[1]
         letter = "k" if node.static else "t"
         self.count[letter] += 1
         return f"{letter}{self.count[letter]}"

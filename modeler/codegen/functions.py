@@ -90,7 +90,8 @@ def _regressors(
     per = "torque per unit of each"
     return (
         Function(
-            "_regressor", "regressor", "Regressor of the standard parameters.", "tau = phi chi", inputs,
+            "_regressor", "regressor", "Regressor of the standard parameters.",
+            "tau = phi chi", inputs,
             ArgumentSpec("phi", (joints, p), "SI", f"{per} standard parameter"),
             tuple(sorted(standard, key=lambda entry: entry[0])),
         ),

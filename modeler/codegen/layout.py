@@ -99,7 +99,7 @@ def prototype(name: str, parameters: Sequence[str]) -> str:
             subsequent_indent=indent,
             break_long_words=False,
             break_on_hyphens=False,
-        )  # fmt: skip
+        )
     ).replace(chr(160), " ")
 
 

@@ -17,6 +17,8 @@ from modeler.compare.smooth import (
 
 ENOUGH = 200  # samples below which nothing is said about structure
 
+_MOST = 50_000  # samples beyond which every second, third, ... is looked at
+
 # Motion: few long blocks, so that slow noise is not mistaken for a function of position.
 _MOTION = (10, 10)  # blocks, folds
 # Drift: many short blocks, because a slow function of time can only be judged between its knots.
@@ -41,9 +43,10 @@ class Structure:
 
 def structure(prediction: Prediction, joint: int) -> Structure | None:
     """Structure of one joint's residual; None with fewer than ENOUGH samples."""
-    rows = prediction.used[:, joint]
-    if int(rows.sum()) < ENOUGH:
+    rows = np.flatnonzero(prediction.used[:, joint])
+    if rows.size < ENOUGH:
         return None
+    rows = rows[:: -(-rows.size // _MOST)]
     e = prediction.measured[rows, joint] - prediction.predicted[rows, joint]
     families = {
         coordinate.id: _family(prediction, joint, coordinate.id, rows) for coordinate in COORDINATES

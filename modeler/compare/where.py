@@ -50,6 +50,7 @@ def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
     top = float(np.abs(qd).max())
     edges = np.array([-FAST, -AROUND_ZERO, AROUND_ZERO, FAST]) * top
     which = np.searchsorted(edges, qd, side="right")
+    which[np.abs(qd) <= AROUND_ZERO * top] = 2  # also a joint that never moves
     limits = np.array([-top, *edges, top])
     total = float(e @ e)
     regions = []

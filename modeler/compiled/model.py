@@ -16,9 +16,9 @@ from modeler.core.errors import ManifestError, ShapeError
 class CompiledModel:
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
-    q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the order
-    of `spec.base`, chi (p,) in the order of `spec.standard`. All methods raise ShapeError for arrays
-    of another shape or with values that are not finite. Threads may share a model.
+    q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
+    order of `spec.base`, chi (p,) in the order of `spec.standard`. All methods raise ShapeError for
+    arrays of another shape or with values that are not finite. Threads may share a model.
 
     Attributes:
         spec: the manifest.

@@ -40,7 +40,7 @@ def as_vector(value: Any, name: str, length: int) -> np.ndarray:
     """`value` as a C-contiguous float64 array (length,).
 
     Raises:
-        ShapeError: another shape, not real numbers, or a value that is not finite; says which entry.
+        ShapeError: another shape, not real numbers, or a value that is not finite.
     """
     array = _as_floats(value, name, f"an array ({length},)")
     if array.shape != (length,):

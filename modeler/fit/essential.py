@@ -35,6 +35,8 @@ class Essential:
 
     def sentence(self) -> str:
         """What was found."""
+        if not self.dropped:
+            return f"all {len(self.names)} parameters are essential"
         return (
             f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
             f"essential; leaving the others out raises the relative error from "

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import ManifestError
+from modeler.core.errors import DataError, ManifestError
 from modeler.observation import Processing, processing_from_json
 
 
@@ -193,7 +193,7 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             sentences=tuple(raw["sentences"]),
             processing=processing_from_json(raw["processing"]),
         )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
 
 

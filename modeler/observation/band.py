@@ -62,15 +62,17 @@ def choose_cutoffs(
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
     said = [f"motion band {band:.3g} Hz (99 % of the velocity's energy), sampled at {rate:.4g} Hz"]
     position = processing.position_cutoff
+    logged = all(piece.qdd is not None for piece in pieces)
+    unused = " (not needed: accelerations are logged)" if logged else ""
     if position is None:
         wanted = max(LEAST_POSITION, min(POSITION_BANDS * band, ENOUGH_POSITION), 5.0 * band)
         position = _two_digits(min(wanted, HIGHEST * rate))
         said.append(
-            f"position filter {position:g} Hz: {POSITION_BANDS:g} x the band within "
+            f"position filter {position:g} Hz{unused}: {POSITION_BANDS:g} x the band within "
             f"{LEAST_POSITION:g} to {ENOUGH_POSITION:g} Hz, never less than 5 x, at most "
             f"{HIGHEST:g} of the sampling rate"
         )
-    if 0.0 < position < 5.0 * band:
+    if not logged and 0.0 < position < 5.0 * band:
         said.append(
             f"position filter {position:g} Hz is less than 5 x the motion band: accelerations "
             "are damped; sample faster or move slower"

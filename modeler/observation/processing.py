@@ -58,7 +58,11 @@ class Processing:
     def to_json(self) -> dict[str, Any]:
         """Plain data for a model file."""
         raw = dataclasses.asdict(self)
-        raw["speed_floors"] = None if self.speed_floors is None else dict(self.speed_floors)
+        if self.speed_floors is not None:  # JSON has no infinity: null is a shaft that stood still
+            raw["speed_floors"] = {
+                name: None if floor == float("inf") else floor
+                for name, floor in self.speed_floors.items()
+            }
         return raw
 
 
@@ -71,8 +75,16 @@ def processing_from_json(raw: Mapping[str, Any]) -> Processing:
     names = {field.name for field in dataclasses.fields(Processing)}
     unknown = sorted(set(raw) - names)
     if unknown:
-        raise DataError(f"processing has no setting {unknown[0]}; there are {', '.join(names)}")
+        raise DataError(
+            f"processing has no setting {unknown[0]}; there are {', '.join(sorted(names))}"
+        )
+    values = dict(raw)
     try:
-        return Processing(**raw)
-    except TypeError as error:
+        if values.get("speed_floors") is not None:
+            values["speed_floors"] = {
+                name: float("inf") if floor is None else float(floor)
+                for name, floor in values["speed_floors"].items()
+            }
+        return Processing(**values)
+    except (TypeError, ValueError, AttributeError) as error:
         raise DataError(f"processing: {error}; expected numbers") from None

@@ -66,7 +66,7 @@ def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | 
     """
     samples = len(whole)
     if decimation is None:
-        decimation = max(1, int(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+        decimation = max(1, round(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
     reach = int(np.ceil(_REACH * spread))
     offsets = np.arange(-reach, reach + 1)

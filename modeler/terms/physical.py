@@ -1,6 +1,6 @@
 """Standard parameters as polynomials of masses, mass centres and inertias about them."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -105,18 +105,11 @@ def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
     return PhysicalLink(mass, (x, y, z), tuple(inertia))
 
 
-def _entries(link: PhysicalLink) -> Iterator[Expression]:
-    yield link.mass
-    yield from link.centre
-    yield from link.inertia
-
-
 def _letters(links: Any) -> list[str]:
     found: dict[str, None] = {}
     for link in links:
-        for entry in _entries(link):
-            # in the order in which they are written, so that tables read like the paper
-            for name in sorted(entry.names, key=entry.text.index):
+        for group in ((link.mass,), link.centre, link.inertia):
+            for name in sorted(set().union(*(entry.names for entry in group))):
                 found.setdefault(name)
     return list(found)
 

@@ -1,5 +1,6 @@
 """Predictions with a known defect: smooth motion, a made-up torque, white noise, one flaw."""
 
+import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -55,3 +56,10 @@ def prediction(
         predicted=tau,
         used=np.ones((rows, 3), dtype=bool),
     )
+
+
+def first_joint(whole: Prediction) -> Prediction:
+    """The prediction of the first joint alone."""
+    names = ("q", "qd", "qdd", "measured", "predicted", "used")
+    columns = {name: getattr(whole, name)[:, :1] for name in names}
+    return dataclasses.replace(whole, joints=whole.joints[:1], **columns)

@@ -3,11 +3,11 @@ import json
 
 import numpy as np
 import pytest
+from known_defects import PERIOD, prediction
 
 from modeler.compare import JointInfo, Prediction, compare
 from modeler.compare.where import REGIONS, WINDOW
 from modeler.core.errors import DataError, ShapeError
-from known_defects import PERIOD, prediction
 
 
 def by_hand() -> Prediction:

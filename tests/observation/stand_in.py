@@ -117,7 +117,7 @@ class StandIn:
 
     def wrenches(self, q, qd, qdd):
         """(rotation, position) of each frame in its antecedent, and (n, 6, 10) force and moment."""
-        n, J = q.shape
+        n = len(q)
         w = wd = np.zeros((n, 3))
         a = np.tile(-np.asarray(self.gravity), (n, 1))
         z, o = np.array([0.0, 0.0, 1.0]), np.zeros(n)

@@ -256,7 +256,7 @@ def test_settings_that_make_no_sense(change, message):
 def test_a_robot_too_heavy_for_its_motor_is_lost():
     settings = dataclasses.replace(SHORT, torque_limits={"1": 1e-3})
     with pytest.raises(DataError, match=r"lost joint 1 at .* raise the torque limit"):
-        simulate(robot(PENDULUM), settings)
+        simulate(robot(PENDULUM, parameters="M1 = 5\nMX1 = 2"), settings)
 
 
 def test_friction_too_stiff_for_any_step_is_named():

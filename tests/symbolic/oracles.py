@@ -26,9 +26,13 @@ def pinocchio_model(robot: Robot):
         parent, before = places[joint.antecedent]
         at_zero = values | {joint.variable: 0.0}
         at_one = values | {joint.variable: 1.0}
-        e = {n: getattr(joint, n).number(at_zero) for n in ("gamma", "b", "alpha", "d", "theta", "r")}
+        e = {
+            n: getattr(joint, n).number(at_zero) for n in ("gamma", "b", "alpha", "d", "theta", "r")
+        }
         R = _turn(2, e["gamma"]) @ _turn(0, e["alpha"])
-        p = _turn(2, e["gamma"]) @ (np.array([0, 0, e["b"]]) + _turn(0, e["alpha"]) @ [e["d"], 0, e["r"]])
+        p = _turn(2, e["gamma"]) @ (
+            np.array([0, 0, e["b"]]) + _turn(0, e["alpha"]) @ [e["d"], 0, e["r"]]
+        )
         placement = before * pin.SE3(R @ _turn(2, e["theta"]), p)
         if not joint.moves:
             places[joint.name] = (parent, placement)
@@ -36,7 +40,9 @@ def pinocchio_model(robot: Robot):
         moving = joint.theta if joint.angular else joint.r
         sign = np.sign(moving.number(at_one) - moving.number(at_zero))
         axis = np.array([0.0, 0.0, sign])
-        kind = pin.JointModelRevoluteUnaligned if joint.angular else pin.JointModelPrismaticUnaligned
+        kind = (
+            pin.JointModelRevoluteUnaligned if joint.angular else pin.JointModelPrismaticUnaligned
+        )
         index = model.addJoint(parent, kind(axis), placement, f"joint {joint.name}")
         model.appendBodyToJoint(index, pin.Inertia.Zero(), pin.SE3.Identity())
         places[joint.name] = (index, pin.SE3.Identity())

@@ -9,7 +9,16 @@ from modeler.symbolic import derive_model
 from modeler.symbolic.lagrange import lagrange_model
 from tests.robots import ROBOTS
 
-TEXTBOOK = ("wrist", "rx90", "puma560", "panda", "lwr", "orthoglide-leg-tree", "sr400-tree", "scara")
+TEXTBOOK = (
+    "wrist",
+    "rx90",
+    "puma560",
+    "panda",
+    "lwr",
+    "orthoglide-leg-tree",
+    "sr400-tree",
+    "scara",
+)
 
 
 def inertial(model) -> list[int]:

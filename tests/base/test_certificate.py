@@ -1,0 +1,115 @@
+"""The certificate must be able to say no."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import sympy
+
+from modeler.base.certificate import PRIME, ModularState, inverse, modular_rank, power
+from modeler.base.derive import prove
+from modeler.base.field import ExactField, geometry_field
+from modeler.base.grouping import column_relations
+from modeler.core.errors import DerivationError
+from modeler.robot import read_robot, robot_from_text
+from modeler.symbolic import derive_model
+
+
+@pytest.fixture(scope="module")
+def wrist():
+    model = derive_model(read_robot("wrist"))
+    K = geometry_field(model.geometry)
+    return model, K, column_relations(model, K)
+
+
+def test_right_relations_pass(wrist):
+    assert prove(*wrist, seed=1).kind == "exact"
+
+
+def test_a_wrong_coefficient_is_found(wrist):
+    model, K, relations = wrist
+    index = next(i for i, row in enumerate(relations.rows) if len(row) > 1)
+    row = dict(relations.rows[index])
+    other = next(place for place in row if place != relations.dropped[index])
+    row[other] = row[other] + K.one
+    wrong = dataclasses.replace(
+        relations, rows=(*relations.rows[:index], row, *relations.rows[index + 1 :])
+    )
+    with pytest.raises(DerivationError, match=r"wrist: the relation of \w+ does not hold"):
+        prove(model, K, wrong, seed=1)
+
+
+def test_a_missing_relation_is_found(wrist):
+    model, K, relations = wrist
+    fewer = dataclasses.replace(
+        relations,
+        rows=relations.rows[1:],
+        dropped=relations.dropped[1:],
+        kept=tuple(sorted((*relations.kept, relations.dropped[0]))),
+    )
+    with pytest.raises(DerivationError, match="of 18 columns kept only 17 are independent"):
+        prove(model, K, fewer, seed=1)
+
+
+def test_a_rotor_that_links_hide_is_told():
+    """Parallel axes: a rotor turning with both joints is a link inertia of both."""
+    robot = robot_from_text(
+        'name = "t"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "d", "theta"]\n'
+        'rows = [["1", 0, "q1"], ["2", 0, "q2"]]\n[coupling]\n2 = "q1 + q2"\n'
+        '[effects]\ncoupled_inertia = ["2"]\n',
+        "t.toml",
+    )
+    model = derive_model(robot)
+    K = geometry_field(model.geometry)
+    with pytest.raises(DerivationError, match="leave out coupled_inertia"):
+        prove(model, K, column_relations(model, K), seed=1)
+
+
+def test_modular_arithmetic():
+    values = np.array([2, 3, PRIME - 1], dtype=np.int64)
+    np.testing.assert_array_equal(values * inverse(values) % PRIME, 1)
+    assert power(values, 5)[0] == 32
+    assert modular_rank(np.array([[1, 2, 3], [2, 4, 6], [0, 1, 1]], dtype=np.int64)) == 2
+
+
+def test_energy_rows_are_those_of_the_links():
+    """Modulo the prime, 2T of a pendulum is (ZZ + 2 L MX + L**2 M) qd**2."""
+    robot = robot_from_text(
+        'name = "p"\ngravity = ["g", 0, 0]\n[symbols]\ng = 9.81\nL = 0.5\n[mdh]\n'
+        'columns = ["j", "sigma", "d", "theta"]\nrows = [["1", 0, 0, "q1"], ["2", 1, "L", 0]]\n'.replace(
+            '["2", 1, "L", 0]', '["2", 0, "L", "q2"]'
+        ),
+        "p.toml",
+    )
+    model = derive_model(robot)
+    K = geometry_field(model.geometry)
+    state = ModularState(model.geometry, K, 5, 3)
+    rows = state.energy_rows(model.columns)
+    names = {name: i for i, name in enumerate(model.names)}
+    L = state.residues[sympy.Symbol("L", real=True)]
+    qd1 = state.qd[0]
+    np.testing.assert_array_equal(rows[:5, names["ZZ1"]], qd1 * qd1 % PRIME)
+    np.testing.assert_array_equal(
+        rows[:5, names["M2"]], qd1 * qd1 % PRIME * (L * L % PRIME) % PRIME
+    )
+
+
+def test_field_turns_half_angles_back():
+    al, d = sympy.Symbol("al", real=True), sympy.Symbol("d", real=True)
+    K = ExactField([sympy.cos(al), sympy.sin(al), d])
+    c, s, length = K.element(sympy.cos(al)), K.element(sympy.sin(al)), K.element(d)
+    assert c * c + s * s == K.one
+    for element, expected in [
+        (c, sympy.cos(al)),
+        (length * c / s, d * sympy.cos(al) / sympy.sin(al)),
+        (s * s, sympy.sin(al) ** 2),
+        (1 / (length * s), 1 / (d * sympy.sin(al))),
+        (c * c - s * s, None),
+    ]:
+        got = K.expression(element)
+        if expected is not None:
+            assert got == expected
+        in_t = element.as_expr()
+        t, length_letter = sorted(element.field.symbols, key=str)
+        value = in_t.subs({t: sympy.tan(sympy.Rational(7, 20)), length_letter: 0.3})
+        assert float(value) == pytest.approx(float(got.subs({al: 0.7, d: 0.3})), rel=1e-12)

@@ -1,0 +1,46 @@
+"""Friction columns group by the speeds of their shafts."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from modeler.base.shafts import friction_relations
+from modeler.effects import effect_named
+from modeler.symbolic import StandardColumn
+
+
+def columns(effect: str, *shafts: dict[int, float]) -> list[StandardColumn]:
+    found = effect_named(effect)
+    return [
+        StandardColumn(f"F{i}", 0, "F", "", "friction", effect, found.columns[0], shaft)
+        for i, shaft in enumerate(shafts)
+    ]
+
+
+def test_coulomb_columns_of_proportional_speeds_group():
+    """q5 = -q2 as on the Orthoglide: weight |-1|; a gear of 2.5: weight 2.5."""
+    given = columns("coulomb", {0: 1}, {0: -1}, {1: 1}, {0: 1, 1: 1}, {0: 2.5, 1: 2.5})
+    assert friction_relations(given) == [
+        {1: Fraction(1), 0: Fraction(-1)},
+        {4: Fraction(1), 3: Fraction(-5, 2)},
+    ]
+
+
+def test_coulomb_relations_hold_for_torques():
+    """|lambda| is the weight of the torque columns E^T sign(E qd), checked at random speeds."""
+    E = np.array([[1.0, 1.0], [-2.5, -2.5]])
+    for qd in np.random.default_rng(0).normal(size=(20, 2)):
+        torque = E.T * np.sign(E @ qd)
+        np.testing.assert_allclose(torque[:, 1], 2.5 * torque[:, 0])
+
+
+def test_viscous_columns_group_by_their_squares():
+    """(q1 + q2)**2 + (q1 - q2)**2 = 2 q1**2 + 2 q2**2: the fourth column is dependent."""
+    given = columns("viscous", {0: 1}, {1: 1}, {0: 1, 1: 1}, {0: 1, 1: -1})
+    (relation,) = friction_relations(given)
+    rng = np.random.default_rng(1)
+    E = np.array([[1, 0], [0, 1], [1, 1], [1, -1]], dtype=float)
+    qd = rng.normal(size=2)
+    total = sum(float(c) * E[i] * (E[i] @ qd) for i, c in relation.items())
+    np.testing.assert_allclose(total, 0, atol=1e-14)
+    assert set(relation) == {0, 1, 2, 3}

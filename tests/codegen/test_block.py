@@ -1,0 +1,76 @@
+"""The shape of an emitted function body: order, names, counts."""
+
+import re
+
+from modeler.codegen.block import make_block
+from modeler.symbolic import Graph
+
+from tests.modules import module
+
+PLACES = {"q0": "q[0]", "q1": "q[1]", "D4": "ARM_D4", "g": "ARM_g"}
+
+
+def test_a_value_used_once_is_written_where_it_is_used():
+    graph = Graph()
+    a, b = graph.symbol("q0"), graph.symbol("q1")
+    block = make_block([("phi[0]", a * b + a)], PLACES)
+    assert block.body == ("phi[0] = q[0] + q[0]*q[1];",)
+
+
+def test_a_value_used_twice_has_a_name():
+    graph = Graph()
+    a, b = graph.symbol("q0"), graph.symbol("q1")
+    block = make_block([("phi[0]", a * b), ("phi[1]", -(a * b))], PLACES)
+    assert block.body == ("const double t1 = q[0]*q[1];", "phi[0] = t1;", "phi[1] = -t1;")
+
+
+def test_constants_of_the_geometry_stand_first_and_are_not_counted():
+    graph = Graph()
+    D4, q = graph.symbol("D4", static=True), graph.symbol("q0")
+    block = make_block([("phi[0]", D4 * D4 * q), ("phi[1]", D4 * D4 + q)], PLACES)
+    assert block.constants == ("const double k1 = ARM_D4*ARM_D4;",)
+    assert (block.additions, block.multiplications) == (1, 1)
+
+
+def test_sines_and_cosines_come_before_arithmetic_and_follow_the_joint():
+    graph = Graph()
+    q0, q1 = graph.symbol("q0"), graph.symbol("q1")
+    value = q0 * q1 + graph.call("cos", q1) * graph.call("sin", q0)
+    block = make_block([("tau[0]", value)], PLACES)
+    assert set(block.calls) == {"const double c1 = cos(q[1]);", "const double s0 = sin(q[0]);"}
+    assert block.body == ("tau[0] = q[0]*q[1] + c1*s0;",)
+
+
+def test_two_angles_of_one_joint_get_two_names():
+    graph = Graph()
+    q0, g = graph.symbol("q0"), graph.symbol("g", static=True)
+    block = make_block(
+        [("tau[0]", graph.call("cos", q0) + graph.call("cos", q0 + g) + graph.call("sin", q0))],
+        PLACES,
+    )
+    names = re.findall(r"const double (\w+) =", " ".join(block.calls))
+    assert len(set(names)) == 3
+
+
+def test_a_very_long_sum_is_cut_into_readable_lines():
+    graph = Graph()
+    total = graph.constant(0)
+    places = {f"x{i}": f"chi[{i}]" for i in range(300)}
+    for name in places:
+        total = total + graph.symbol(name)
+    block = make_block([("beta[0]", total)], places)
+    assert max(len(line) for line in block.body) <= 100
+    assert sum(line.count(" + ") for line in block.body) == 299
+
+
+def test_each_temporary_is_defined_once_and_before_its_use():
+    block = module("puma560").emitted.files["puma560_base_regressor.c"]
+    for body in re.findall(r"^\{\n(.*?)^\}", block, re.M | re.S):
+        seen: set[str] = set()
+        for line in body.splitlines():
+            name = re.search(r"const double (\w+) =", line)
+            used = set(re.findall(r"\b[tksc]\d+\b", line.split("=", 1)[-1]))
+            assert used <= seen, line
+            if name:
+                assert name[1] not in seen, line
+                seen.add(name[1])

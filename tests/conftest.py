@@ -1,0 +1,60 @@
+"""What all tests share: the cache of compiled models, and kept generated files."""
+
+import difflib
+import os
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--regenerate",
+        action="store_true",
+        help="rewrite generated/ instead of comparing with it",
+    )
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled_models_beside_pytest(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Compiled models go into pytest's cache: kept between runs, never in the user's own."""
+    before = os.environ.get("MODELER_CACHE")
+    if before is None:
+        folder = request.config.rootpath / ".pytest_cache" / "d" / "modeler"
+        os.environ["MODELER_CACHE"] = str(folder)
+    yield
+    if before is None:
+        del os.environ["MODELER_CACHE"]
+
+
+@pytest.fixture
+def compare_with_generated(
+    request: pytest.FixtureRequest,
+) -> Callable[[str, Mapping[str, str]], None]:
+    """Compare emitted files with generated/<name>/, both ways; or rewrite them."""
+
+    def compare(name: str, emitted: Mapping[str, str]) -> None:
+        folder = ROOT / "generated" / name
+        if request.config.getoption("--regenerate"):
+            folder.mkdir(parents=True, exist_ok=True)
+            for stale in {path.name for path in folder.iterdir()} - emitted.keys():
+                (folder / stale).unlink()
+            for file, text in emitted.items():
+                (folder / file).write_bytes(text.encode())
+            return
+        assert folder.is_dir(), f"generated/{name} is missing; make it with pytest --regenerate"
+        assert sorted(path.name for path in folder.iterdir()) == sorted(emitted)
+        for file, text in emitted.items():
+            kept = (folder / file).read_bytes().decode()
+            difference = "".join(
+                difflib.unified_diff(
+                    kept.splitlines(True), text.splitlines(True),
+                    f"generated/{name}/{file}", "emitted now",
+                )
+            )  # fmt: skip
+            assert not difference, f"\n{difference}\nIf this is meant: pytest --regenerate"
+
+    return compare

@@ -1,0 +1,49 @@
+"""Built-in robots through derivation and emission, each once per test run; C compilers."""
+
+import shutil
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from modeler.base import BaseParameters, base_parameters
+from modeler.codegen import Emitted, emit
+from modeler.compiled import CompiledModel, load
+from modeler.robot import read_robot
+from modeler.symbolic import SymbolicModel, derive_model
+
+
+class Module(NamedTuple):
+    model: SymbolicModel
+    base: BaseParameters
+    emitted: Emitted
+
+
+@cache
+def module(name: str) -> Module:
+    model = derive_model(read_robot(name))
+    base = base_parameters(model)
+    return Module(model, base, emit(model, base))
+
+
+@cache
+def compiled(name: str) -> CompiledModel:
+    emitted = module(name).emitted
+    return load(emitted.spec, emitted.files)
+
+
+def states(joints: int, samples: int, seed: int = 20) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Random q, qd, qdd, (samples, joints)."""
+    rng = np.random.default_rng(seed)
+    q = rng.uniform(-3, 3, (samples, joints))
+    return q, rng.normal(0, 2, q.shape), rng.normal(0, 5, q.shape)
+
+
+def compiler(name: str) -> str:
+    if shutil.which(name) is None:
+        pytest.skip(f"NOT CHECKED: {name} is not installed")
+    return name
+
+
+STRICT = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror"]

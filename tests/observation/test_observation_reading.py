@@ -1,0 +1,163 @@
+"""Logs from files: what is read, and what is said of a wrong one."""
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from stand_in import planar_arm, slider
+
+from modeler.core.errors import DataError
+from modeler.observation import read_log
+
+
+def columns(n=50, joints=2):
+    t = np.arange(n) / 100.0
+    table = {"time": t}
+    for j in range(1, joints + 1):
+        table[f"q{j}"] = np.sin(j * t)
+        table[f"tau{j}"] = np.cos(j * t) + j
+    return table
+
+
+def write(path, table):
+    table = {name: np.asarray(values) for name, values in table.items()}
+    if path.suffix == ".parquet":
+        pq.write_table(pa.table(table), path)
+    else:
+        lines = [",".join(table)]
+        lines += [",".join(str(v) for v in row) for row in zip(*table.values(), strict=True)]
+        path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.fixture
+def spec():
+    return planar_arm().spec
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_the_values_arrive_in_joint_order(tmp_path, spec, suffix):
+    table = columns()
+    shuffled = {name: table[name] for name in ("tau2", "q2", "time", "q1", "tau1")}
+    shuffled["temperature1"] = np.linspace(20, 30, 50)
+    log = read_log(write(tmp_path / f"run{suffix}", shuffled), spec)
+    np.testing.assert_allclose(log.q, np.column_stack([table["q1"], table["q2"]]))
+    np.testing.assert_allclose(log.tau, np.column_stack([table["tau1"], table["tau2"]]))
+    np.testing.assert_allclose(log.extra["temperature1"], shuffled["temperature1"])
+    assert log.name == f"run{suffix}" and log.rows == 50 and log.qd is None and not log.missing
+    assert log.step == pytest.approx(0.01)
+
+
+def test_torque_goes_before_current_and_current_needs_the_gain(tmp_path):
+    table = columns(joints=1) | {"current1": np.arange(50.0)}
+    gained = slider(gain=35.0).spec
+    both = read_log(write(tmp_path / "both.csv", table), gained)
+    np.testing.assert_allclose(both.tau[:, 0], table["tau1"])
+    np.testing.assert_allclose(both.extra["current1"], table["current1"])
+    del table["tau1"]
+    path = write(tmp_path / "current.csv", table)
+    log = read_log(path, gained)
+    np.testing.assert_allclose(log.tau[:, 0], 35.0 * table["current1"])
+    assert log.torque_source == ("current1 x 35",)
+    with pytest.raises(DataError, match=r"current\.csv: current1 .*\[drive_gains\] 1 = "):
+        read_log(path, slider().spec)
+
+
+def test_a_passive_joint_needs_its_position_but_no_torque(tmp_path):
+    passive = planar_arm(passive=(1,)).spec
+    table = columns()
+    del table["tau2"]
+    log = read_log(write(tmp_path / "a.csv", table), passive)
+    assert np.all(log.tau[:, 1] == 0.0) and log.torque_source[1] == "0 (passive)"
+    del table["q2"]
+    with pytest.raises(DataError, match="no column q2: joint 2 .* is passive"):
+        read_log(write(tmp_path / "b.csv", table), passive)
+
+
+def test_missing_values_stay_in_their_rows_and_are_counted(tmp_path, spec):
+    table = columns()
+    table["q1"][3:6] = np.nan
+    table["tau2"][10] = np.inf
+    for suffix in (".csv", ".parquet"):
+        log = read_log(write(tmp_path / f"gappy{suffix}", table), spec)
+        assert log.missing == {"q1": 3, "tau2": 1}
+        assert log.rows == 50 and np.isnan(log.q[3:6, 0]).all() and np.isnan(log.tau[10, 1])
+
+
+def test_partly_logged_velocities_are_not_used_and_it_is_said(tmp_path, spec):
+    table = columns() | {"qd1": np.ones(50), "qc1": np.ones(50), "qc2": np.ones(50)}
+    log = read_log(write(tmp_path / "a.csv", table), spec)
+    assert log.qd is None and log.commanded is not None
+    assert any("qd2 missing" in note for note in log.notes)
+
+
+def test_doubts_are_noted(tmp_path, spec):
+    table = columns()
+    table["time"] = table["time"] * 1000.0
+    table["q1"] = np.linspace(0, 180, 50)
+    table["tau2"] = np.full(50, 2.5)
+    table["comment"] = np.array(["x"] * 50)
+    notes = " | ".join(read_log(write(tmp_path / "a.csv", table), spec).notes)
+    for words in ("in seconds", "q1 spans 180", "joint 2 never changes", "comment not numeric"):
+        assert words in notes
+
+
+def changed(**new):
+    table = columns() | new
+    return {name: values for name, values in table.items() if values is not None}
+
+
+BAD = {
+    "no time": (changed(time=None), "no column time"),
+    "no position": (changed(q2=None), "no column q2; the columns are time, q1"),
+    "no torque": (changed(tau2=None), "no column tau2 or current2: joint 2"),
+    "text": (changed(q1=["zero", *[0.5] * 49]), 'column q1, row 1: got "zero"; expected a number'),
+    "text torque": (changed(tau1=[*["1"] * 9, "n/a?", *["1"] * 40]), 'tau1, row 10: got "n/a?"'),
+    "text segment": (changed(segment=["a"] * 50), 'column segment, row 1: got "a"'),
+    "back": (changed(time=[*range(30), 29, *range(31, 50)]), "time, row 31: 29 s after 29 s"),
+    "no time value": (changed(time=[0.0, np.nan, *range(2, 50)]), "column time, row 2: no value"),
+    "no segment": (changed(segment=[np.nan] * 50), "column segment, row 1: no value"),
+    "all missing": (changed(tau1=[np.nan] * 50), "torque of joint 1 has no values"),
+    "no positions": (changed(q1=[np.nan] * 50), "q1 has no values"),
+    "no effort": (changed(tau1=[0.0] * 50, tau2=[0.0] * 50), "every measured torque is 0"),
+    "few": ({n: v[:6] for n, v in columns().items()}, "6 rows; expected at least 10"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_wrong_tables_say_file_column_and_row(tmp_path, spec, case, suffix):
+    table, words = BAD[case]
+    path = write(tmp_path / f"bad{suffix}", table)
+    with pytest.raises(DataError) as error:
+        read_log(path, spec)
+    assert words in str(error.value) and str(path) in str(error.value)
+
+
+def test_wrong_files(tmp_path, spec):
+    with pytest.raises(DataError, match=r"a log ends in \.parquet or \.csv, got \"\.xyz\""):
+        read_log(tmp_path / "run.xyz", spec)
+    with pytest.raises(DataError, match=r"none\.csv: there is no such file"):
+        read_log(tmp_path / "none.csv", spec)
+    (tmp_path / "empty.csv").touch()
+    with pytest.raises(DataError, match="the file is empty"):
+        read_log(tmp_path / "empty.csv", spec)
+    (tmp_path / "not.parquet").write_text("time,q1\n")
+    with pytest.raises(DataError, match="cannot be read as PARQUET"):
+        read_log(tmp_path / "not.parquet", spec)
+    (tmp_path / "ragged.csv").write_text("time,q1\n1,2\n1,2,3\n")
+    with pytest.raises(DataError, match="cannot be read as CSV"):
+        read_log(tmp_path / "ragged.csv", spec)
+    (tmp_path / "semi.csv").write_text("time;q1;tau1\n" + "1;2;3\n" * 20)
+    with pytest.raises(DataError, match="separated by commas"):
+        read_log(tmp_path / "semi.csv", spec)
+    (tmp_path / "twice.csv").write_text("time,q1,q1\n" + "1,2,3\n" * 20)
+    with pytest.raises(DataError, match="column q1 appears 2 times"):
+        read_log(tmp_path / "twice.csv", spec)
+
+
+def test_a_column_of_another_kind_is_named_with_its_kind(tmp_path, spec):
+    table = columns()
+    table["q1"] = np.array(["2020-01-01"] * 50, dtype="datetime64[D]")
+    with pytest.raises(DataError, match="column q1 holds date32"):
+        read_log(write(tmp_path / "a.parquet", table), spec)

@@ -1,0 +1,179 @@
+"""Pieces, derivatives and the choice of filters, against closed forms."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError
+from modeler.observation import Log, Processing, processing_from_json
+from modeler.observation.band import choose_cutoffs, motion_band
+from modeler.observation.motion import segment_of
+from modeler.observation.saturation import saturated
+from modeler.observation.segments import split
+
+W0 = 2 * np.pi * 0.7  # rad/s
+
+
+def log_of(time, q=None, tau=None, **more):
+    q = np.sin(W0 * time)[:, None] if q is None else q
+    tau = np.cos(W0 * time)[:, None] if tau is None else tau
+    return Log("a.csv", ("1",), time, q, tau, **more)
+
+
+def test_clipping_is_caught_and_clean_signals_are_not():
+    t = np.arange(4000) / 1000.0
+    noise = np.random.default_rng(0).normal(0, 0.01, t.shape)
+    sine = np.sin(2 * np.pi * t)
+    clipped = np.clip(1.5 * sine + noise, -1.0, 1.0)
+    caught = saturated(clipped)
+    assert caught.sum() > 0.9 * np.sum(np.abs(1.5 * sine) > 1.05)
+    assert np.all(np.abs(clipped[caught]) == 1.0)
+    one_sided = saturated(np.minimum(1.5 * sine, 1.0))
+    assert one_sided.any() and not one_sided[sine < 0].any()
+    for resolution in (1e-4, 1e-3, 1e-2, 0.1):  # crests of 3 to 200 equal samples
+        for scale in (1.0, 1.0 / 3.0):
+            rounded = np.round(sine / resolution) * resolution * scale
+            assert not saturated(rounded).any()
+            assert not saturated(np.round((sine + noise) / resolution) * resolution).any()
+    assert not saturated(np.full(100, 3.0)).any()
+    assert not saturated(np.array([np.nan] * 50)).any()
+
+
+def test_pieces_end_at_gaps_and_segment_changes():
+    time = np.concatenate([np.arange(100), 200 + np.arange(50)]) * 0.01
+    pieces, report = split(log_of(time), 0, False)
+    assert [len(p.time) for p in pieces] == [100, 50]
+    assert report.gaps == 1 and report.longest_gap == pytest.approx(1.01)
+    assert not any(p.resampled for p in pieces) and report.jitter < 1e-9
+    marked = log_of(np.arange(100) * 0.01, segment=np.repeat([0, 1, 2], [40, 57, 3]))
+    pieces, report = split(marked, 0, False)
+    assert [len(p.time) for p in pieces] == [40, 57] and report.short == 3
+
+
+def test_short_losses_are_bridged_and_marked_long_ones_cut():
+    time = np.arange(400) * 0.01
+    q, tau = np.sin(W0 * time)[:, None], np.cos(W0 * time)[:, None]
+    q[50:53] = np.nan  # 3 rows: bridged
+    q[200:220] = np.nan  # 20 rows: a gap
+    tau[300] = np.nan
+    pieces, _ = split(log_of(time, q, tau), 0, False)
+    assert len(pieces) == 2
+    first, second = pieces
+    np.testing.assert_allclose(first.time, time[:200], atol=1e-12)
+    assert not first.valid[50:53].any() and first.valid[:50].all() and first.valid[53:].all()
+    np.testing.assert_allclose(first.q[:, 0], np.sin(W0 * first.time), atol=2e-4)
+    lost = np.flatnonzero(~second.valid[:, 0])
+    np.testing.assert_allclose(second.time[lost], [3.0])
+    assert np.isfinite(second.tau).all()
+
+
+def test_jittered_stamps_come_out_on_a_uniform_grid():
+    random = np.random.default_rng(1)
+    time = np.cumsum(random.choice([0.008, 0.01, 0.012], 500))
+    pieces, report = split(log_of(time), 0, False)
+    piece = pieces[0]
+    assert piece.resampled and report.jitter == pytest.approx(0.2)
+    np.testing.assert_allclose(np.diff(piece.time), piece.step, rtol=1e-9)
+    np.testing.assert_allclose(piece.q[:, 0], np.sin(W0 * piece.time), atol=3e-4)
+    np.testing.assert_allclose(piece.tau[:, 0], np.cos(W0 * piece.time), atol=1e-3)
+    assert piece.valid.all()
+
+
+def test_derivatives_of_a_sine():
+    time = np.arange(3000) * 1e-3
+    piece = split(log_of(time), 0, False)[0][0]
+    segment = segment_of(piece, Processing(position_cutoff=50.0))
+    whole = segment.whole
+    assert 0.95 < whole.mean() < 1.0
+    expected = (np.sin(W0 * time), W0 * np.cos(W0 * time), -(W0**2) * np.sin(W0 * time))
+    for got, want, scale in zip((segment.q, segment.qd, segment.qdd), expected, (1, W0, W0**2)):
+        np.testing.assert_allclose(got[whole, 0], want[whole], atol=2e-4 * scale)
+    # No filter: central differences alone, one sample lost at each end.
+    bare = segment_of(piece, Processing(position_cutoff=0.0))
+    assert bare.whole.sum() == 2998
+    np.testing.assert_allclose(bare.qdd[1:-1, 0], expected[2][1:-1], atol=1e-4 * W0**2)
+
+
+def test_logged_derivatives_are_taken_as_asked():
+    time = np.arange(1000) * 1e-3
+    log = log_of(time, qd=np.full((1000, 1), 7.0), qdd=np.full((1000, 1), 9.0))
+    processing = Processing(position_cutoff=50.0)
+    both = segment_of(split(log, 0, True)[0][0], processing)
+    assert np.all(both.qd == 7.0) and np.all(both.qdd == 9.0) and both.whole.all()
+    velocity = segment_of(split(dataclasses.replace(log, qdd=None), 0, True)[0][0], processing)
+    np.testing.assert_allclose(velocity.qd, 7.0)
+    np.testing.assert_allclose(velocity.qdd, 0.0, atol=1e-6)
+    differentiated = segment_of(split(log, 0, False)[0][0], processing)
+    assert np.max(np.abs(differentiated.qd)) < 5.0
+
+
+def test_a_piece_that_is_all_edge_is_left_out():
+    time = np.arange(20) * 1e-3
+    assert segment_of(split(log_of(time), 0, False)[0][0], Processing(position_cutoff=30.0)) is None
+
+
+def test_saturated_samples_count_only_on_request():
+    time = np.arange(1000) * 1e-3
+    tau = np.clip(2.0 * np.sin(W0 * time), -1.0, 1.0)[:, None]
+    piece = split(log_of(time, tau=tau), 0, False)[0][0]
+    left = segment_of(piece, Processing(position_cutoff=50.0))
+    kept = segment_of(piece, Processing(position_cutoff=50.0, keep_saturated=True))
+    assert piece.clipped.sum() > 100
+    assert kept.valid.sum() - left.valid.sum() == (piece.clipped[:, 0] & left.whole).sum()
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-5, 1e-3])
+def test_the_motion_band_is_that_of_the_fastest_joint_and_noise_does_not_move_it(noise):
+    time = np.arange(20000) * 1e-3
+    q = np.column_stack([np.sin(2 * np.pi * 0.3 * time), 0.2 * np.sin(2 * np.pi * 3.0 * time)])
+    q = q + np.random.default_rng(2).normal(0.0, noise, q.shape)
+    log = Log("a", ("1", "2"), time, q, q)
+    assert motion_band(split(log, 0, False)[0][0]) == pytest.approx(3.0, abs=0.15)
+
+
+def test_a_log_that_stands_still_has_no_band():
+    time = np.arange(1000) * 1e-3
+    still = log_of(time, np.full((1000, 1), 0.4))
+    assert motion_band(split(still, 0, False)[0][0]) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("hertz", "rate", "position", "parallel"),
+    [(0.3, 1000, 30, 5), (3.0, 1000, 75, 12), (30.0, 5000, 150, 75), (3.0, 50, 20, 10)],
+)
+def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
+    time = np.arange(20 * rate) / rate
+    piece = split(log_of(time, np.sin(2 * np.pi * hertz * time)[:, None]), 0, False)[0][0]
+    chosen, said = choose_cutoffs(Processing(), [piece])
+    assert chosen.position_cutoff == pytest.approx(position, rel=0.05)
+    assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
+    assert any("position filter" in s for s in said) and any("parallel filter" in s for s in said)
+    given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
+    assert choose_cutoffs(given, [piece])[0] == given
+
+
+def test_a_rate_too_low_for_the_motion_is_said():
+    time = np.arange(400) / 20.0
+    piece = split(log_of(time, np.sin(2 * np.pi * 3.0 * time)[:, None]), 0, False)[0][0]
+    assert any(
+        "less than 5 x the motion band" in s for s in choose_cutoffs(Processing(), [piece])[1]
+    )
+
+
+def test_processing_survives_json_and_refuses_nonsense():
+    full = Processing(30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1)
+    assert processing_from_json(full.to_json()) == full
+    assert processing_from_json(Processing().to_json()) == Processing()
+    for bad, words in (
+        ({"position_cutoff": -1.0}, "position_cutoff is -1.0; expected"),
+        ({"parallel_cutoff": float("nan")}, "parallel_cutoff is nan"),
+        ({"decimation": 0}, "decimation is 0; expected a whole number"),
+        ({"low_speed": 1.5}, "low_speed is 1.5; expected a fraction"),
+        ({"derivatives": "best"}, 'derivatives is "best"; expected auto, log, position'),
+        ({"cutoff": 1.0}, "processing has no setting cutoff"),
+        ({"position_cutoff": "fast"}, "expected numbers"),
+        ({"speed_floors": [1]}, "expected numbers"),
+    ):
+        with pytest.raises(DataError, match=words):
+            processing_from_json(bad)
