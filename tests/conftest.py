@@ -18,6 +18,31 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """With --regenerate, only what compares kept files: everything else would be run in vain."""
+    if not config.getoption("--regenerate"):
+        return
+    keepers = {"compare_with_generated", "regenerate"}
+    kept = [item for item in items if keepers & set(getattr(item, "fixturenames", ()))]
+    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+    items[:] = kept
+
+
+@pytest.fixture
+def regenerate(request: pytest.FixtureRequest) -> bool:
+    """Whether kept files are to be written anew instead of compared."""
+    return bool(request.config.getoption("--regenerate"))
+
+
+@pytest.fixture(scope="session")
+def measured_folder() -> Path:
+    """The folder of measured logs beside the checkout; they are not part of the project."""
+    folder = ROOT.parent / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip(f"NOT CHECKED: no measured logs, there is no {folder}")
+    return folder
+
+
 @pytest.fixture(scope="session", autouse=True)
 def compiled_models_beside_pytest(request: pytest.FixtureRequest) -> Iterator[None]:
     """Compiled models go into pytest's cache: kept between runs, never in the user's own."""

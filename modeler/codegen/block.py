@@ -25,7 +25,7 @@ from modeler.codegen.printer import (
 from modeler.core.errors import EmitError
 from modeler.symbolic import Expr, Graph
 
-_LONGEST = 76  # characters of an expression; with indent and name a line stays below 100
+_LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
 _HOISTED = ("sin", "cos", "tan", "exp", "tanh")
 _SHORT = {"sin": "s", "cos": "c"}
 

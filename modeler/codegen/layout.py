@@ -37,9 +37,10 @@ def _is_sum(coefficient: str) -> bool:
 
 
 def comment_text(text: str) -> str:
-    """`text` such that it can stand in a C comment: no end of comment, ASCII only, one line."""
+    """`text` such that it can stand in a C comment: no end of comment, ASCII only, short lines."""
     text = " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
-    return text.encode("ascii", "replace").decode()
+    text = text.encode("ascii", "replace").decode()
+    return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 
 def symbol_lines(spec: ModuleSpec, macros: dict[str, str]) -> list[tuple[str, str]]:

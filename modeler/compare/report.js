@@ -1,5 +1,10 @@
 // A picture is drawn when it comes near the screen: a page of many joints opens at once.
-const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+// plotly.js would offer to send the chart to a server, outside what the page's policy can refuse:
+// no such button, and no address.
+const options = {
+  responsive: true, displaylogo: false, showSendToCloud: false, plotlyServerURL: "",
+  modeBarButtonsToRemove: ["lasso2d", "select2d", "sendChartToCloud"],
+};
 const draw = (place) => {
   const picture = JSON.parse(place.nextElementSibling.textContent);
   Plotly.newPlot(place, picture.data, picture.layout, options);

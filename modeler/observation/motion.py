@@ -12,7 +12,9 @@ from modeler.observation.segments import Piece
 HIGHEST = 0.4
 """A cut-off is at most this share of the sampling rate: above, Butterworth has no room to fall."""
 
-_EDGE_PERIODS = 1.5  # order 4, both ways: what the start-up leaves after 1.5/cutoff is below 1 %
+# The slowest poles fade as exp(-2.4 t cutoff): after 2.5 periods, 0.5 % of the kink in the
+# acceleration that the extension beyond the ends makes is left (1.5 periods: 3 %).
+_EDGE_PERIODS = 2.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +81,10 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     if edge:
         whole[:edge] = whole[-edge:] = False
     valid = piece.valid if processing.keep_saturated else piece.valid & ~piece.clipped
+    if edge and piece.bridged.any():
+        # The bend of a bridge reaches as far as the start-up of the filter.
+        near = np.convolve(piece.bridged, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5
+        valid = valid & ~near[:, None]
     return Segment(
         piece.run, piece.time, piece.step, q, qd, qdd, piece.tau, piece.extra, whole,
         valid & whole[:, None],

@@ -28,7 +28,7 @@ class Processing:
         speed_floors: those speeds, rad/s or m/s, by shaft; None: `low_speed` times the top speed
             over the logs.
         keep_saturated: use rows whose torque is stuck at the drive's limit.
-        edge: seconds left out at both ends of a differentiated piece; None: 1.5 periods of
+        edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
             `position_cutoff`, where the filter's start-up has faded below 1 %.
     """
 

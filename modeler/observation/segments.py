@@ -31,6 +31,7 @@ class Piece:
         qd, qdd: (n, joints) as logged, or None.
         extra: further columns, (n,).
         valid: (n, joints) False where torque or motion was missing and is bridged.
+        bridged: (n,) True where the motion was missing.
         clipped: (n, joints) True where the torque was at the drive's limit.
         resampled: True if the rows were moved to the grid.
     """
@@ -44,6 +45,7 @@ class Piece:
     qdd: np.ndarray | None
     extra: Mapping[str, np.ndarray]
     valid: np.ndarray
+    bridged: np.ndarray
     clipped: np.ndarray
     resampled: bool
 
@@ -125,6 +127,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
         qdd=smooth(log.qdd),
         extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
         valid=valid & ~bridged[:, None],
+        bridged=bridged,
         clipped=clipped[rows][near],
         resampled=not uniform,
     )

@@ -19,7 +19,7 @@ from modeler.terms.coefficients import CoefficientTable, vector_of
 from modeler.terms.evaluation import poly_value
 from modeler.terms.power import exact_state, example_values, power_balance
 from modeler.terms.relations import combination_of, relations
-from modeler.terms.ring import Poly
+from modeler.terms.ring import Poly, TrigRing
 from modeler.terms.text import combination_text, monomial_text, polynomial_text
 
 
@@ -57,7 +57,7 @@ class SolutionCheck:
     Attributes:
         letter: the physical parameter.
         printed: as the robot file quotes it.
-        verdict: "right", "0/0", "x/0", "returns -<letter>" or "wrong".
+        verdict: "right", "divides by 0", "0/0", "returns -<letter>" or "wrong".
         numerator: after substitution, as text.
         denominator: after substitution, as text.
     """
@@ -95,15 +95,12 @@ def wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
         joints = _joints(table, name)
         difference = _difference(table, name, printed)
         if difference:
-            found.append(
-                FunctionCheck(
-                    name,
-                    printed.text,
-                    {_monomial(table, at): _in_coefficients(table, v)
-                     for at, v in sorted(difference.items(), reverse=True)},
-                    _power_defect(table, joints, difference),
-                )  # fmt: skip
-            )
+            texts = {
+                _monomial(table, at): _in_coefficients(table, vector)
+                for at, vector in sorted(difference.items(), reverse=True)
+            }
+            power = _power_defect(table, joints, difference)
+            found.append(FunctionCheck(name, printed.text, texts, power))
     return found
 
 
@@ -169,7 +166,7 @@ def _printed_terms(
         which = exponents[len(motion) :]
         if sum(which) != 1:
             raise RobotError(
-                f'robot {table.closed.robot.name}, [terms], printed, functions, {name}: got '
+                f"robot {table.closed.robot.name}, [terms], printed, functions, {name}: got "
                 f'"{printed.text}"; expected a sum of coefficients times monomials'
             )
         found.append((names[which.index(1)], exponents[: len(motion)], value))
@@ -242,11 +239,18 @@ def _known(table: CoefficientTable, name: str, key: str) -> None:
         )
 
 
-def check_solutions(table: CoefficientTable) -> list[SolutionCheck]:
-    """Every printed solution with the derived coefficients put in, exactly."""
+def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[SolutionCheck]:
+    """Every printed solution with the coefficients put in, exactly.
+
+    Args:
+        table: of the robot.
+        as_printed: put in the printed definitions of the coefficients, where there are some.
+    """
     ring = table.physical.ring
     letters = _generators(ring)
     values = {name: c.physical for name, c in table.by_name.items()} | letters
+    for name, text in table.printed.definitions.items() if as_printed else ():
+        values[name] = _evaluated(table, letters, ring, text, f"definitions, {name}")
     found = []
     for letter, (above, below) in table.printed.solutions.items():
         numerator = _evaluated(table, values, ring, above, f"solutions, {letter}")
@@ -271,14 +275,14 @@ def check_solutions(table: CoefficientTable) -> list[SolutionCheck]:
 
 def _verdict(letter: str, numerator: Poly, denominator: Poly, value: Poly) -> str:
     if not denominator:
-        return "x/0" if numerator else "0/0"
+        return "divides by 0" if numerator else "0/0"
     if numerator == denominator * value:
         return "right"
     return f"returns -{letter}" if numerator == -denominator * value else "wrong"
 
 
 def check_independent(table: CoefficientTable) -> dict[str, str]:
-    """Coefficients that are printed as independent and depend on the others: {name: combination}."""
+    """Coefficients printed as independent that depend on the others: {name: combination}."""
     for name in table.printed.independent:
         _known(table, name, "independent")
     found = relations(
@@ -307,25 +311,23 @@ def check_twin(table: CoefficientTable) -> TwinCheck:
     return TwinCheck(len(table.coefficients) - len(different), different, changed)
 
 
-def projected_motor_torques(model: SymbolicModel, table: CoefficientTable) -> list[str]:
+def projected_motor_torques(model: SymbolicModel) -> list[str]:
     """Generalised forces if every motor torque acted on its own link only, without reaction.
 
     F_i = sum_j tau_j (z_j . w_i(j)), w_i(j) the angular velocity of link j for unit speed of joint
     i; with the reactions on the links below it would be F_i = tau_i.
     """
-    algebra = table.closed.algebra
+    algebra = TrigRing(model.geometry)
     carried = screws(model.geometry, poses(model.geometry, algebra), algebra)
-    motion = algebra.names
-    forces = []
-    for i in range(model.geometry.joints):
-        parts = []
-        for row, links in zip(model.geometry.rows, carried, strict=True):
-            if row.index is not None and i in links and row.joint.angular:
-                factor = links[i].e[2] * row.rate
-                if factor:
-                    text = polynomial_text(factor, motion)
-                    text = f"({text})" if len(factor) > 1 else text
-                    tau = f"tau{row.joint.name}"
-                    parts.append(tau if text == "1" else f"{text}*{tau}")
-        forces.append(" + ".join(parts) or "0")
-    return forces
+    forces: list[list[str]] = [[] for _ in range(model.geometry.joints)]
+    for row, links in zip(model.geometry.rows, carried, strict=True):
+        if row.index is None:
+            continue
+        tau = f"tau{row.joint.name}"
+        for i, screw in sorted(links.items()):
+            along = (screw.e if row.joint.angular else screw.m)[2] * row.rate
+            if along:
+                text = polynomial_text(along, algebra.names)
+                text = f"({text})" if len(along) > 1 else text
+                forces[i].append(tau if text == "1" else f"{text}*{tau}")
+    return [" + ".join(parts) or "0" for parts in forces]

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
+from typing import TypeAlias
 
 from modeler.base import BaseParameters
 from modeler.core.errors import RobotError
@@ -12,8 +13,8 @@ from modeler.symbolic import SymbolicModel
 from modeler.terms.energy import Entries, dynamics
 from modeler.terms.ring import Poly, TrigRing, without_squares
 
-Exponents = tuple[int, ...]
-Form = Mapping[int, Poly]
+Exponents: TypeAlias = tuple[int, ...]
+Form: TypeAlias = Mapping[int, Poly]
 """Linear form of standard parameters: {column: factor, a polynomial of the geometry}."""
 
 KINDS = {"g": "gravity", "J": "inertia", "S": "christoffel"}
@@ -111,12 +112,16 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
 
 
 def function_name(letter: str, joints: Sequence[str]) -> str:
-    """ "J12"; "J1_12" where a joint's name has several characters."""
+    """Name of a function: "J12"; "J1_12" where a joint's name has several characters."""
     return letter + ("" if all(len(name) == 1 for name in joints) else "_").join(joints)
 
 
 def _functions(
-    letter: str, names: Sequence[str], entries: Entries, algebra: TrigRing, keep: frozenset[str] | None
+    letter: str,
+    names: Sequence[str],
+    entries: Entries,
+    algebra: TrigRing,
+    keep: frozenset[str] | None,
 ) -> list[Function]:
     return [_function(letter, names, at, entry, algebra, keep) for at, entry in entries.items()]
 
@@ -210,7 +215,7 @@ def _kept_by_paper(robot: Robot) -> frozenset[str] | None:
         return None
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise RobotError(
-            f'robot {robot.name}, [terms], keep_sine_squares: got {names!r}; expected a list of '
+            f"robot {robot.name}, [terms], keep_sine_squares: got {names!r}; expected a list of "
             'functions such as ["J11", "J12"]'
         )
     return frozenset(names)

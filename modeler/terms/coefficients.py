@@ -9,6 +9,7 @@ from typing import Any
 
 from modeler.base import BaseParameters
 from modeler.core.errors import RobotError
+from modeler.core.expression import Expression
 from modeler.symbolic import SymbolicModel
 from modeler.terms.closed_form import ClosedForm, Exponents, Form, Function, closed_form
 from modeler.terms.identifiability import (
@@ -170,7 +171,9 @@ def _names(closed: ClosedForm, printed: Print) -> list[tuple[str, tuple[str, Exp
     return named + [(f"{printed.missing}{i}", at) for i, at in enumerate(missing, start=1)]
 
 
-def _monomials(closed: ClosedForm, name: str, cells: tuple[Any, ...]) -> tuple[Exponents, ...]:
+def _monomials(
+    closed: ClosedForm, name: str, cells: tuple[Expression, ...]
+) -> tuple[Exponents, ...]:
     where = f"robot {closed.robot.name}, [terms], monomials, {name}"
     function = closed.by_name.get(name)
     if function is None:
@@ -179,15 +182,17 @@ def _monomials(closed: ClosedForm, name: str, cells: tuple[Any, ...]) -> tuple[E
         )
     algebra = closed.algebra
     motion = algebra.names[: algebra.moving]
-    found = tuple(_exponents(cell, algebra) for cell in cells)
-    for cell, at in zip(cells, found, strict=True):
-        if at not in function.terms or found.count(at) > 1:
+    found: list[Exponents] = []
+    for cell in cells:
+        at = _exponents(cell, algebra)
+        if at is None or at not in function.terms or at in found:
             have = ", ".join(monomial_text(t, motion) for t in function.terms)
             raise RobotError(f'{where}: got "{cell.text}"; expected each at most once: {have}')
-    return found
+        found.append(at)
+    return tuple(found)
 
 
-def _exponents(cell: Any, algebra: TrigRing) -> Exponents | None:
+def _exponents(cell: Expression, algebra: TrigRing) -> Exponents | None:
     """Exponents of a monomial; None if it is none."""
     generators = dict(zip(algebra.names, algebra.ring.gens[: algebra.moving], strict=False))
     try:
@@ -205,9 +210,7 @@ def _integer(value: Fraction) -> int:
     return value.numerator
 
 
-def _known_geometry(
-    coefficients: tuple[Coefficient, ...], algebra: TrigRing
-) -> tuple[str, ...]:
+def _known_geometry(coefficients: tuple[Coefficient, ...], algebra: TrigRing) -> tuple[str, ...]:
     names = [str(symbol) for symbol in algebra.static_ring.symbols]
     prime, point = random_point(names, random.Random(SEED))
     elimination = Elimination(prime)

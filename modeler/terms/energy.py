@@ -14,14 +14,12 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.effects import EnergyBlock
-from modeler.symbolic import SymbolicModel, StandardColumn
+from modeler.symbolic import StandardColumn, SymbolicModel
 from modeler.symbolic.kinematics import (
     Screw,
     Vector,
-    cross,
     dot,
     gravity_in_frames,
-    plus,
     poses,
     screws,
 )
@@ -29,8 +27,8 @@ from modeler.symbolic.model import exact
 from modeler.terms.ring import Poly, TrigRing
 
 MOST_PRODUCTS = 500_000
-"""Products of two monomials that the inertia matrix may take (10,186 for a PUMA 560, 1 s; 307,805 for
-5R with general angles and lengths, 7 s)."""
+"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 307,805
+for 5R with general angles and lengths (7 s)."""
 
 Entries = Mapping[tuple[int, ...], Mapping[int, Poly]]
 """{indices: {column of the standard parameter: factor}}, in normal form; zeros left out."""

@@ -17,7 +17,6 @@ from modeler.robot import Joint, PhysicalLink
 from modeler.symbolic import SymbolicModel
 from modeler.terms.ring import Poly, TrigRing
 
-
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
 
 
@@ -148,7 +147,9 @@ class _Reader:
     zeros: frozenset[str]
 
     def __call__(self, entry: Expression, joint: str) -> Poly:
-        generators = {str(symbol): x for symbol, x in zip(self.ring.symbols, self.ring.gens, strict=True)}
+        generators = {
+            str(symbol): x for symbol, x in zip(self.ring.symbols, self.ring.gens, strict=True)
+        }
         values = {name: QQ(0) if name in self.zeros else generators[name] for name in entry.names}
         try:
             derived = entry.names & self._derived()

@@ -54,7 +54,7 @@ def example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fra
     nominal = table.closed.algebra.geometry.values
     values = {name: Fraction(repr(float(value))) for name, value in nominal.items()}
     values |= table.printed.example
-    return values | table.printed.twin if twin else values
+    return {**values, **table.printed.twin} if twin else values
 
 
 def exact_state(table: CoefficientTable) -> ExactState:

@@ -1,16 +1,16 @@
-"""Linear relations between functions, exactly: rank, an independent set, the map to base parameters."""
+"""Linear relations between functions, exactly: rank, independent set, map to base parameters."""
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 
 from modeler.terms.ring import Poly
 
-Vector = Mapping[Hashable, Any]
+Vector: TypeAlias = Mapping[Any, Any]
 """Sparse vector over Q: {place: rational number}."""
 
 

@@ -8,7 +8,7 @@ cosine of every general constant angle, square roots of numbers. Normal form: no
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import comb
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy
 from sympy.polys.domains import QQ
@@ -18,7 +18,7 @@ from sympy.polys.rings import PolyElement, PolyRing
 from modeler.core.errors import DerivationError
 from modeler.symbolic.geometry import Geometry, Row
 
-Poly = PolyElement
+Poly: TypeAlias = PolyElement
 """Sparse polynomial: {exponents: rational number}."""
 
 

@@ -51,7 +51,7 @@ LATEX = Style(r"\,", True)
 
 
 def latex_name(name: str) -> str:
-    """ "cJ23" -> "cJ_{23}", "XX3R" -> "\\mathit{XX}_{3R}", "cos(al)" -> "\\cos{(\\mathit{al})}"."""
+    """LaTeX of a letter, digits behind it as an index; sines, cosines and roots as functions."""
     function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
     if function:
         return f"\\{function[1]}{{({latex_name(function[2])})}}"
@@ -67,7 +67,7 @@ def latex_name(name: str) -> str:
 
 
 def monomial_text(exponents: Sequence[int], names: Sequence[str], style: Style = TEXT) -> str:
-    """ "c2*s1**2"; cosines before sines, "1" for the empty product."""
+    """The monomial, as "c2*s1**2"; cosines before sines, "1" for the empty product."""
     factors = [(name, e) for name, e in zip(names, exponents, strict=True) if e]
     return style.times.join(style.power(name, e) for name, e in sorted(factors)) or "1"
 
@@ -117,7 +117,9 @@ def physical_text(poly: Poly, names: Sequence[str], masses: Iterable[str],
             terms.append((as_fraction(value), f"{letter}{style.times}{plain}" if plain else letter))
         else:
             content = _content([as_fraction(value) for value in inside.values()])
-            parts = [(as_fraction(v) / content, _plain(at, names, style)) for at, v in inside.items()]
+            parts = [
+                (as_fraction(v) / content, _plain(at, names, style)) for at, v in inside.items()
+            ]
             terms.append((content, f"{letter}{style.times}({signed_sum(parts, style)})"))
     return signed_sum(terms, style)
 
@@ -156,9 +158,7 @@ def as_fraction(value: Any) -> Fraction:
 
 def _plain(at: Sequence[int], names: Sequence[str], style: Style) -> str:
     """The monomial in the order of its generators; empty for 1."""
-    return style.times.join(
-        style.power(name, e) for name, e in zip(names, at, strict=True) if e
-    )
+    return style.times.join(style.power(name, e) for name, e in zip(names, at, strict=True) if e)
 
 
 def _content(values: Sequence[Fraction]) -> Fraction:

@@ -78,6 +78,9 @@ def test_page_is_one_file_that_loads_nothing(page: str) -> None:
         assert target.startswith(("#", "data:text/csv"))
     assert set(t[1:] for t in parsed.loads if t.startswith("#")) <= set(parsed.ids)
     assert "default-src 'none'" in page  # the browser itself refuses any network access
+    ours = page.rpartition("<script>")[2]
+    assert 'showSendToCloud: false, plotlyServerURL: ""' in ours  # no button that uploads
+    assert "http" not in ours
     assert "@import" not in page.partition("<script>")[0]
     assert "Plotly" in page and len(page) > 1_000_000  # plotly.js is inside
 

@@ -62,7 +62,12 @@ def test_short_losses_are_bridged_and_marked_long_ones_cut():
     first, second = pieces
     np.testing.assert_allclose(first.time, time[:200], atol=1e-12)
     assert not first.valid[50:53].any() and first.valid[:50].all() and first.valid[53:].all()
-    np.testing.assert_allclose(first.q[:, 0], np.sin(W0 * first.time), atol=2e-4)
+    np.testing.assert_allclose(first.q[:, 0], np.sin(W0 * first.time), atol=1e-3)
+    # Differentiated, the bend of the bridge is worth 0.3 rad/s2; none of it may count.
+    segment = segment_of(first, Processing(position_cutoff=30.0))
+    counted = segment.valid[:, 0]
+    wrong = np.abs(segment.qdd[:, 0] + W0**2 * np.sin(W0 * first.time))
+    assert wrong[49:54].max() > 0.3 and wrong[counted].max() < 0.15
     lost = np.flatnonzero(~second.valid[:, 0])
     np.testing.assert_allclose(second.time[lost], [3.0])
     assert np.isfinite(second.tau).all()
@@ -87,8 +92,14 @@ def test_derivatives_of_a_sine():
     whole = segment.whole
     assert 0.95 < whole.mean() < 1.0
     expected = (np.sin(W0 * time), W0 * np.cos(W0 * time), -(W0**2) * np.sin(W0 * time))
-    for got, want, scale in zip((segment.q, segment.qd, segment.qdd), expected, (1, W0, W0**2)):
-        np.testing.assert_allclose(got[whole, 0], want[whole], atol=2e-4 * scale)
+    for got, want, scale, tolerance in zip(
+        (segment.q, segment.qd, segment.qdd),
+        expected,
+        (1, W0, W0**2),
+        (1e-5, 1e-4, 5e-3),
+        strict=True,
+    ):
+        np.testing.assert_allclose(got[whole, 0], want[whole], atol=tolerance * scale)
     # No filter: central differences alone, one sample lost at each end.
     bare = segment_of(piece, Processing(position_cutoff=0.0))
     assert bare.whole.sum() == 2998

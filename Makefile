@@ -1,0 +1,76 @@
+# Everything starts here: a fresh machine needs Python 3.11 or later, a C compiler and make.
+# The first `make demo` or `make test` installs into .venv; later ones start at once.
+
+PYTHONS := python3.13 python3.12 python3.11 python3
+PYTHON ?=
+JOBS ?= 2
+BIN := .venv/bin
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help demo test lint regenerate clean
+
+help:
+	@echo 'make demo         install, then the whole story on a built-in robot: pictures and a page in demo/'
+	@echo 'make test         install, then ruff, mypy and every test (JOBS=2 processes)'
+	@echo 'make lint         ruff and mypy only'
+	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
+	@echo 'make clean        remove all that these commands made, .venv included'
+	@echo 'PYTHON=...        the Python to install with; default: the first of $(PYTHONS)'
+
+demo: .venv/.installed
+	$(BIN)/modeler demo --out demo
+	@for page in demo/*.html; do echo "open in a browser: $$page"; done
+
+test: lint
+	MODELER_CACHE=build/compiled OPENBLAS_NUM_THREADS=1 \
+	  $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
+
+lint: .venv/.installed-test
+	$(BIN)/python -m ruff check .
+	$(BIN)/python -m ruff format --check .
+	$(BIN)/python -m mypy
+
+regenerate: .venv/.installed-test
+	$(BIN)/python -m pytest -q --regenerate
+
+clean:
+	rm -rf .venv build dist demo .pytest_cache .mypy_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The build tools go first, at their pinned versions, so that building downloads nothing by itself.
+.venv/.installed: pyproject.toml constraints.txt
+	@$(find_compiler)
+	@$(make_venv)
+	$(BIN)/python -m pip install -q -c constraints.txt hatchling editables
+	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e .
+	@touch $@
+
+.venv/.installed-test: .venv/.installed
+	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e '.[test]'
+	@touch $@
+
+define find_compiler
+for name in $${CC:-cc} gcc clang; do \
+  command -v $$name >/dev/null 2>&1 && exit 0; \
+done; \
+echo 'modeler: no C compiler (cc, gcc, clang) found; install one, on Debian: apt install gcc' >&2; \
+exit 1
+endef
+
+# A name on the path may be a version manager's stub, so each Python is run, not only looked for.
+define make_venv
+$(BIN)/python -m pip --version >/dev/null 2>&1 && exit 0; \
+for name in $(if $(PYTHON),'$(PYTHON)',$(PYTHONS)); do \
+  "$$name" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 || continue; \
+  found=$$name; \
+  "$$name" -c 'import venv, ensurepip' >/dev/null 2>&1 || continue; \
+  echo "installing into .venv with $$name; this takes a minute or two"; \
+  rm -rf .venv; "$$name" -m venv .venv; exit $$?; \
+done; \
+if [ -n "$$found" ]; then \
+  echo "modeler: $$found has no venv module; install it, on Debian: apt install python3-venv" >&2; \
+else \
+  echo 'modeler: Python 3.11 or later not found; install it, or name it: make PYTHON=...' >&2; \
+fi; exit 1
+endef

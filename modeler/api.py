@@ -1,0 +1,116 @@
+"""The chain as seven steps: load, derive, generate, compile_model, observe, fit, compare.
+
+    from modeler.api import compare, compile_model, derive, fit, generate, load, observe
+
+    robot = load("emps")                               # a file, or the name of a built-in robot
+    derivation = derive(robot)                         # base parameters, exactly
+    emitted = generate(derivation, "emps_c")           # C, header, manifest, build files
+    compiled = compile_model(emitted)
+    observation = observe(compiled, ["train.parquet"])
+    model = fit(derivation, emitted, observation)
+    print(compare(model, ["pulses.parquet"]).summary())
+
+Each step is a function of the stage of that name; use the stages directly for more choices.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeler.base import BaseParameters, base_parameters
+from modeler.codegen import emit, write_emitted
+from modeler.compare import Comparison
+from modeler.compare import compare as compare_prediction
+from modeler.compare.predict import predict
+from modeler.compiled import CompiledModel
+from modeler.compiled import load as load_compiled
+from modeler.core.contract import Emitted
+from modeler.fit import IdentifiedModel, identify, provenance
+from modeler.fit.least_squares import Method
+from modeler.observation import Log, Observation, Processing, read_log
+from modeler.observation import observe as observe_logs
+from modeler.observation.window import window
+from modeler.robot import Robot, read_robot
+from modeler.symbolic import SymbolicModel, derive_model
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """A robot, its symbolic model and its base parameters."""
+
+    robot: Robot
+    model: SymbolicModel
+    base: BaseParameters
+
+
+def load(robot: str | Path) -> Robot:
+    """The robot of that file, or the built-in robot of that name."""
+    return read_robot(robot)
+
+
+def derive(robot: Robot) -> Derivation:
+    """The symbolic model and the base parameters with their proof."""
+    model = derive_model(robot)
+    return Derivation(robot, model, base_parameters(model))
+
+
+def generate(derivation: Derivation, folder: str | Path | None = None) -> Emitted:
+    """The C module; written to `folder` if one is given."""
+    emitted = emit(derivation.model, derivation.base)
+    if folder is not None:
+        write_emitted(emitted, Path(folder))
+    return emitted
+
+
+def compile_model(emitted: Emitted) -> CompiledModel:
+    """The C module made callable; compiled once for the same content."""
+    return load_compiled(emitted.spec, emitted.files)
+
+
+def read_logs(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list[Log]:
+    """Logs by path, `path@start:end` for a piece of it in seconds, or as they are."""
+    return [log if isinstance(log, Log) else _read(log, compiled) for log in logs]
+
+
+def _read(place: str | Path, compiled: CompiledModel) -> Log:
+    path, at, times = str(place).rpartition("@")
+    start, colon, end = times.partition(":")
+    if not (at and colon) or Path(place).exists():
+        return read_log(place, compiled.spec)
+    try:
+        span = tuple(float(side) if side else None for side in (start, end))
+    except ValueError:
+        return read_log(place, compiled.spec)
+    return window(read_log(path, compiled.spec), *span)
+
+
+def observe(
+    compiled: CompiledModel,
+    logs: Sequence[str | Path | Log],
+    processing: Processing | None = None,
+) -> Observation:
+    """The rows y = W beta of logs."""
+    return observe_logs(compiled, read_logs(compiled, logs), processing)
+
+
+def fit(
+    derivation: Derivation,
+    emitted: Emitted,
+    observation: Observation,
+    method: Method = "weighted",
+) -> IdentifiedModel:
+    """The base parameters from an observation, with all that a model file holds."""
+    return IdentifiedModel(
+        robot_text=derivation.robot.text,
+        spec=emitted.spec,
+        sources=emitted.files,
+        fit=identify(observation, method),
+        logs=provenance(observation.report),
+    )
+
+
+def compare(model: IdentifiedModel, logs: Sequence[str | Path | Log]) -> Comparison:
+    """Measured against predicted torque on logs, after the processing of the fit."""
+    compiled = model.compile()
+    prediction, _ = predict(model, read_logs(compiled, logs), compiled)
+    return compare_prediction(prediction)

@@ -1,0 +1,7 @@
+"""`python -m modeler.cli`."""
+
+import sys
+
+from modeler.cli import main
+
+sys.exit(main())

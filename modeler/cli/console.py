@@ -1,0 +1,52 @@
+"""What every command shares: results on stdout, JSON for machines, progress on stderr."""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from modeler.core.files import write_atomically
+
+
+def say(text: str = "") -> None:
+    """One result, on stdout."""
+    print(text)
+
+
+def write_json(target: str | None, content: Any) -> None:
+    """`content` to the file that `--json` names; "-" is stdout."""
+    if target is None:
+        return
+    text = json.dumps(content, indent=1, allow_nan=False) + "\n"
+    if target == "-":
+        sys.stdout.write(text)
+    else:
+        write_atomically(Path(target), text)
+
+
+@contextmanager
+def progress(title: str) -> Iterator[Callable[[float], None]]:
+    """A bar on stderr while something runs, if stderr is a terminal; call with the share done."""
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        task = bar.add_task(title, total=1.0)
+        yield lambda share: bar.update(task, completed=share)
+
+
+@contextmanager
+def working(title: str) -> Iterator[None]:
+    """A spinner on stderr, if stderr is a terminal."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield
+        return
+    with console.status(title):
+        yield

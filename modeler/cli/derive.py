@@ -1,0 +1,147 @@
+"""`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from modeler.api import Derivation, derive, generate
+from modeler.base.numeric import random_states, regressor_values
+from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
+from modeler.cli.console import say, working, write_json
+from modeler.cli.robots import add_robot, robot_of
+from modeler.core.files import write_atomically
+from modeler.symbolic.lagrange import lagrange_model
+from modeler.terms import (
+    closed_form,
+    closed_form_latex,
+    closed_form_markdown,
+    closed_form_text,
+    coefficient_table,
+    coefficients_latex,
+    coefficients_markdown,
+    coefficients_text,
+    terms_report,
+)
+
+_FORMS = {"text": as_text, "latex": as_latex, "markdown": as_markdown}
+_CLOSED_FORMS = {
+    "text": closed_form_text,
+    "latex": closed_form_latex,
+    "markdown": closed_form_markdown,
+}
+_TABLES = {
+    "text": coefficients_text,
+    "latex": coefficients_latex,
+    "markdown": coefficients_markdown,
+}
+_FEW_JOINTS = 3
+
+
+def add_derive(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler derive`."""
+    parser = commands.add_parser(
+        "derive",
+        help="base parameters and grouping relations, with their proof",
+        description="Derives the model of ROBOT, linear in the dynamic parameters: which base "
+        "parameters it has, how the standard parameters group, and the proof. Robots of up to "
+        f"{_FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
+        epilog="example: modeler derive puma560 --format latex",
+    )
+    add_robot(parser)
+    parser.add_argument(
+        "--format", choices=sorted(_FORMS), default="text", help="of what is printed"
+    )
+    parser.add_argument(
+        "--terms", action=argparse.BooleanOptionalAction, help="PG/PJ/PS coefficients or not"
+    )
+    parser.add_argument(
+        "--closed-form", action="store_true", help="M(q), Christoffel coefficients and gravity"
+    )
+    parser.add_argument("--report", metavar="FILE.md", help="write the page of the coefficients")
+    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
+    parser.set_defaults(run=run_derive)
+
+
+def run_derive(args: argparse.Namespace) -> None:
+    """Prints relations, proof, and for small robots the coefficients."""
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        derivation = derive(robot)
+        opinion = second_opinion(derivation)
+    base = derivation.base
+    result = as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
+    write_json(args.json, result)
+    if args.json == "-":
+        return
+    counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
+    say(f"{robot.name}: {robot.title}")
+    say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
+    say()
+    say(_FORMS[args.format](base))
+    say()
+    say(proof_text(base.proof))
+    say(f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque")
+    _closed_forms(args, derivation)
+
+
+def second_opinion(derivation: Derivation, samples: int = 50) -> float:
+    """Largest difference of the torques of both derivations, relative to the largest torque."""
+    model = derivation.model
+    rng = np.random.default_rng(derivation.base.proof.seed)
+    states = random_states(model, samples, rng)
+    links = [i for i, column in enumerate(model.columns) if column.column is None]
+    chi = rng.normal(size=len(links))
+    tau = regressor_values(model, states)[:, :, links] @ chi
+    other = lagrange_model(model.geometry).torque(*states, chi)
+    largest = float(np.max(np.abs(other)))
+    return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
+
+
+def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
+    model, base = derivation.model, derivation.base
+    small = model.geometry.joints <= _FEW_JOINTS
+    if args.closed_form:
+        say()
+        say(_CLOSED_FORMS[args.format](closed_form(model, base)))
+    if args.terms or (args.terms is None and small and args.format == "text"):
+        say()
+        say(_TABLES[args.format](coefficient_table(model, base)))
+    if args.report is not None:
+        write_atomically(Path(args.report), terms_report(model, base))
+        say(f"written: {args.report}")
+
+
+def add_generate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler generate`."""
+    parser = commands.add_parser(
+        "generate",
+        help="C source, header, manifest and build files",
+        description="Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia "
+        "matrix, gravity, Coriolis, and the batch observation matrix, in a folder that builds by "
+        "itself with make or cmake.",
+        epilog="example: modeler generate panda --out panda_c",
+    )
+    add_robot(parser)
+    parser.add_argument("--out", metavar="DIR", required=True, help="folder to write")
+    parser.add_argument("--json", metavar="FILE", help="write the manifest for machines")
+    parser.set_defaults(run=run_generate)
+
+
+def run_generate(args: argparse.Namespace) -> None:
+    """Writes the folder and says what is in it."""
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        derivation = derive(robot)
+        emitted = generate(derivation, args.out)
+    write_json(args.json, {"robot": robot.name, "folder": args.out, "files": sorted(emitted.files)})
+    if args.json == "-":
+        return
+    say(f"{robot.name}: {derivation.base.rank} base parameters, written to {args.out}:")
+    for name in sorted(emitted.files):
+        say(f"  {name}")
+    for function in emitted.spec.functions:
+        say(
+            f"  {function.name}: {function.equation} ({function.additions} additions, "
+            f"{function.multiplications} multiplications)"
+        )

@@ -1,0 +1,203 @@
+"""`modeler fit ROBOT LOG... --out MODEL` and `modeler compare MODEL LOG...`."""
+
+import argparse
+from pathlib import Path
+
+from modeler.api import Derivation, compile_model, derive, generate, read_logs
+from modeler.cli.console import say, working, write_json
+from modeler.cli.robots import add_robot, robot_of
+from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
+from modeler.compare.predict import predict
+from modeler.compiled import CompiledModel
+from modeler.core.contract import Emitted
+from modeler.core.errors import DataError
+from modeler.fit import (
+    FitResult,
+    IdentifiedModel,
+    Payload,
+    identify,
+    identify_with_payloads,
+    load_model,
+    provenance,
+    save_model,
+)
+from modeler.observation import Observation, Processing, observe
+
+_LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
+
+
+def add_fit(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler fit`."""
+    parser = commands.add_parser(
+        "fit",
+        help="estimate the base parameters from logs",
+        description="Filters the logs, builds the observation matrix and estimates the base "
+        "parameters of ROBOT: value, sigma, %%sigma, errors per joint; saves a model file.",
+        epilog="example: modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json",
+    )
+    add_robot(parser)
+    parser.add_argument("logs", metavar="LOG", nargs="+", help=_LOGS)
+    parser.add_argument("--out", metavar="MODEL", required=True, help="model file to write")
+    parser.add_argument(
+        "--method",
+        choices=("weighted", "ordinary"),
+        default="weighted",
+        help="least squares with one weight per joint, iterated, or without weights",
+    )
+    _add_processing(parser)
+    loads = parser.add_argument_group("load", "some of the logs carry a load on a link")
+    loads.add_argument(
+        "--payload-log",
+        metavar="LOG",
+        action="append",
+        default=[],
+        help="a further log, with the load; may be given several times",
+    )
+    loads.add_argument("--payload-mass", metavar="KG", type=float, help="its mass, if it is known")
+    loads.add_argument(
+        "--payload-link", metavar="J", help="the link that carries it; default: the last"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
+    parser.set_defaults(run=run_fit)
+
+
+def _add_processing(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("processing", "chosen from the logs and told where left out")
+    group.add_argument(
+        "--cutoff",
+        metavar="HZ",
+        type=float,
+        help="low-pass of the positions (zero phase, Butterworth order 4)",
+    )
+    group.add_argument(
+        "--parallel-cutoff",
+        metavar="HZ",
+        type=float,
+        help="the one low-pass of torques and all columns",
+    )
+    group.add_argument("--decimate", metavar="N", type=int, help="keep every N-th row after it")
+    group.add_argument(
+        "--derivatives",
+        choices=("auto", "log", "position"),
+        default="auto",
+        help="logged velocities, or positions differentiated",
+    )
+    group.add_argument(
+        "--low-speed",
+        metavar="SHARE",
+        type=float,
+        default=Processing.low_speed,
+        help="leave out rows below this share of the joint's top speed, where the "
+        "sign of the speed is doubtful (default %(default)s)",
+    )
+    group.add_argument(
+        "--keep-saturated", action="store_true", help="use rows whose torque is stuck at its limit"
+    )
+
+
+def _processing(args: argparse.Namespace) -> Processing:
+    return Processing(
+        position_cutoff=args.cutoff,
+        parallel_cutoff=args.parallel_cutoff,
+        decimation=args.decimate,
+        derivatives=args.derivatives,
+        low_speed=args.low_speed,
+        keep_saturated=args.keep_saturated,
+    )
+
+
+def run_fit(args: argparse.Namespace) -> None:
+    """Fits, prints the table, saves the model."""
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        derivation = derive(robot)
+        emitted = generate(derivation)
+        compiled = compile_model(emitted)
+    with working("building the observation matrix"):
+        logs = read_logs(compiled, args.logs)
+        loaded = read_logs(compiled, args.payload_log)
+        observation = observe(compiled, [*logs, *loaded], _processing(args))
+    if args.payload_mass is not None and not loaded:
+        raise DataError("--payload-mass: no loaded log; name it with --payload-log LOG")
+    if loaded:
+        payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
+        result = identify_with_payloads(compiled, observation, [payload], args.method)
+    else:
+        result = identify(observation, args.method)
+    save_model(args.out, _model(derivation, emitted, observation, result))
+    write_json(args.json, result.to_json())
+    if args.json == "-":
+        return
+    for line in (*observation.report.summary(), "", *result.summary()):
+        say(line)
+    say(f"written: {args.out}")
+
+
+def _model(
+    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
+) -> IdentifiedModel:
+    return IdentifiedModel(
+        robot_text=derivation.robot.text,
+        spec=emitted.spec,
+        sources=emitted.files,
+        fit=result,
+        logs=provenance(observation.report),
+    )
+
+
+def add_compare(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler compare`."""
+    parser = commands.add_parser(
+        "compare",
+        help="measured against predicted torque: how good, where it fails",
+        description="Predicts the torques of the logs with MODEL and shows per joint how good it "
+        "is, where it fails, and whether the rest still has structure.",
+        epilog="example: modeler compare ur10e.model.json held_out.parquet --report page.html",
+    )
+    parser.add_argument("model", metavar="MODEL", help="a model file of `modeler fit`")
+    parser.add_argument("logs", metavar="LOG", nargs="+", help=_LOGS)
+    parser.add_argument("--report", metavar="PAGE.html", help="write one self-contained page")
+    parser.add_argument("--pictures", metavar="DIR", help="write every picture as PNG, SVG and CSV")
+    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
+    parser.set_defaults(run=run_compare)
+
+
+def run_compare(args: argparse.Namespace) -> None:
+    """Prints the table and the verdict; writes page and pictures."""
+    model = load_model(args.model)
+    with working("predicting"):
+        compiled = model.compile()
+        comparison, lines = judged(model, args.logs, compiled)
+    write_json(args.json, comparison.as_dict())
+    if args.json != "-":
+        say(comparison.summary())
+        say()
+        for sentence in verdict(comparison):
+            say(sentence)
+    if args.report is not None:
+        place = write_report(Path(args.report), comparison, lines)
+        _written(args, str(place))
+    if args.pictures is not None:
+        written = write_pictures(Path(args.pictures), comparison)
+        _written(args, f"{len(written)} files in {args.pictures}")
+
+
+def judged(
+    model: IdentifiedModel, logs: list[str], compiled: CompiledModel
+) -> tuple[Comparison, list[str]]:
+    """The comparison on logs, and where everything came from, in lines."""
+    prediction, observation = predict(model, read_logs(compiled, logs), compiled)
+    fitted = ", ".join(log.name for log in model.logs)
+    lines = [
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {model.fit.method} least "
+        f"squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
+    ]
+    overlap = sorted({log.name for log in model.logs} & set(prediction.logs))
+    if overlap:
+        lines.append(f"training only: the model was fitted on {', '.join(overlap)}")
+    return compare(prediction), lines + observation.report.summary()
+
+
+def _written(args: argparse.Namespace, what: str) -> None:
+    if args.json != "-":
+        say(f"written: {what}")

@@ -1,0 +1,130 @@
+"""Reading ROBOT as every command does, and `modeler robots`, `modeler effects`."""
+
+import argparse
+
+from modeler.cli.console import say, write_json
+from modeler.core.errors import RobotError
+from modeler.effects import CATALOGUE, effect_named
+from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
+from modeler.robot.edit import with_effects
+
+
+def add_robot(parser: argparse.ArgumentParser) -> None:
+    """The ROBOT argument and what changes it."""
+    parser.add_argument(
+        "robot", metavar="ROBOT", help="a robot file, or the name of a built-in robot"
+    )
+    parser.add_argument(
+        "--effects",
+        metavar="LIST",
+        help='effects instead of those of the file, for all joints: "viscous,coulomb"; "" for none',
+    )
+
+
+def robot_of(args: argparse.Namespace) -> Robot:
+    """The robot that the arguments mean."""
+    robot = read_robot(args.robot)
+    if args.effects is None:
+        return robot
+    wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
+    unknown = [name for name in wanted if effect_named(name) is None]
+    if unknown:
+        known = ", ".join(effect.id for effect in CATALOGUE)
+        raise RobotError(f"--effects: got {unknown[0]}; expected some of {known}")
+    text = with_effects(robot.text, dict.fromkeys(wanted, "all"))
+    return robot_from_text(text, f"{args.robot} with --effects")
+
+
+def add_robots(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler robots`."""
+    parser = commands.add_parser(
+        "robots",
+        help="the built-in robots",
+        description="Lists the built-in robots: names to use wherever a command asks for ROBOT.",
+        epilog="example: modeler robots --json robots.json",
+    )
+    parser.add_argument("--show", metavar="NAME", help="print that robot's file, to start your own")
+    parser.add_argument("--json", metavar="FILE", help="write the list for machines")
+    parser.set_defaults(run=run_robots)
+
+
+def run_robots(args: argparse.Namespace) -> None:
+    """Prints the table of built-in robots, or one robot's file."""
+    if args.show is not None:
+        say(read_robot(args.show).text.rstrip())
+        return
+    robots = [read_robot(name) for name in builtin_names()]
+    write_json(
+        args.json,
+        [
+            {
+                "name": robot.name,
+                "title": robot.title,
+                "joints": [joint.name for joint in robot.moving],
+                "effects": [use.effect for use in robot.effects],
+            }
+            for robot in robots
+        ],
+    )
+    if args.json == "-":
+        return
+    width = max(len(robot.name) for robot in robots)
+    for robot in robots:
+        effects = ", ".join(use.effect for use in robot.effects) or "rigid links only"
+        say(f"{robot.name:<{width}}  {len(robot.moving)} joints  {robot.title} ({effects})")
+
+
+def add_effects(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler effects`."""
+    parser = commands.add_parser(
+        "effects",
+        help="the catalogue of physical effects",
+        description="Lists the physical effects that a robot file may name under [effects].",
+        epilog="example: modeler effects coulomb",
+    )
+    parser.add_argument("effect", metavar="EFFECT", nargs="?", help="one effect, in full")
+    parser.add_argument("--json", metavar="FILE", help="write the catalogue for machines")
+    parser.set_defaults(run=run_effects)
+
+
+def run_effects(args: argparse.Namespace) -> None:
+    """Prints the catalogue, or one page of it."""
+    chosen = CATALOGUE
+    if args.effect is not None:
+        found = effect_named(args.effect)
+        if found is None:
+            known = ", ".join(effect.id for effect in CATALOGUE)
+            raise RobotError(f"effects: got {args.effect}; expected one of {known}")
+        chosen = (found,)
+    facts = [
+        {
+            "id": effect.id,
+            "aliases": list(effect.aliases),
+            "title": effect.title,
+            "equation": effect.equation,
+            "parameters": [column.prefix for column in effect.columns],
+            "unit": [column.unit_revolute for column in effect.columns],
+            "signature": effect.signature,
+            "look_alikes": effect.look_alikes,
+            "range": effect.range,
+            "source": effect.source,
+        }
+        for effect in chosen
+    ]
+    write_json(args.json, facts)
+    if args.json == "-":
+        return
+    for fact in facts:
+        say(f"{fact['id']:<17} {fact['equation']:<36} {fact['title']}")
+        if args.effect is not None:
+            for name in (
+                "aliases",
+                "parameters",
+                "unit",
+                "signature",
+                "look_alikes",
+                "range",
+                "source",
+            ):
+                value = fact[name]
+                say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")

@@ -1,0 +1,147 @@
+"""The house rules as a program: reads the syntax trees of a package, gives what breaks a rule."""
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+NORTH = ("effects", "robot", "symbolic", "base", "terms", "codegen")
+SOUTH = ("compiled", "observation", "fit", "compare")
+
+# Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
+# and the simulator shares no dynamics with what it is there to test.
+STAGES: dict[str, set[str]] = {
+    "core": set(),
+    **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
+    **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
+    "simulate": {"core", "robot"},
+    "cli": {"core", *NORTH, *SOUTH, "simulate"},
+}
+
+# Which packages of others a stage may import, besides the standard library.
+PACKAGES: dict[str, set[str]] = {
+    "core": {"numpy"},
+    "effects": set(),
+    "robot": set(),
+    "symbolic": {"numpy", "sympy", "casadi"},
+    "base": {"numpy", "sympy"},
+    "terms": {"numpy", "sympy"},
+    "codegen": {"numpy", "sympy", "jinja2"},
+    "compiled": {"numpy", "cffi"},
+    "observation": {"numpy", "scipy", "pyarrow"},
+    "fit": {"numpy", "scipy"},
+    "compare": {"numpy", "scipy", "matplotlib", "plotly"},
+    "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
+    "cli": {"numpy", "rich"},
+}
+
+# Packages that few files may know: what replaces such a package replaces these files.
+ONLY_IN = {
+    "jinja2": ("codegen/render.py",),
+    "cffi": ("compiled/bind.py",),
+    "casadi": ("symbolic/lagrange.py", "simulate/"),
+}
+
+NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}
+MODULE_LINES = 400
+FUNCTION_LINES = 60
+
+LONGER: dict[str, str] = {}
+"""{"stage/file.py function": why it may be longer than FUNCTION_LINES}."""
+
+
+def broken_rules(package: Path) -> list[str]:
+    """All that breaks a rule in the folder of a package, as "file:line: what, and the rule"."""
+    found: list[str] = []
+    for path in modules(package):
+        relative = path.relative_to(package).as_posix()
+        text = path.read_text(encoding="utf-8")
+        tree = ast.parse(text, filename=str(path))
+        found += [f"{relative}:{line}: {what}" for line, what in _breaks(relative, text, tree)]
+    return found
+
+
+def modules(package: Path) -> list[Path]:
+    """Every Python file of the package."""
+    return sorted(path for path in package.rglob("*.py") if "__pycache__" not in path.parts)
+
+
+def functions(tree: ast.AST) -> Iterator[tuple[str, int, int]]:
+    """Name, first line and number of lines of every function, methods and inner ones included."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            assert node.end_lineno is not None
+            yield node.name, node.lineno, node.end_lineno - node.lineno + 1
+
+
+def _breaks(relative: str, text: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
+    yield from _imports(relative, tree)
+    yield from _calls(relative, tree)
+    yield from _sizes(relative, text, tree)
+    if Path(relative).stem in NAMES_THAT_SAY_NOTHING or (
+        NAMES_THAT_SAY_NOTHING & set(Path(relative).parent.parts)
+    ):
+        yield 1, f"the name {relative} says nothing; name the idea"
+
+
+def _stage(relative: str) -> str:
+    """The stage of a file; "" for the package's own __init__.py."""
+    return "" if relative == "__init__.py" else relative.split("/")[0].removesuffix(".py")
+
+
+def _imports(relative: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
+    stage = _stage(relative)
+    if stage and stage not in STAGES:
+        yield 1, f"{stage} is no stage we know; say in architecture.py what it may import"
+        return
+    for line, name in _imported(tree):
+        top, _, rest = name.partition(".")
+        if top == "":
+            yield line, "relative import; write it absolute"
+        elif not stage:
+            yield line, f"imports {name}; the package itself imports nothing"
+        elif top == "modeler":
+            other = rest.split(".")[0]
+            if other != stage and other not in STAGES[stage]:
+                yield line, f"imports {name}; {stage} may import {_listed(STAGES[stage])}"
+        elif top not in sys.stdlib_module_names:
+            if top not in PACKAGES[stage]:
+                yield line, f"imports {name}; {stage} may import {_listed(PACKAGES[stage])}"
+            if top in ONLY_IN and not relative.startswith(ONLY_IN[top]):
+                yield line, f"imports {name}; only {_listed(set(ONLY_IN[top]))} may"
+
+
+def _imported(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and dotted name of every import, inside functions too; ".x" for a relative one."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            module = "." * node.level + (node.module or "")
+            if module == "modeler":  # from modeler import robot
+                yield from ((node.lineno, f"modeler.{alias.name}") for alias in node.names)
+            else:
+                yield node.lineno, module
+
+
+def _calls(relative: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and node.id == "print" and _stage(relative) != "cli":
+            yield node.lineno, "print; only cli prints"
+        if (isinstance(node, ast.Name) and node.id == "__import__") or (
+            isinstance(node, ast.Attribute) and node.attr == "import_module"
+        ):
+            yield node.lineno, "import by name; write an import statement, so that rules see it"
+
+
+def _sizes(relative: str, text: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
+    lines = len(text.splitlines())
+    if lines > MODULE_LINES:
+        yield lines, f"{lines} lines; a module has at most {MODULE_LINES}"
+    for name, line, length in functions(tree):
+        if length > FUNCTION_LINES and f"{relative} {name}" not in LONGER:
+            yield line, f"{name} has {length} lines; a function has at most {FUNCTION_LINES}"
+
+
+def _listed(names: set[str]) -> str:
+    return ", ".join(sorted(names)) or "nothing"

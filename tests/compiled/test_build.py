@@ -1,0 +1,216 @@
+"""Compiling and keeping: the cache, its accidents, and complaints that say what to do."""
+
+import dataclasses
+import re
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import modeler.compiled.build as build
+from modeler.codegen import write_emitted
+from modeler.compiled import load, load_folder
+from modeler.compiled.toolchain import find_toolchain
+from modeler.core.errors import BuildError, ManifestError
+from tests.modules import compiler, module, states
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch) -> Path:
+    folder = tmp_path / "cache"
+    monkeypatch.setenv("MODELER_CACHE", str(folder))
+    return folder
+
+
+@pytest.fixture
+def emps():
+    return module("emps").emitted
+
+
+def libraries(cache: Path) -> list[Path]:
+    return sorted(cache.glob("*/*.so"))
+
+
+def works(model) -> None:
+    q, qd, qdd = states(1, 3)
+    W = model.observation(q, qd, qdd)
+    beta = np.arange(1.0, W.shape[1] + 1)
+    np.testing.assert_allclose(model.inverse_dynamics(q, qd, qdd, beta)[:, 0], W @ beta)
+
+
+def test_a_second_load_does_not_compile(cache, emps, monkeypatch):
+    works(load(emps.spec, emps.files))
+    monkeypatch.setattr(build, "compile_library", lambda *_: pytest.fail("compiled again"))
+    works(load(emps.spec, emps.files))
+    assert len(libraries(cache)) == 1
+    assert not list(cache.glob("*/.build-*")), "the scratch folder is left"
+
+
+def test_other_text_is_another_library(cache, emps):
+    load(emps.spec, emps.files)
+    load(emps.spec, {**emps.files, "emps.c": emps.files["emps.c"] + "\n"})
+    assert len(libraries(cache)) == 2
+
+
+def test_another_compiler_is_another_library(cache, emps, monkeypatch):
+    for name in ("gcc", "clang"):
+        monkeypatch.setenv("CC", compiler(name))
+        works(load(emps.spec, emps.files))
+    assert len(libraries(cache)) == 2
+
+
+@pytest.mark.parametrize("damage", [b"", b"\x7fELF nonsense", None])
+def test_a_damaged_library_is_built_again(cache, emps, damage):
+    load(emps.spec, emps.files)
+    (library,) = libraries(cache)
+    whole = library.read_bytes()
+    library.unlink()  # not in place: this process has it mapped
+    library.write_bytes(whole[: len(whole) // 2] if damage is None else damage)
+    works(load(emps.spec, emps.files))
+    (again,) = libraries(cache)
+    assert again.read_bytes() != damage
+
+
+def test_threads_and_processes_may_build_at_once(cache, emps, tmp_path):
+    folder = tmp_path / "emps"
+    write_emitted(emps, folder)
+    script = f"from modeler.compiled import load_folder; load_folder({str(folder)!r})"
+    processes = [subprocess.Popen([sys.executable, "-c", script]) for _ in range(2)]
+    failed: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            load(emps.spec, emps.files)
+        except BaseException as error:
+            failed.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [process.wait() for process in processes] == [0, 0]
+    assert not failed
+    works(load(emps.spec, emps.files))
+
+
+def test_a_missing_compiler_says_what_to_install(cache, emps, monkeypatch, tmp_path):
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    says = "none of cc, gcc, clang is found; install one: Debian, Ubuntu `apt install gcc`, Fedora"
+    with pytest.raises(BuildError, match=re.escape(says)):
+        load(emps.spec, emps.files)
+
+
+def test_a_wrong_cc_is_named(cache, emps, monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler -m64")
+    with pytest.raises(BuildError, match='got CC="no-such-compiler -m64", which is not found'):
+        load(emps.spec, emps.files)
+
+
+def test_a_compiler_that_does_not_start_is_named(cache, emps, monkeypatch, tmp_path):
+    broken = tmp_path / "broken-cc"
+    broken.write_bytes(b"\x7fELF")
+    broken.chmod(0o755)
+    monkeypatch.setenv("CC", str(broken))
+    with pytest.raises(BuildError, match="broken-cc does not start"):
+        load(emps.spec, emps.files)
+
+
+def test_the_compilers_own_words_are_quoted(cache, emps):
+    files = {**emps.files, "emps.c": emps.files["emps.c"] + "\nthis is not C;\n"}
+    with pytest.raises(BuildError, match=r"refused the emitted code:\n(.|\n)*error"):
+        load(emps.spec, files)
+    assert not libraries(cache)
+
+
+def test_a_cache_that_cannot_be_written_is_said(emps, monkeypatch, tmp_path):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "file"))
+    with pytest.raises(BuildError, match="cannot be written .*; set MODELER_CACHE"):
+        load(emps.spec, emps.files)
+
+
+def test_the_cache_is_where_the_environment_says(monkeypatch, tmp_path):
+    monkeypatch.setenv("MODELER_CACHE", str(tmp_path))
+    assert build.cache_folder() == tmp_path
+    monkeypatch.delenv("MODELER_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert build.cache_folder() == tmp_path / "modeler"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert build.cache_folder() == tmp_path / ".cache" / "modeler"
+
+
+def test_flags_that_a_compiler_does_not_know_are_left_out(monkeypatch, tmp_path):
+    """A compiler that refuses one flag keeps the others."""
+    picky = tmp_path / "picky-cc"
+    picky.write_text(
+        '#!/bin/sh\ncase "$*" in *-fno-tree-slp-vectorize*|*-ffp-contract*) exit 1;; esac\n'
+        f'exec {compiler("gcc")} "$@"\n'
+    )
+    picky.chmod(0o755)
+    monkeypatch.setenv("CC", str(picky))
+    flags = find_toolchain().flags
+    assert "-fno-tree-slp-vectorize" not in flags and "-ffp-contract=fast" not in flags
+    assert "-fno-math-errno" in flags and "-std=c99" in flags
+
+
+def test_code_of_another_manifest_is_refused(cache, emps):
+    spec = dataclasses.replace(emps.spec, title="another robot")
+    with pytest.raises(ManifestError, match="one of them is older, generate both again"):
+        load(spec, emps.files)
+
+
+def test_code_that_lacks_a_function_is_refused(cache, emps):
+    files = {**emps.files, "emps.c": emps.files["emps.c"].replace("emps_gravity", "emps_gravitas")}
+    with pytest.raises(ManifestError, match="lacks what its manifest names"):
+        load(emps.spec, files)
+
+
+def test_a_manifest_that_lacks_a_function_is_refused(cache, emps):
+    spec = dataclasses.replace(emps.spec, functions=emps.spec.functions[1:])
+    with pytest.raises(ManifestError, match="names no inputs of regressor, expected 3"):
+        load(spec, emps.files)
+
+
+def test_a_manifest_with_names_that_are_no_c_names_is_refused(cache, emps):
+    first = dataclasses.replace(emps.spec.functions[0], name="f(void); int x")
+    spec = dataclasses.replace(emps.spec, functions=(first, *emps.spec.functions))
+    with pytest.raises(ManifestError, match="expected a C name"):
+        load(spec, emps.files)
+
+
+def test_missing_files_are_named(emps, tmp_path):
+    with pytest.raises(ManifestError, match="the module lacks emps.h"):
+        load(emps.spec, {n: t for n, t in emps.files.items() if n != "emps.h"})
+    with pytest.raises(ManifestError, match=r"no manifest\.json; expected a folder that"):
+        load_folder(tmp_path)
+
+
+def test_a_folder_with_other_files_is_loaded(cache, emps, tmp_path):
+    write_emitted(emps, tmp_path / "module")
+    (tmp_path / "module" / "controller.c").write_text("not C at all")
+    works(load_folder(tmp_path / "module"))
+
+
+def test_a_damaged_manifest_is_refused(emps, tmp_path):
+    write_emitted(emps, tmp_path)
+    (tmp_path / "manifest.json").write_text("{}")
+    with pytest.raises(ManifestError, match="not a manifest"):
+        load_folder(tmp_path)
+
+
+def test_loading_needs_no_symbols(emps, tmp_path):
+    """A robot identified today can be loaded tomorrow without sympy, casadi or jinja2."""
+    write_emitted(emps, tmp_path)
+    script = (
+        "import sys\nfor name in ('sympy', 'casadi', 'jinja2'): sys.modules[name] = None\n"
+        f"from modeler.compiled import load_folder\nload_folder({str(tmp_path)!r})\n"
+        "assert not [m for m in sys.modules if m.startswith(('modeler.symbolic', 'modeler.robot',"
+        " 'modeler.effects', 'modeler.base', 'modeler.codegen'))]\n"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)

@@ -1,0 +1,152 @@
+"""The compiled model at its door: shapes, memory, threads."""
+
+import re
+import threading
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import ShapeError
+from tests.modules import compiled, states
+
+
+@pytest.fixture(scope="module")
+def wrist():
+    return compiled("wrist")
+
+
+def test_results_have_the_shapes_that_are_promised(wrist):
+    q, qd, qdd = states(3, 7)
+    c, p = len(wrist.spec.base), len(wrist.spec.standard)
+    beta = np.ones(c)
+    assert wrist.base_regressor(q, qd, qdd).shape == (7, 3, c)
+    assert wrist.regressor(q, qd, qdd).shape == (7, 3, p)
+    assert wrist.observation(q, qd, qdd).shape == (21, c)
+    assert wrist.inverse_dynamics(q, qd, qdd, beta).shape == (7, 3)
+    assert wrist.inertia_matrix(q, beta).shape == (7, 3, 3)
+    for torque in (wrist.gravity(q, beta), wrist.coriolis(q, qd, beta), wrist.friction(qd, beta)):
+        assert torque.shape == (7, 3)
+    assert wrist.base_parameters(np.ones(p)).shape == (c,)
+
+
+def test_rows_of_one_sample_stand_together_in_w(wrist):
+    q, qd, qdd = states(3, 4)
+    W = wrist.observation(q, qd, qdd)
+    for sample in range(4):
+        one = wrist.base_regressor(q[[sample]], qd[[sample]], qdd[[sample]])
+        np.testing.assert_array_equal(W[3 * sample : 3 * sample + 3], one[0])
+
+
+def test_no_samples_give_no_rows(wrist):
+    none = np.empty((0, 3))
+    assert wrist.observation(none, none, none).shape == (0, len(wrist.spec.base))
+    assert wrist.inertia_matrix(none, np.ones(len(wrist.spec.base))).shape == (0, 3, 3)
+
+
+def test_one_joint_is_not_special():
+    emps = compiled("emps")
+    q, qd, qdd = states(1, 5)
+    beta = np.arange(1.0, len(emps.spec.base) + 1)
+    W = emps.observation(q, qd, qdd)
+    assert W.shape == (5, len(beta))
+    np.testing.assert_allclose(emps.inverse_dynamics(q, qd, qdd, beta)[:, 0], W @ beta)
+
+
+def test_out_is_filled_and_returned_whatever_it_held(wrist):
+    q, qd, qdd = states(3, 6)
+    out = np.full((18, len(wrist.spec.base)), np.nan)
+    assert wrist.observation(q, qd, qdd, out=out) is out
+    np.testing.assert_array_equal(out, wrist.observation(q, qd, qdd))
+
+
+def test_layout_and_type_of_inputs_do_not_matter(wrist):
+    q, qd, qdd = (np.round(x, 1) for x in states(3, 6))
+    expected = wrist.base_regressor(q, qd, qdd)
+    np.testing.assert_array_equal(wrist.base_regressor(np.asfortranarray(q), qd, qdd), expected)
+    wide = np.repeat(q, 2, axis=1)[:, ::2]
+    np.testing.assert_array_equal(wrist.base_regressor(wide, qd, qdd), expected)
+    np.testing.assert_array_equal(wrist.base_regressor(q.tolist(), qd, qdd), expected)
+
+
+def test_inputs_are_not_changed(wrist):
+    q, qd, qdd = states(3, 3)
+    kept = [x.copy() for x in (q, qd, qdd)]
+    for x in (q, qd, qdd):
+        x.flags.writeable = False
+    wrist.observation(q, qd, qdd)
+    for before, after in zip(kept, (q, qd, qdd), strict=True):
+        np.testing.assert_array_equal(before, after)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda q: q.T, "q: got shape (3, 8), expected (samples, 3); did you mean q.T?"),
+        (lambda q: q[0], "q: got shape (3,), expected (samples, 3); for one sample write q[None"),
+        (lambda q: q[:, :2], "q: got shape (8, 2), expected (samples, 3); one row per sample"),
+        (lambda q: q[:, 0], "q: got shape (8,), expected (samples, 3)"),
+        (lambda q: 1.0, "q: got shape (), expected (samples, 3)"),
+        (lambda q: q + 1j, "q: got no array of real numbers"),
+        (lambda q: [["a", "b", "c"]], "q: got no array of real numbers"),
+        (lambda q: [[1.0, 2.0, 3.0], [1.0]], "q: got no array of real numbers"),
+        (lambda q: np.where(np.arange(8)[:, None] == 5, np.nan, q), "q: got nan in row 5, column 0"),
+        (lambda q: q / np.eye(8, 3)[::-1].clip(1e-300), "q: got inf"),
+        (lambda q: q[:4], "different numbers of samples (q 4, qd 8, qdd 8)"),
+    ],
+)
+def test_a_wrong_array_is_refused_by_name(wrist, change, says):
+    q, qd, qdd = states(3, 8)
+    with np.errstate(all="ignore"):
+        wrong = change(q * 1e10)
+    with pytest.raises(ShapeError, match=re.escape(says)):
+        wrist.base_regressor(wrong, qd, qdd)
+
+
+def test_one_joint_as_a_vector_is_told_how_to_write_it():
+    with pytest.raises(ShapeError, match=re.escape("write qd[:, None]")):
+        compiled("emps").friction(np.zeros(9), np.ones(len(compiled("emps").spec.base)))
+
+
+def test_wrong_parameters_are_refused(wrist):
+    c = len(wrist.spec.base)
+    q = np.zeros((2, 3))
+    with pytest.raises(ShapeError, match=re.escape(f"beta: got shape ({c + 1},), expected ({c},)")):
+        wrist.gravity(q, np.zeros(c + 1))
+    bad = np.zeros(c)
+    bad[4] = np.inf
+    with pytest.raises(ShapeError, match="beta: got inf in entry 4"):
+        wrist.gravity(q, bad)
+    with pytest.raises(ShapeError, match="chi: got shape"):
+        wrist.base_parameters(np.zeros(3))
+
+
+def test_a_wrong_out_is_refused(wrist):
+    q, qd, qdd = states(3, 2)
+    c = len(wrist.spec.base)
+    with pytest.raises(ShapeError, match=re.escape(f"out: got (5, {c}), expected an array (6, {c})")):
+        wrist.observation(q, qd, qdd, out=np.empty((5, c)))
+    with pytest.raises(ShapeError, match="out: got list"):
+        wrist.observation(q, qd, qdd, out=[])
+    with pytest.raises(ShapeError, match="expected a writeable C-contiguous float64 array"):
+        wrist.observation(q, qd, qdd, out=np.empty((6, c), dtype=np.float32))
+    with pytest.raises(ShapeError, match="expected a writeable C-contiguous float64 array"):
+        wrist.observation(q, qd, qdd, out=np.empty((c, 6)).T)
+
+
+def test_threads_may_share_a_model(wrist):
+    """Functions hold no state: each thread gets its own robot's motion right."""
+    jobs = [states(3, 4000, seed) for seed in range(4)]
+    expected = [wrist.observation(*job) for job in jobs]
+    wrong: list[int] = []
+
+    def work(number: int) -> None:
+        for _ in range(20):
+            if not np.array_equal(wrist.observation(*jobs[number]), expected[number]):
+                wrong.append(number)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong

@@ -1,0 +1,245 @@
+"""Fits of simulated robots, payloads, the fit's JSON and the model file."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+from stand_in import Row, StandIn, planar_arm
+from test_observation_rows import exact_log, some_beta
+
+from modeler.core.errors import DataError, ManifestError
+from modeler.fit import (
+    IdentifiedModel,
+    Payload,
+    identify,
+    identify_with_payloads,
+    load_model,
+    provenance,
+    save_model,
+)
+from modeler.observation import observe
+
+
+def noisy(log, size, seed=0):
+    noise = np.random.default_rng(seed).normal(0.0, size, log.tau.shape)
+    return dataclasses.replace(log, tau=log.tau + noise)
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return planar_arm()
+
+
+@pytest.fixture(scope="module")
+def fitted(arm):
+    beta = some_beta(arm)
+    logs = [noisy(exact_log(arm, beta, "a.csv"), 0.2), noisy(exact_log(arm, beta, "b.csv", seed=3), 0.2)]  # fmt: skip
+    seen = observe(arm, logs)
+    return beta, seen, identify(seen)
+
+
+@pytest.fixture(scope="module")
+def model(arm, fitted):
+    _, seen, fit = fitted
+    return IdentifiedModel("name = 'arm'\n", arm.spec, {"arm.c": "/* C */\n"}, fit,
+                           provenance(seen.report))  # fmt: skip
+
+
+def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
+    beta, seen, fit = fitted
+    sigma = np.array([parameter.sigma for parameter in fit.parameters])
+    assert np.all(np.abs(fit.beta - beta) < 4.0 * sigma) and np.all(sigma < 0.2 * beta)
+    assert fit.status == "ok" and fit.method == "weighted"
+    residual = seen.y - seen.W @ fit.beta
+    assert fit.relative_error == pytest.approx(np.linalg.norm(residual) / np.linalg.norm(seen.y))
+    for j, joint in enumerate(fit.joints):
+        own = seen.row_joint == j
+        assert joint.rms == pytest.approx(np.sqrt(np.mean(residual[own] ** 2)))
+        expected = np.linalg.norm(residual[own]) / np.linalg.norm(seen.y[own])
+        assert joint.relative_error == pytest.approx(expected)
+
+
+def test_the_json_is_the_contracts(fitted):
+    _, seen, fit = fitted
+    raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
+    assert {"robot", "method", "samples", "condition_number", "relative_error", "joints",
+            "parameters"} <= set(raw)  # fmt: skip
+    assert set(raw["joints"]) == {"1", "2"} and raw["samples"] == len(seen.time)
+    assert {"relative_error", "rms"} <= set(raw["joints"]["1"])
+    first = raw["parameters"][0]
+    assert {"name", "value", "sigma", "relative_sigma_percent", "essential"} <= set(first)
+    assert first["relative_sigma_percent"] == pytest.approx(
+        100 * first["sigma"] / abs(first["value"])
+    )
+    text = "\n".join(fit.summary())
+    assert "relative error" in text and "joint 2:" in text and fit.parameters[0].name in text
+
+
+def test_a_joint_that_stands_still_is_set_aside_by_name():
+    free = planar_arm(friction=False)
+    log = exact_log(free, some_beta(free))
+    still = {n: np.zeros_like(log.q) for n in ("q", "qd", "qdd")}
+    for name, values in still.items():
+        values[:, 0] = getattr(log, name)[:, 0]
+    tau = free.base_regressor(still["q"], still["qd"], still["qdd"]) @ some_beta(free)
+    fit = identify(observe(free, [dataclasses.replace(log, tau=tau, **still)]))
+    aside = [p for p in fit.parameters if p.status == "set aside"]
+    assert fit.status == "rank deficient" and aside and fit.relative_error < 1e-8
+    for parameter in aside:
+        assert parameter.value == 0.0 and parameter.sigma is None and not parameter.essential
+        assert any(s.startswith(f"{parameter.name} ") for s in fit.sentences)
+        assert any(s.startswith(parameter.name) and "set aside" in s for s in fit.summary())
+    json.dumps(fit.to_json(), allow_nan=False)
+
+
+def test_fewer_rows_than_parameters_is_refused(arm):
+    log = exact_log(arm, some_beta(arm), seconds=0.2)
+    seen = observe(arm, [log])
+    with pytest.raises(DataError, match=f"run: {len(seen.y)} rows for .* parameters; record more"):
+        identify(seen)
+
+
+LOAD = {"M": 2.8, "MX": 0.3, "MY": -0.1, "MZ": 0.2, "ZZ": 0.05, "XX": 0.03, "YY": 0.02}
+
+
+def loaded_robot():
+    """A 3R arm, bare and with a load on link 3; (model, bare log, loaded log)."""
+    robot = StandIn([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
+    beta = some_beta(robot)
+    bare = exact_log(robot, beta, "bare", seconds=30)
+    log = exact_log(robot, beta, "loaded", seconds=30, seed=8)
+    chi = np.zeros(len(robot.names))
+    for letters, value in LOAD.items():
+        chi[robot.names.index(f"{letters}3")] = value
+    return (
+        robot,
+        bare,
+        dataclasses.replace(log, tau=log.tau + robot.regressor(log.q, log.qd, log.qdd) @ chi),
+    )
+
+
+def test_an_unknown_load_is_weighed():
+    robot, bare, loaded = loaded_robot()
+    seen = observe(robot, [noisy(bare, 0.05), noisy(loaded, 0.05, 1)])
+    fit = identify_with_payloads(robot, seen, [Payload(("loaded",))])
+    loads = {parameter.name: parameter for parameter in fit.loads}
+    for letters in ("M", "MX", "MY"):
+        found = loads[f"{letters}3_load"]
+        assert abs(found.value - LOAD[letters]) < 4.0 * found.sigma and found.sigma < 0.05
+    sigma = np.array([parameter.sigma for parameter in fit.parameters])
+    assert np.all(np.abs(fit.beta - some_beta(robot)) < 4.5 * sigma)
+    assert len(fit.parameters) == len(robot.spec.base) == len(fit.covariance)
+    # Only differences of the axial inertias of a link show: at least one letter is grouped.
+    assert 0 < len(fit.loads) < 11
+    assert "M3_load" in "\n".join(fit.summary()) and fit.to_json()["loads"][0]["name"] == "M3_load"
+
+
+def test_a_known_mass_goes_to_the_measurement():
+    robot, bare, loaded = loaded_robot()
+    seen = observe(robot, [bare, loaded])
+    fit = identify_with_payloads(robot, seen, [Payload(("loaded",), "3", 2.8, "tool")])
+    values = {parameter.name: parameter.value for parameter in fit.loads}
+    assert "M3_tool" not in values
+    assert values["MX3_tool"] == pytest.approx(0.3, abs=1e-6)
+    np.testing.assert_allclose(fit.beta, some_beta(robot), rtol=1e-5)
+    assert fit.relative_error < 1e-8
+    wrong = identify_with_payloads(robot, seen, [Payload(("loaded",), "3", 1.0)])
+    assert wrong.relative_error > 1e-3
+
+
+def test_the_load_that_is_left_out_spoils_the_fit():
+    robot, bare, loaded = loaded_robot()
+    seen = observe(robot, [bare, loaded])
+    assert identify(seen).relative_error > 0.02
+
+
+def test_impossible_payloads():
+    robot, bare, loaded = loaded_robot()
+    seen = observe(robot, [bare, loaded])
+    for payloads, words in (
+        ([Payload(("other",))], "payload load: no log other; there are bare, loaded"),
+        ([Payload(())], "no log is named"),
+        ([Payload(("loaded",), "7")], "no link 7; stand_in has 1, 2, 3"),
+        ([Payload(("loaded",), mass=-1.0)], "mass -1.0 kg; expected above 0"),
+        ([Payload(("bare",)), Payload(("loaded",))], "same name"),
+        ([Payload(("bare",)), Payload(("loaded",), name="b")], "every log carries a load"),
+    ):
+        with pytest.raises(DataError, match=words):
+            identify_with_payloads(robot, seen, payloads)
+
+
+def test_a_model_file_returns_what_was_saved(tmp_path, model):
+    path = tmp_path / "arm.model"
+    save_model(path, model)
+    again = load_model(path)
+    np.testing.assert_array_equal(again.beta, model.beta)
+    np.testing.assert_array_equal(again.covariance, model.covariance)
+    assert again.fit.to_json() == model.fit.to_json()
+    assert again.spec == model.spec and dict(again.sources) == dict(model.sources)
+    assert again.robot_text == model.robot_text and again.logs == model.logs
+    assert again.processing == model.processing
+    assert [log.name for log in again.logs] == ["a.csv", "b.csv"] and again.logs[0].rows == 4000
+    second = tmp_path / "again.model"
+    save_model(second, again)
+    assert second.read_bytes() == path.read_bytes()
+    assert str(tmp_path) not in path.read_text()
+
+
+def damaged(raw, *keys, value=None):
+    inner = raw
+    for key in keys[:-1]:
+        inner = inner[key]
+    if value is None:
+        del inner[keys[-1]]
+    else:
+        inner[keys[-1]] = value
+    return raw
+
+
+DAMAGE = {
+    "foreign": (lambda r: {"hello": 1}, "JSON, but not a model file"),
+    "list": (lambda r: [1], "JSON, but not a model file"),
+    "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 1"),
+    "manifest": (lambda r: damaged(r, "manifest"), "damaged, manifest is missing"),
+    "sources": (lambda r: damaged(r, "sources", value=3), "damaged, sources is not as saved"),
+    "edited": (
+        lambda r: damaged(r, "manifest", "robot", value="x"),
+        "does not match its signature",
+    ),
+    "old manifest": (lambda r: damaged(r, "manifest", "format", value=0), "manifest format 0"),
+    "covariance": (lambda r: damaged(r, "covariance", value=[[1.0]]), "values are not those"),
+    "ragged": (lambda r: damaged(r, "covariance", value=[[1.0], [1, 2]]), "damaged"),
+    "logs": (lambda r: damaged(r, "logs", value=[{"path": "x"}]), "damaged"),
+    "fit": (lambda r: damaged(r, "fit", "parameters"), "the fit is damaged"),
+    "processing": (
+        lambda r: damaged(r, "fit", "processing", "low_speed", value=7.0),
+        "the fit is damaged .*low_speed is 7.0",
+    ),
+    "value": (lambda r: damaged(r, "fit", "relative_error", value="x"), "the fit is damaged"),
+    "short": (lambda r: damaged(r, "fit", "parameters", 0), "values are not those of the"),
+}
+
+
+@pytest.mark.parametrize("case", DAMAGE)
+def test_damaged_model_files_say_where_and_what_to_do(tmp_path, model, case):
+    path = tmp_path / "arm.model"
+    save_model(path, model)
+    change, words = DAMAGE[case]
+    path.write_text(json.dumps(change(json.loads(path.read_text()))))
+    with pytest.raises(ManifestError, match=words) as error:
+        load_model(path)
+    assert str(path) in str(error.value)
+
+
+def test_unreadable_model_files(tmp_path, model):
+    with pytest.raises(ManifestError, match="cannot be read"):
+        load_model(tmp_path / "none.model")
+    path = tmp_path / "cut.model"
+    save_model(path, model)
+    path.write_text(path.read_text()[:500])
+    with pytest.raises(ManifestError, match="not a model file, or cut off"):
+        load_model(path)
+    path.write_bytes(b"\xff\xfe\x00PAR1")
+    with pytest.raises(ManifestError, match="not a model file, or cut off"):
+        load_model(path)

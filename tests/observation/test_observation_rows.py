@@ -1,0 +1,230 @@
+"""The parallel filter and the stacking: exact laws of y = W beta."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from stand_in import Row, StandIn, planar_arm, rotor, slider
+
+from modeler.core.errors import DataError
+from modeler.observation import Log, Processing, excitation, observe
+from modeler.observation import stretch as stretch_module
+from modeler.observation.dry_friction import shafts
+from modeler.observation.row_filter import row_filter
+
+
+def motion(joints, seconds=20.0, rate=200, seed=0, harmonics=3):
+    """Sums of sines and their exact derivatives; (time, q, qd, qdd)."""
+    random = np.random.default_rng(seed)
+    t = np.arange(int(seconds * rate)) / rate
+    w = 2 * np.pi * random.uniform(0.1, 0.5, (harmonics, joints))
+    a, p = random.uniform(0.3, 1.0, w.shape), random.uniform(0, 6, w.shape)
+    angle = t[:, None, None] * w + p
+    return (t, (a * np.sin(angle)).sum(1), (a * w * np.cos(angle)).sum(1),
+            -(a * w**2 * np.sin(angle)).sum(1))  # fmt: skip
+
+
+def exact_log(model, beta, name="run", logged=True, **kw):
+    t, q, qd, qdd = motion(len(model.spec.joints), **kw)
+    tau = model.base_regressor(q, qd, qdd) @ beta
+    names = tuple(joint.name for joint in model.spec.joints)
+    return Log(name, names, t, q, tau, qd if logged else None, qdd if logged else None)
+
+
+def some_beta(model, seed=5):
+    return np.random.default_rng(seed).uniform(0.5, 2.0, len(model.spec.base))
+
+
+@pytest.mark.parametrize("cutoff", [0.0, 3.0, 20.0])
+def test_means_of_a_constant_and_a_line_are_themselves(cutoff):
+    rows = row_filter(np.ones(400, dtype=bool), 0.01, cutoff, 4)
+    usable = np.ones(400, dtype=bool)
+    np.testing.assert_allclose(rows.means(np.full(400, 3.0), usable), 3.0)
+    inner = (rows.centres > 60) & (rows.centres < 340)
+    np.testing.assert_allclose(
+        rows.means(np.arange(400.0), usable)[inner], rows.centres[inner], rtol=1e-12
+    )
+    assert np.all(np.diff(rows.centres) == 4)
+
+
+def test_the_gain_is_minus_3_db_at_the_cutoff():
+    t = np.arange(4000) / 1000.0
+    for hertz, gain in ((10.0, np.sqrt(0.5)), (1.0, 0.9965), (40.0, 0.004)):
+        rows = row_filter(np.ones(4000, dtype=bool), 1e-3, 10.0, 1)
+        out = rows.means(np.sin(2 * np.pi * hertz * t), np.ones(4000, dtype=bool))
+        assert np.max(np.abs(out[500:3500])) == pytest.approx(gain, abs=0.005)
+
+
+def test_masked_samples_have_no_influence_at_all():
+    random = np.random.default_rng(3)
+    values, usable = random.normal(size=(300, 2)), random.random(300) > 0.3
+    rows = row_filter(np.ones(300, dtype=bool), 0.01, 5.0, 3)
+    poisoned = np.where(usable[:, None], values, 1e12)
+    np.testing.assert_allclose(rows.means(values, usable), rows.means(poisoned, usable), rtol=1e-12)
+
+
+@pytest.mark.parametrize("cutoff", [0.0, 2.0, 30.0])
+def test_exact_motion_gives_exact_equations_whatever_the_filter(cutoff):
+    model = planar_arm()
+    beta = some_beta(model)
+    seen = observe(model, [exact_log(model, beta)], Processing(parallel_cutoff=cutoff))
+    assert len(seen.y) > 150
+    np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-11)
+    np.testing.assert_allclose(seen.predicted(beta), seen.torque, atol=1e-11)
+    assert seen.report.logs[0].derivatives == "qd and qdd as logged"
+
+
+def test_differentiated_positions_come_close():
+    model = planar_arm()
+    beta = some_beta(model)
+    seen = observe(model, [exact_log(model, beta, logged=False, rate=1000)])
+    assert np.linalg.norm(seen.W @ beta - seen.y) < 1e-3 * np.linalg.norm(seen.y)
+
+
+def test_rows_know_their_joint_sample_and_log():
+    model = planar_arm()
+    beta = some_beta(model)
+    logs = [exact_log(model, beta, "a"), exact_log(model, beta, "b", seed=9, seconds=10)]
+    seen = observe(model, logs)
+    assert seen.logs == ("a", "b") and set(seen.row_run) == {0, 1}
+    order = seen.row_sample * 2 + seen.row_joint
+    assert np.all(np.diff(order) > 0)
+    for row in (0, 17, len(seen.y) - 1):
+        sample, joint = seen.row_sample[row], seen.row_joint[row]
+        assert seen.y[row] == seen.torque[sample, joint]
+        np.testing.assert_array_equal(seen.W[row], seen.columns[sample, joint])
+    assert np.all(np.diff(seen.time[seen.run == 1]) > 0)
+    assert [log.samples for log in seen.report.logs] == [np.sum(seen.run == i) for i in (0, 1)]
+    assert seen.names == tuple(base.name for base in model.spec.base)
+
+
+def test_blocks_make_no_difference(monkeypatch):
+    model = planar_arm()
+    log = exact_log(model, some_beta(model))
+    whole = observe(model, [log])
+    monkeypatch.setattr(stretch_module, "_BLOCK", 100)
+    parts = observe(model, [log])
+    np.testing.assert_allclose(parts.columns, whole.columns, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(parts.torque, whole.torque, rtol=1e-12, atol=1e-12)
+
+
+def test_further_columns_go_through_the_same_filter():
+    model = planar_arm()
+    seen = observe(model, [exact_log(model, some_beta(model))])
+    again = seen.filtered(lambda s, w: model.base_regressor(s.q[w], s.qd[w], s.qdd[w]))
+    np.testing.assert_array_equal(again, seen.columns)
+
+
+def test_a_burst_on_masked_samples_does_not_reach_any_row():
+    """Missing, saturated and slow samples: whatever stands there, the equations hold."""
+    model = planar_arm()
+    beta = some_beta(model)
+    log = exact_log(model, beta)
+    slow = np.abs(log.qd) < 0.019 * np.quantile(np.abs(log.qd), 0.98, axis=0)
+    assert slow.sum() > 20
+    tau = np.where(slow, 1e6, log.tau)
+    tau[700:720, 1] = np.nan
+    tau[1500:1530, 0] = 2.0 * np.nanmax(log.tau[:, 0])  # one long clip
+    seen = observe(model, [dataclasses.replace(log, tau=np.where(tau == 1e6, 1.0, tau))])
+    np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-10)
+    report = seen.report
+    assert report.logs[0].saturated == {"1": 30}
+    text = "\n".join(report.summary())
+    assert "torque stuck at its limit in 30 rows" in text and "not used" in text
+    kept = observe(model, [dataclasses.replace(log, tau=tau)], Processing(keep_saturated=True))
+    assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
+
+
+def test_shafts_are_found_from_the_columns_alone():
+    wrist = StandIn([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 0.5)})
+    found = {shaft.name: shaft for shaft in shafts(wrist)}
+    assert set(found) == {"1", "2", "3", "2+3"}
+    assert found["2"].joints == (1,) and found["2+3"].joints == (1, 2)
+    ratio = found["2+3"].coefficients[2] / found["2+3"].coefficients[1]
+    assert ratio == pytest.approx(0.5) and found["2+3"].coefficients[0] == 0.0
+    assert shafts(planar_arm(friction=False)) == ()
+
+
+def test_rows_are_masked_where_a_coupled_shaft_stands_still():
+    wrist = StandIn([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 1.0)})
+    t, q, qd, qdd = motion(3)
+    q[:, 2], qd[:, 2], qdd[:, 2] = -q[:, 1], -qd[:, 1], -qdd[:, 1]  # the shaft never turns
+    log = Log("a", ("1", "2", "3"), t, q, np.ones_like(q), qd, qdd)
+    seen = observe(wrist, [log])
+    assert seen.used[:, 0].any() and not seen.used[:, 1:].any()
+    assert seen.report.processing.speed_floors["2+3"] == float("inf")
+
+
+def test_a_joint_that_never_moves_is_said_and_unused():
+    model = planar_arm()
+    t, q, qd, qdd = motion(2)
+    q[:, 1], qd[:, 1], qdd[:, 1] = 0.3, 0.0, 0.0
+    seen = observe(model, [Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)])
+    assert seen.used[:, 0].any() and not seen.used[:, 1].any()
+    assert any("joint 2: never moves" in line for line in seen.report.summary())
+    frictionless = planar_arm(friction=False)
+    seen = observe(frictionless, [Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)])
+    assert seen.used.all()
+
+
+def test_held_out_logs_are_treated_like_the_fitted_ones():
+    model = rotor()
+    beta = some_beta(model)
+    seen = observe(model, [exact_log(model, beta)])
+    held = exact_log(model, beta, seed=4)
+    slower = dataclasses.replace(held, qd=0.1 * held.qd)
+    again = observe(model, [slower], seen.report.processing)
+    assert again.report.processing == seen.report.processing
+    fresh = observe(model, [slower])
+    assert fresh.report.joints[0].slow < again.report.joints[0].slow
+
+
+def test_what_cannot_be_observed_is_refused():
+    model = planar_arm()
+    log = exact_log(model, some_beta(model), logged=False)
+    with pytest.raises(DataError, match="no logs; give at least one"):
+        observe(model, [])
+    with pytest.raises(DataError, match="run: joints 1, 2; stand_in has 1; read the log with"):
+        observe(slider(), [log])
+    with pytest.raises(DataError, match="no logged velocities qd1"):
+        observe(model, [log], Processing(derivatives="log"))
+    still = dataclasses.replace(log, q=np.zeros_like(log.q))
+    with pytest.raises(DataError, match="no usable row is left: joint 1: never moves"):
+        observe(model, [still])
+    short = dataclasses.replace(log, time=log.time[:30], q=log.q[:30], tau=log.tau[:30])
+    with pytest.raises(DataError, match="shorter than the edges of the"):
+        observe(model, [short], Processing(edge=1.0))
+    torn = dataclasses.replace(short, segment=np.arange(30.0))
+    with pytest.raises(DataError, match="no uninterrupted motion"):
+        observe(model, [torn])
+
+
+def test_report_tells_gaps_jitter_and_losses():
+    model = slider()
+    log = exact_log(model, some_beta(model), logged=False)
+    t = log.time + np.random.default_rng(1).uniform(-1e-3, 1e-3, len(log.time))
+    t[2000:] += 1.0
+    q = log.q.copy()
+    q[100] = np.nan
+    changed = dataclasses.replace(log, time=t, q=q, missing={"q1": 1}, notes=("a remark",))
+    text = "\n".join(observe(model, [changed]).report.summary())
+    for words in ("2 pieces, 1 gaps up to 1", "2 of 2 pieces resampled", "q1: 1 rows without",
+                  "a remark", "motion band", "% of the samples masked below"):  # fmt: skip
+        assert words in text
+
+
+def test_excitation_names_idle_columns_and_weak_directions():
+    random = np.random.default_rng(0)
+    W = random.normal(size=(500, 4)) * [1.0, 10.0, 1.0, 0.0]
+    W[:, 2] = W[:, 0] + 1e-4 * W[:, 2]
+    found = excitation(W, ("A", "B", "C", "D"))
+    assert found.idle == ("D",)
+    singular = np.linalg.svd(W[:, :3], compute_uv=False)
+    assert found.condition_number == pytest.approx(singular[0] / singular[-1], rel=1e-6)
+    assert {name for name, _ in found.weak[0].parts} == {"A", "C"} and len(found.weak) == 1
+    assert any("weak" in line for line in found.summary())
+    clean = excitation(np.linalg.qr(random.normal(size=(50, 3)))[0] * [1, 100, 1], ("A", "B", "C"))
+    assert clean.condition_scaled == pytest.approx(1.0) and clean.weak == ()
+    assert clean.condition_number == pytest.approx(100.0)
+    nothing = excitation(np.zeros((5, 2)), ("A", "B"))
+    assert nothing.idle == ("A", "B") and nothing.condition_number == float("inf")

@@ -1,0 +1,155 @@
+"""Data flows one way, and other house rules, held to by every module of the package."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from tests.architecture import (
+    FUNCTION_LINES,
+    LONGER,
+    MODULE_LINES,
+    NORTH,
+    ONLY_IN,
+    PACKAGES,
+    SOUTH,
+    STAGES,
+    broken_rules,
+    functions,
+    modules,
+)
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "modeler"
+
+
+def test_the_house_keeps_its_rules() -> None:
+    assert len(modules(PACKAGE)) > 100  # it is the package that was read
+    assert not (found := broken_rules(PACKAGE)), "\n".join(["", *found])
+
+
+def test_every_stage_has_its_rules_and_every_rule_its_stage() -> None:
+    stages = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert stages <= STAGES.keys() and STAGES.keys() == PACKAGES.keys()
+    assert {*NORTH, *SOUTH, "core", "simulate"} <= stages
+    for stage, before in STAGES.items():
+        assert stage not in before
+        for earlier in before:
+            assert stage not in STAGES[earlier], f"{stage} and {earlier} may import each other"
+
+
+def test_exceptions_are_still_needed() -> None:
+    for exception in LONGER:
+        file, name = exception.split()
+        found = functions(ast.parse((PACKAGE / file).read_text(encoding="utf-8")))
+        assert any(n == name and lines > FUNCTION_LINES for n, _, lines in found), exception
+    for places in ONLY_IN.values():
+        assert all((PACKAGE / place).exists() for place in places)
+
+
+def test_what_stages_import_is_declared() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = {line.split(">")[0] for line in project["dependencies"]}
+    assert set().union(*PACKAGES.values()) == declared
+
+
+# file, its text, what the checker must say of it
+PLANTED = {
+    "north in the south": ("fit/a.py", "from modeler.symbolic import X", "a.py:1: imports modeler"),
+    "manifest only": ("compiled/a.py", "import modeler.robot.read", "compiled may import core"),
+    "hidden in a function": ("compare/a.py", "def f():\n    import sympy", "a.py:2: imports sympy"),
+    "package as a name": ("observation/a.py", "from modeler import base", "imports modeler.base"),
+    "later stage": ("symbolic/a.py", "from modeler.base import X", "imports modeler.base"),
+    "later south stage": ("observation/a.py", "import modeler.fit", "imports modeler.fit"),
+    "core imports ours": ("core/a.py", "import modeler.effects", "core may import nothing"),
+    "cli as a library": ("fit/a.py", "from modeler.cli import main", "imports modeler.cli"),
+    "simulator and model": ("simulate/a.py", "import modeler.symbolic", "may import core, robot"),
+    "model and simulator": ("fit/a.py", "from modeler.simulate import X", "modeler.simulate"),
+    "jinja2 elsewhere": ("codegen/emit.py", "import jinja2", "only codegen/render.py"),
+    "cffi elsewhere": ("compiled/build.py", "from cffi import FFI", "only compiled/bind.py"),
+    "casadi elsewhere": ("symbolic/a.py", "import casadi as ca", "only simulate/, symbolic/"),
+    "undeclared package": ("core/a.py", "import requests", "imports requests"),
+    "relative": ("fit/a.py", "from .rank import rank", "relative import"),
+    "relative, package": ("fit/a.py", "from . import rank", "relative import"),
+    "print": ("fit/a.py", "print('done')", "only cli prints"),
+    "print handed on": ("fit/a.py", "run(log=print)", "only cli prints"),
+    "import by name": ("fit/a.py", "importlib.import_module('sympy')", "import by name"),
+    "name": ("fit/utils.py", "", "name the idea"),
+    "unknown stage": ("magic/a.py", "import sympy", "magic is no stage we know"),
+    "eager package": ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
+    "long module": ("fit/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 400"),
+    "long function": ("fit/a.py", "def f():\n" + "    x = 1\n" * FUNCTION_LINES, "f has 61 lines"),
+}
+
+
+@pytest.mark.parametrize("case", PLANTED)
+def test_a_planted_violation_is_found(tmp_path: Path, case: str) -> None:
+    file, text, words = PLANTED[case]
+    path = tmp_path / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    found = broken_rules(tmp_path)
+    assert len(found) == 1 and words in found[0], found
+
+
+ALLOWED = {
+    "codegen/render.py": "import jinja2\nfrom modeler.terms import X",
+    "simulate/plant.py": "import casadi\nfrom modeler.robot import Robot",
+    "cli/main.py": "from modeler.fit import X\nfrom modeler.simulate import Y\nprint('done')",
+    "fit/long.py": "x = 1\n" * MODULE_LINES,
+    "fit/function.py": "def f():\n" + "    x = 1\n" * (FUNCTION_LINES - 1),
+    "fit/words.py": '"""print("a"), import sympy"""\nimport json\nfrom modeler.fit.rank import rank',
+}
+
+
+@pytest.mark.parametrize("file", ALLOWED)
+def test_what_is_allowed_is_not_found(tmp_path: Path, file: str) -> None:
+    path = tmp_path / file
+    path.parent.mkdir(parents=True)
+    path.write_text(ALLOWED[file], encoding="utf-8")
+    assert broken_rules(tmp_path) == []
+
+
+_LOADED = """
+import importlib, pkgutil, sys
+for stage in sys.argv[1:]:
+    package = importlib.import_module(f"modeler.{stage}")
+    for module in pkgutil.walk_packages(package.__path__, f"modeler.{stage}."):
+        importlib.import_module(module.name)
+names = {n for n in sys.modules if n.startswith("modeler.")}
+print(*sorted({n.split(".")[0] for n in sys.modules} | {".".join(n.split(".")[:2]) for n in names}))
+"""
+
+
+def loaded_by(*stages: str) -> set[str]:
+    """What a fresh interpreter has loaded after importing every module of these stages."""
+    command = [sys.executable, "-c", _LOADED, *stages]
+    return set(subprocess.run(command, capture_output=True, text=True, check=True).stdout.split())
+
+
+SYMBOLIC = {"sympy", "casadi", "jinja2"}
+
+
+@pytest.mark.parametrize("stage", SOUTH)
+def test_numbers_do_not_need_symbols(stage: str) -> None:
+    loaded = loaded_by(stage)
+    assert {f"modeler.{stage}", "numpy"} <= loaded
+    assert not loaded & (SYMBOLIC | {f"modeler.{north}" for north in NORTH})
+
+
+def test_the_north_would_be_noticed() -> None:
+    assert SYMBOLIC <= loaded_by("symbolic", "codegen")
+
+
+def test_the_simulator_shares_no_dynamics_with_the_model() -> None:
+    ours = {name for name in loaded_by("simulate") if name.startswith("modeler.")}
+    assert ours == {"modeler.core", "modeler.effects", "modeler.robot", "modeler.simulate"}
+
+
+def test_the_package_itself_loads_nothing() -> None:
+    code = "import modeler, sys; print(*[n for n in sys.modules if n.startswith('modeler.')])"
+    command = [sys.executable, "-c", code]
+    assert not subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

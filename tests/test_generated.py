@@ -1,0 +1,12 @@
+"""The kept emitted files of the papers' robots, letter by letter."""
+
+import pytest
+
+from tests.modules import module
+
+KEPT = ("wrist", "orthoglide-leg-tree", "sr400-tree")
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_emitted_files_are_those_that_are_kept(name, compare_with_generated):
+    compare_with_generated(name, module(name).emitted.files)
