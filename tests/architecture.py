@@ -15,7 +15,8 @@ STAGES: dict[str, set[str]] = {
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
     "simulate": {"core", "robot"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate"},
+    "api": {"core", *NORTH, *SOUTH},
+    "cli": {"core", *NORTH, *SOUTH, "simulate", "api"},
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -32,6 +33,7 @@ PACKAGES: dict[str, set[str]] = {
     "fit": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
+    "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }
 
@@ -64,6 +66,14 @@ def broken_rules(package: Path) -> list[str]:
 def modules(package: Path) -> list[Path]:
     """Every Python file of the package."""
     return sorted(path for path in package.rglob("*.py") if "__pycache__" not in path.parts)
+
+
+def imported_packages(package: Path) -> set[str]:
+    """The packages of others that any module imports."""
+    names: set[str] = set()
+    for path in modules(package):
+        names |= {name.split(".")[0] for _, name in _imported(ast.parse(path.read_bytes()))}
+    return names - set(sys.stdlib_module_names) - {"", "modeler"}
 
 
 def functions(tree: ast.AST) -> Iterator[tuple[str, int, int]]:
@@ -102,7 +112,7 @@ def _imports(relative: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield line, f"imports {name}; the package itself imports nothing"
         elif top == "modeler":
             other = rest.split(".")[0]
-            if other != stage and other not in STAGES[stage]:
+            if other not in {stage, "__version__"} | STAGES[stage]:
                 yield line, f"imports {name}; {stage} may import {_listed(STAGES[stage])}"
         elif top not in sys.stdlib_module_names:
             if top not in PACKAGES[stage]:

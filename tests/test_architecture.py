@@ -1,6 +1,7 @@
 """Data flows one way, and other house rules, held to by every module of the package."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -19,6 +20,7 @@ from tests.architecture import (
     STAGES,
     broken_rules,
     functions,
+    imported_packages,
     modules,
 )
 
@@ -33,8 +35,8 @@ def test_the_house_keeps_its_rules() -> None:
 
 def test_every_stage_has_its_rules_and_every_rule_its_stage() -> None:
     stages = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
-    assert stages <= STAGES.keys() and STAGES.keys() == PACKAGES.keys()
-    assert {*NORTH, *SOUTH, "core", "simulate"} <= stages
+    stages |= {path.stem for path in PACKAGE.glob("*.py")} - {"__init__"}
+    assert stages == STAGES.keys() == PACKAGES.keys()
     for stage, before in STAGES.items():
         assert stage not in before
         for earlier in before:
@@ -50,10 +52,10 @@ def test_exceptions_are_still_needed() -> None:
         assert all((PACKAGE / place).exists() for place in places)
 
 
-def test_what_stages_import_is_declared() -> None:
+def test_what_is_imported_is_what_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    declared = {line.split(">")[0] for line in project["dependencies"]}
-    assert set().union(*PACKAGES.values()) == declared
+    declared = {re.split("[<>=!~; ]", line)[0] for line in project["dependencies"]}
+    assert imported_packages(PACKAGE) == declared
 
 
 # file, its text, what the checker must say of it
@@ -101,14 +103,16 @@ ALLOWED = {
     "cli/main.py": "from modeler.fit import X\nfrom modeler.simulate import Y\nprint('done')",
     "fit/long.py": "x = 1\n" * MODULE_LINES,
     "fit/function.py": "def f():\n" + "    x = 1\n" * (FUNCTION_LINES - 1),
-    "fit/words.py": '"""print("a"), import sympy"""\nimport json\nfrom modeler.fit.rank import rank',
+    "fit/words.py": '"""print("a"), import sympy"""\nimport json\nimport modeler.fit.rank',
+    "api.py": "from modeler import compare",
+    "cli/version.py": "from modeler import __version__, api",
 }
 
 
 @pytest.mark.parametrize("file", ALLOWED)
 def test_what_is_allowed_is_not_found(tmp_path: Path, file: str) -> None:
     path = tmp_path / file
-    path.parent.mkdir(parents=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(ALLOWED[file], encoding="utf-8")
     assert broken_rules(tmp_path) == []
 
@@ -141,7 +145,7 @@ def test_numbers_do_not_need_symbols(stage: str) -> None:
 
 
 def test_the_north_would_be_noticed() -> None:
-    assert SYMBOLIC <= loaded_by("symbolic", "codegen")
+    assert loaded_by("symbolic", "codegen") >= SYMBOLIC
 
 
 def test_the_simulator_shares_no_dynamics_with_the_model() -> None:

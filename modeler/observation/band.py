@@ -26,9 +26,8 @@ def motion_band(piece: Piece) -> float:
 
     From the periodogram P(f) of each position (Hann window, trend removed): energy of the velocity
     (2 pi f)^2 max(P - floor, 0), where floor is ten times the median of P over the upper half of
-    the frequencies, where measured positions hold noise only. Twice the resolution 1/T is taken
-    off: the window alone is that wide, and a piece of half a second would look fast. 0 if nothing
-    moves.
+    the frequencies, where measured positions hold noise only. The window's own width 2/T is
+    taken off in quadrature, or a piece of half a second would look fast. 0 if nothing moves.
     """
     samples = len(piece.time)
     ramp = np.linspace(0.0, 1.0, samples)[:, None]
@@ -43,7 +42,8 @@ def motion_band(piece: Piece) -> float:
         total = energy[:, j].sum()
         if total > 0.0 and np.ptp(piece.q[:, j]) > 0.0:
             bands.append(float(frequency[np.searchsorted(np.cumsum(energy[:, j]), SHARE * total)]))
-    return max(0.0, max(bands) - 2.0 / (samples * piece.step))
+    window = 2.0 / (samples * piece.step)
+    return float(np.sqrt(max(0.0, max(bands) ** 2 - window**2)))
 
 
 def choose_cutoffs(

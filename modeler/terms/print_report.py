@@ -42,7 +42,7 @@ def _independent(table: CoefficientTable) -> str:
         "### Independent coefficients",
         "",
         f"{len(printed)} are printed as independent; their rank over Q is "
-        f"**{len(printed) - len(dependent)}**; that of all {len(table.coefficients)} coefficients is "
+        f"**{len(printed) - len(dependent)}**; that of all {len(table.coefficients)} is "
         f"**{table.relations.rank}**:",
         "",
     ]

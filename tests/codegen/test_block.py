@@ -4,7 +4,6 @@ import re
 
 from modeler.codegen.block import make_block
 from modeler.symbolic import Graph
-
 from tests.modules import module
 
 PLACES = {"q0": "q[0]", "q1": "q[1]", "D4": "ARM_D4", "g": "ARM_g"}

@@ -102,7 +102,9 @@ def test_friction_is_what_the_robot_file_says(name):
         coupled = any(use.effect.startswith("coupled") for use in robot.effects)
         v, j = qd[:, i], joint.name
         expected = (
-            known.get(f"Fv{j}", 0) * v + known.get(f"Fs{j}", 0) * np.sign(v) + known.get(f"Off{j}", 0)
+            known.get(f"Fv{j}", 0) * v
+            + known.get(f"Fs{j}", 0) * np.sign(v)
+            + known.get(f"Off{j}", 0)
         )
         if not coupled and not _groups_offset(name, j):
             relative(library.friction(qd, beta)[:, i], expected)

@@ -11,7 +11,6 @@ from modeler.codegen.block import make_block
 from modeler.codegen.printer import number_text
 from modeler.core.errors import EmitError
 from modeler.symbolic import Expr, Graph
-
 from tests.modules import compiler
 
 INPUTS = ("x", "y", "z")

@@ -130,7 +130,7 @@ def test_the_compilers_own_words_are_quoted(cache, emps):
 def test_a_cache_that_cannot_be_written_is_said(emps, monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "file"))
-    with pytest.raises(BuildError, match="cannot be written .*; set MODELER_CACHE"):
+    with pytest.raises(BuildError, match=r"cannot be written .*; set MODELER_CACHE"):
         load(emps.spec, emps.files)
 
 
@@ -185,7 +185,7 @@ def test_a_manifest_with_names_that_are_no_c_names_is_refused(cache, emps):
 
 
 def test_missing_files_are_named(emps, tmp_path):
-    with pytest.raises(ManifestError, match="the module lacks emps.h"):
+    with pytest.raises(ManifestError, match=r"the module lacks emps\.h"):
         load(emps.spec, {n: t for n, t in emps.files.items() if n != "emps.h"})
     with pytest.raises(ManifestError, match=r"no manifest\.json; expected a folder that"):
         load_folder(tmp_path)

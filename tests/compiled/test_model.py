@@ -89,15 +89,17 @@ def test_inputs_are_not_changed(wrist):
         (lambda q: q + 1j, "q: got no array of real numbers"),
         (lambda q: [["a", "b", "c"]], "q: got no array of real numbers"),
         (lambda q: [[1.0, 2.0, 3.0], [1.0]], "q: got no array of real numbers"),
-        (lambda q: np.where(np.arange(8)[:, None] == 5, np.nan, q), "q: got nan in row 5, column 0"),
-        (lambda q: q / np.eye(8, 3)[::-1].clip(1e-300), "q: got inf"),
+        (
+            lambda q: np.where(np.arange(8)[:, None] == 5, np.nan, q),
+            "q: got nan in row 5, column 0",
+        ),
+        (lambda q: np.where(q == q[7, 2], np.inf, q), "q: got inf in row 7, column 2"),
         (lambda q: q[:4], "different numbers of samples (q 4, qd 8, qdd 8)"),
     ],
 )
 def test_a_wrong_array_is_refused_by_name(wrist, change, says):
     q, qd, qdd = states(3, 8)
-    with np.errstate(all="ignore"):
-        wrong = change(q * 1e10)
+    wrong = change(q)
     with pytest.raises(ShapeError, match=re.escape(says)):
         wrist.base_regressor(wrong, qd, qdd)
 
@@ -123,7 +125,9 @@ def test_wrong_parameters_are_refused(wrist):
 def test_a_wrong_out_is_refused(wrist):
     q, qd, qdd = states(3, 2)
     c = len(wrist.spec.base)
-    with pytest.raises(ShapeError, match=re.escape(f"out: got (5, {c}), expected an array (6, {c})")):
+    with pytest.raises(
+        ShapeError, match=re.escape(f"out: got (5, {c}), expected an array (6, {c})")
+    ):
         wrist.observation(q, qd, qdd, out=np.empty((5, c)))
     with pytest.raises(ShapeError, match="out: got list"):
         wrist.observation(q, qd, qdd, out=[])

@@ -112,7 +112,7 @@ def test_compression_loses_nothing():
 
 
 def test_what_the_data_cannot_tell_is_set_aside_by_name():
-    W, clean, joint, measured = problem()
+    W, _, joint, measured = problem()
     y = measured(np.random.default_rng(6))
     twin = np.column_stack([W, 3.0 * W[:, 1] - W[:, 0], np.zeros(len(y))])
     found = least_squares(compress(twin, y, joint, 2, (*NAMES, "E", "F")))

@@ -48,7 +48,6 @@ def test_emps_published_values():
     assert values["Off"].value == pytest.approx(-3.16, rel=0.02)
     assert all(parameter.essential for parameter in fit.parameters)
     assert 100 * fit.relative_error < 3.96 and error < 5.63
-    # The drive never reaches its limit for five samples in these files.
     assert fit.processing.position_cutoff == pytest.approx(100.0, rel=0.2)
     assert fit.processing.parallel_cutoff == pytest.approx(16.0, rel=0.2)
 

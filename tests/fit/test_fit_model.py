@@ -34,7 +34,8 @@ def arm():
 @pytest.fixture(scope="module")
 def fitted(arm):
     beta = some_beta(arm)
-    logs = [noisy(exact_log(arm, beta, "a.csv"), 0.2), noisy(exact_log(arm, beta, "b.csv", seed=3), 0.2)]  # fmt: skip
+    runs = (exact_log(arm, beta, "a.csv"), exact_log(arm, beta, "b.csv", seed=3))
+    logs = [noisy(run, 0.2, seed) for seed, run in enumerate(runs)]
     seen = observe(arm, logs)
     return beta, seen, identify(seen)
 

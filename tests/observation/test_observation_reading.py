@@ -70,7 +70,7 @@ def test_a_passive_joint_needs_its_position_but_no_torque(tmp_path):
     log = read_log(write(tmp_path / "a.csv", table), passive)
     assert np.all(log.tau[:, 1] == 0.0) and log.torque_source[1] == "0 (passive)"
     del table["q2"]
-    with pytest.raises(DataError, match="no column q2: joint 2 .* is passive"):
+    with pytest.raises(DataError, match=r"no column q2: joint 2 .* is passive"):
         read_log(write(tmp_path / "b.csv", table), passive)
 
 

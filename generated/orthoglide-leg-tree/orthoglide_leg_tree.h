@@ -1,0 +1,244 @@
+/* One leg of the Orthoglide, cut open
+ *
+ * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
+ * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
+ *
+ * Joints, in the order of q, qd, qdd, tau: 1, 2, 3, 4, 5, 7.
+ * SI units. Matrices are row-major. Outputs must not overlap inputs.
+ *
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#ifndef ORTHOGLIDE_LEG_TREE_H
+#define ORTHOGLIDE_LEG_TREE_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define ORTHOGLIDE_LEG_TREE_JOINTS 6
+#define ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS 60
+#define ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS 32
+#define ORTHOGLIDE_LEG_TREE_NONZEROS 88
+
+/* chi: standard parameters, columns of orthoglide_leg_tree_regressor
+ *
+ *    0  XX1      kg m2
+ *    1  XY1      kg m2
+ *    2  XZ1      kg m2
+ *    3  YY1      kg m2
+ *    4  YZ1      kg m2
+ *    5  ZZ1      kg m2
+ *    6  MX1      kg m
+ *    7  MY1      kg m
+ *    8  MZ1      kg m
+ *    9  M1       kg
+ *   10  XX2      kg m2
+ *   11  XY2      kg m2
+ *   12  XZ2      kg m2
+ *   13  YY2      kg m2
+ *   14  YZ2      kg m2
+ *   15  ZZ2      kg m2
+ *   16  MX2      kg m
+ *   17  MY2      kg m
+ *   18  MZ2      kg m
+ *   19  M2       kg
+ *   20  XX3      kg m2
+ *   21  XY3      kg m2
+ *   22  XZ3      kg m2
+ *   23  YY3      kg m2
+ *   24  YZ3      kg m2
+ *   25  ZZ3      kg m2
+ *   26  MX3      kg m
+ *   27  MY3      kg m
+ *   28  MZ3      kg m
+ *   29  M3       kg
+ *   30  XX4      kg m2
+ *   31  XY4      kg m2
+ *   32  XZ4      kg m2
+ *   33  YY4      kg m2
+ *   34  YZ4      kg m2
+ *   35  ZZ4      kg m2
+ *   36  MX4      kg m
+ *   37  MY4      kg m
+ *   38  MZ4      kg m
+ *   39  M4       kg
+ *   40  XX5      kg m2
+ *   41  XY5      kg m2
+ *   42  XZ5      kg m2
+ *   43  YY5      kg m2
+ *   44  YZ5      kg m2
+ *   45  ZZ5      kg m2
+ *   46  MX5      kg m
+ *   47  MY5      kg m
+ *   48  MZ5      kg m
+ *   49  M5       kg
+ *   50  XX7      kg m2
+ *   51  XY7      kg m2
+ *   52  XZ7      kg m2
+ *   53  YY7      kg m2
+ *   54  YZ7      kg m2
+ *   55  ZZ7      kg m2
+ *   56  MX7      kg m
+ *   57  MY7      kg m
+ *   58  MZ7      kg m
+ *   59  M7       kg
+ */
+
+/* beta: base parameters, columns of orthoglide_leg_tree_base_regressor
+ *
+ *    0  M1R = M1 + M2 + M3 + M4 + M5 + M7  [kg]
+ *    1  ZZ2R = ZZ2 + YY3 + YY4 + D4**2*M4 + D4**2*M5 + YY7  [kg m2]
+ *    2  MX2  [kg m]
+ *    3  MY2R = MY2 + MZ3 + MZ4 + MZ7  [kg m]
+ *    4  XX3R = XX3 - YY3 - D4**2*M4 - D4**2*M5  [kg m2]
+ *    5  XY3  [kg m2]
+ *    6  XZ3R = XZ3 - D4*MZ4  [kg m2]
+ *    7  YZ3  [kg m2]
+ *    8  ZZ3R = ZZ3 + D4**2*M4 + D4**2*M5  [kg m2]
+ *    9  MX3R = MX3 + D4*M4 + D4*M5  [kg m]
+ *   10  MY3  [kg m]
+ *   11  XX4R = XX4 - YY4 + YY5  [kg m2]
+ *   12  XY4  [kg m2]
+ *   13  XZ4  [kg m2]
+ *   14  YZ4  [kg m2]
+ *   15  ZZ4R = ZZ4 + YY5  [kg m2]
+ *   16  MX4  [kg m]
+ *   17  MY4R = MY4 - MZ5  [kg m]
+ *   18  XX5R = XX5 - YY5  [kg m2]
+ *   19  XY5  [kg m2]
+ *   20  XZ5  [kg m2]
+ *   21  YZ5  [kg m2]
+ *   22  ZZ5  [kg m2]
+ *   23  MX5  [kg m]
+ *   24  MY5  [kg m]
+ *   25  XX7R = XX7 - YY7  [kg m2]
+ *   26  XY7  [kg m2]
+ *   27  XZ7  [kg m2]
+ *   28  YZ7  [kg m2]
+ *   29  ZZ7  [kg m2]
+ *   30  MX7  [kg m]
+ *   31  MY7  [kg m]
+ */
+
+/* Where the values of orthoglide_leg_tree_base_regressor_nonzeros stand: joint and column. */
+extern const int orthoglide_leg_tree_nonzero_row[ORTHOGLIDE_LEG_TREE_NONZEROS];
+extern const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS];
+
+/* Tells whether this code belongs to a manifest. */
+const char *orthoglide_leg_tree_signature(void);
+
+/* Regressor of the standard parameters.
+ *
+ * tau = phi chi
+ *
+ * q      6        joint positions [m or rad]
+ * qd     6        joint velocities [m/s or rad/s]
+ * qdd    6        joint accelerations [m/s2 or rad/s2]
+ * phi    6 x 60   torque per unit of each standard parameter, row-major [SI]
+ */
+void orthoglide_leg_tree_regressor(const double *q, const double *qd, const double *qdd,
+                                   double *phi);
+
+/* Regressor of the base parameters.
+ *
+ * tau = phi beta
+ *
+ * q      6        joint positions [m or rad]
+ * qd     6        joint velocities [m/s or rad/s]
+ * qdd    6        joint accelerations [m/s2 or rad/s2]
+ * phi    6 x 32   torque per unit of each base parameter, row-major [SI]
+ */
+void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const double *qdd,
+                                        double *phi);
+
+/* The entries of the base regressor that are not always 0.
+ *
+ * values[k] = phi[nonzero_row[k]][nonzero_column[k]]
+ *
+ * q      6        joint positions [m or rad]
+ * qd     6        joint velocities [m/s or rad/s]
+ * qdd    6        joint accelerations [m/s2 or rad/s2]
+ * values 88       entries, row after row [SI]
+ */
+void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *qd,
+                                                 const double *qdd, double *values);
+
+/* Joint torques, by the Newton-Euler recursion.
+ *
+ * tau = M(q) qdd + c(q, qd) + g(q) + f(qd)
+ *
+ * q      6        joint positions [m or rad]
+ * qd     6        joint velocities [m/s or rad/s]
+ * qdd    6        joint accelerations [m/s2 or rad/s2]
+ * beta   32       base parameters [SI]
+ * tau    6        joint torques or forces [N or N m]
+ */
+void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                                          const double *beta, double *tau);
+
+/* Inertia matrix, rotor inertias included; symmetric.
+ *
+ * tau = M(q) qdd + ...
+ *
+ * q      6        joint positions [m or rad]
+ * beta   32       base parameters [SI]
+ * M      6 x 6    inertia matrix, row-major [kg m2, kg m or kg]
+ */
+void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, double *M);
+
+/* Torques that hold the robot still, without friction.
+ *
+ * g(q) = tau(q, 0, 0) without effects
+ *
+ * q      6        joint positions [m or rad]
+ * beta   32       base parameters [SI]
+ * tau    6        joint torques or forces [N or N m]
+ */
+void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *tau);
+
+/* Coriolis and centripetal torques.
+ *
+ * c(q, qd) = tau(q, qd, 0) without gravity and effects
+ *
+ * q      6        joint positions [m or rad]
+ * qd     6        joint velocities [m/s or rad/s]
+ * beta   32       base parameters [SI]
+ * tau    6        joint torques or forces [N or N m]
+ */
+void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const double *beta,
+                                  double *tau);
+
+/* Torques of all effects but rotor inertias: friction, offsets.
+ *
+ * f(qd)
+ *
+ * qd     6        joint velocities [m/s or rad/s]
+ * beta   32       base parameters [SI]
+ * tau    6        joint torques or forces [N or N m]
+ */
+void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *tau);
+
+/* Base parameters from standard ones: the grouping relations.
+ *
+ * beta = K chi
+ *
+ * chi    60       standard parameters [SI]
+ * beta   32       base parameters [SI]
+ */
+void orthoglide_leg_tree_base_parameters(const double *chi, double *beta);
+
+/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+ *
+ * q qd qdd  samples x 6
+ * W         (samples*6) x 32
+ */
+void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
+                                     const double *qdd, double *W);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,244 @@
+/* 3R industrial wrist (Hanssen, Hovland, Brogardh)
+ *
+ * Functions of wrist.h.
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#include "wrist.h"
+
+#include <math.h>
+
+#include "modeler_runtime.h"
+
+/* Geometry. To use another value, compile with e.g. -DWRIST_g=9.81 */
+#ifndef WRIST_g
+#define WRIST_g 9.81
+#endif
+#ifndef WRIST_al1
+#define WRIST_al1 0.2
+#endif
+#ifndef WRIST_bl1
+#define WRIST_bl1 0.1
+#endif
+
+const int wrist_nonzero_row[WRIST_NONZEROS] = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2,
+    2, 2, 2, 2, 2
+};
+
+const int wrist_nonzero_column[WRIST_NONZEROS] = {
+    0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14, 15, 16, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
+    15, 16, 10, 11, 12, 13, 14, 15, 16
+};
+
+const char *wrist_signature(void)
+{
+    return "67698728faa6ad2f";
+}
+
+void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                       double *restrict W)
+{
+    const modeler_input inputs[3] = {
+        {q, WRIST_JOINTS},
+        {qd, WRIST_JOINTS},
+        {qdd, WRIST_JOINTS},
+    };
+
+    modeler_batch_3(wrist_base_regressor, samples, inputs, W,
+                    (size_t)WRIST_JOINTS * WRIST_BASE_PARAMETERS);
+}
+
+/* Joint torques, by the Newton-Euler recursion.
+ * 77 additions, 105 multiplications. */
+void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                            const double *beta, double *restrict tau)
+{
+    const double c0 = cos(q[0]);
+    const double s0 = sin(q[0]);
+    const double c1 = cos(q[1]);
+    const double s1 = sin(q[1]);
+    const double c2 = cos(q[2]);
+    const double s2 = sin(q[2]);
+
+    const double t1 = qd[0]*s1;
+    const double t2 = qd[1]*c2 + s2*t1;
+    const double t3 = c2*t1 - qd[1]*s2;
+    const double t4 = qd[0]*c1;
+    const double t5 = qd[2] + t4;
+    const double t6 = t3*beta[12] - t2*beta[13] + t5*beta[14];
+    const double t7 = t3*beta[11] + t5*beta[13];
+    const double t8 = qd[1]*t4;
+    const double t9 = qdd[0]*s1 + t8;
+    const double t10 = c2*t9 - qdd[1]*s2 - qd[2]*t2;
+    const double t11 = qdd[1]*c2 + s2*t9 + qd[2]*t3;
+    const double t12 = qdd[0]*c1 - qd[1]*t1;
+    const double t13 = qdd[2] + t12;
+    const double t14 = WRIST_g*c0;
+    const double t15 = s1*t14;
+    const double t16 = t15 + WRIST_bl1*(t1*t1 + qd[1]*qd[1]);
+    const double t17 = t2*t6 + t5*t7 - (t10*beta[10] - t11*beta[11] + t13*beta[12]);
+    const double t18 = t17 + t16*beta[16];
+    const double t19 = t3*beta[10] - t2*beta[11] + t5*beta[12];
+    const double t20 = t5*t19 - t3*t6 + (t10*beta[11] + t13*beta[13]) + t16*beta[15];
+    const double t21 = t5*t5;
+    const double t22 = t3*t2;
+    const double t23 = (t2*t2 + t21)*beta[15] + (t13 + t22)*beta[16];
+    const double t24 = (t3*t3 + t21)*beta[16] - (t13 - t22)*beta[15];
+    const double t25 = WRIST_g*s0;
+    const double t26 = t1*beta[5] + t4*beta[6] + qd[1]*beta[7];
+    const double t27 = t1*beta[4] + qd[1]*beta[6];
+    const double t28 = t4*t26 - qd[1]*t27 + (t9*beta[3] + t12*beta[4] + qdd[1]*beta[5]);
+    const double t29 = t25 + WRIST_bl1*(t8 + t9);
+    const double t30 = c1*t14;
+    const double t31 = t30 - WRIST_bl1*(qdd[1] - t1*t4);
+    const double t32 = t3*t7 + t2*t19 + (t10*beta[12] - t11*beta[13] + t13*beta[14]);
+    const double t33 = t32 - ((c2*t29 + s2*t31)*beta[15] + (c2*t31 - s2*t29)*beta[16]);
+    const double t34 = t1*beta[3] + t4*beta[4] + qd[1]*beta[5];
+    const double t35 = qd[1]*t34 - t1*t26 + (t9*beta[4] + qdd[1]*beta[6]) - t25*beta[8] + t33;
+    const double t36 = s1*(c2*t18 + s2*t20 - WRIST_bl1*(s2*t23 + c2*t24) - (t25*beta[9] + t28));
+    tau[0] = -(t36 - c1*t35 + (t25*beta[1] + t14*beta[2] - qdd[0]*beta[0]));
+    const double t37 = t1*t27 - t4*t34 + (t9*beta[5] + t12*beta[6] + qdd[1]*beta[7]);
+    const double t38 = s2*t18 - c2*t20 + WRIST_bl1*(c2*t23 - s2*t24);
+    tau[1] = t37 - (t15*beta[8] + t30*beta[9]) + t38;
+    tau[2] = t33;
+}
+
+/* Inertia matrix, rotor inertias included; symmetric.
+ * 24 additions, 28 multiplications. */
+void wrist_inertia_matrix(const double *q, const double *beta, double *restrict M)
+{
+    const double c1 = cos(q[1]);
+    const double s1 = sin(q[1]);
+    const double c2 = cos(q[2]);
+    const double s2 = sin(q[2]);
+
+    const double t1 = c2*beta[10] - s2*beta[11];
+    const double t2 = c2*beta[11];
+    const double t3 = s2*t2;
+    const double t4 = WRIST_bl1*(s2*beta[16] - c2*beta[15]);
+    const double t5 = c2*beta[12] - s2*beta[13];
+    const double t6 = beta[4] + t5 + t4;
+    const double t7 = c1*beta[14];
+    M[0] = s1*(s1*(c2*t1 - t3 + beta[3]) + c1*t6) + c1*(t7 + s1*t6) + beta[0];
+    const double t8 = WRIST_bl1*(c2*beta[16] + s2*beta[15]);
+    const double t9 = s2*beta[12] + c2*beta[13];
+    const double t10 = s1*(beta[5] - (s2*t1 + c2*t2)) + c1*(beta[6] - t9 + t8);
+    M[1] = t10;
+    const double t11 = s1*(t5 + t4) + t7;
+    M[2] = t11;
+    M[3] = t10;
+    M[4] = t3 + s2*(s2*beta[10] + t2) + beta[7];
+    const double t12 = t9 - t8;
+    M[5] = -t12;
+    M[6] = t11;
+    M[7] = -t12;
+    M[8] = beta[14];
+}
+
+/* Torques that hold the robot still, without friction.
+ * 12 additions, 24 multiplications. */
+void wrist_gravity(const double *q, const double *beta, double *restrict tau)
+{
+    const double c0 = cos(q[0]);
+    const double s0 = sin(q[0]);
+    const double c1 = cos(q[1]);
+    const double s1 = sin(q[1]);
+    const double c2 = cos(q[2]);
+    const double s2 = sin(q[2]);
+
+    const double t1 = WRIST_g*c0;
+    const double t2 = s1*t1;
+    const double t3 = t2*beta[16];
+    const double t4 = t2*beta[15];
+    const double t5 = WRIST_g*s0;
+    const double t6 = c1*t1;
+    const double t7 = beta[15]*(c2*t5 + s2*t6) + beta[16]*(c2*t6 - s2*t5);
+    const double t8 = s1*(c2*t3 + s2*t4 - t5*beta[9]) + c1*(t7 + t5*beta[8]);
+    tau[0] = -(t5*beta[1] + t1*beta[2] + t8);
+    tau[1] = s2*t3 - c2*t4 - (t2*beta[8] + t6*beta[9]);
+    tau[2] = -t7;
+}
+
+/* Coriolis and centripetal torques.
+ * 57 additions, 87 multiplications. */
+void wrist_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+{
+    const double k1 = WRIST_bl1*2.0;
+
+    const double c1 = cos(q[1]);
+    const double s1 = sin(q[1]);
+    const double c2 = cos(q[2]);
+    const double s2 = sin(q[2]);
+
+    const double t1 = qd[0]*s1;
+    const double t2 = qd[1]*c2 + s2*t1;
+    const double t3 = qd[0]*c1;
+    const double t4 = qd[1]*t3;
+    const double t5 = qd[2]*t2 - c2*t4;
+    const double t6 = c2*t1 - qd[1]*s2;
+    const double t7 = qd[2]*t6 + s2*t4;
+    const double t8 = qd[1]*t1;
+    const double t9 = qd[2] + t3;
+    const double t10 = t6*beta[12] - t2*beta[13] + t9*beta[14];
+    const double t11 = t6*beta[11] + t9*beta[13];
+    const double t12 = WRIST_bl1*(t1*t1 + qd[1]*qd[1]);
+    const double t13 = beta[10]*t5 + beta[11]*t7 + t8*beta[12] + (t2*t10 + t9*t11) + t12*beta[16];
+    const double t14 = t6*beta[10] - t2*beta[11] + t9*beta[12];
+    const double t15 = beta[11]*t5 + t8*beta[13] + (t6*t10 - t9*t14) - t12*beta[15];
+    const double t16 = t9*t9;
+    const double t17 = t6*t2;
+    const double t18 = (t2*t2 + t16)*beta[15] - beta[16]*(t8 - t17);
+    const double t19 = beta[15]*(t8 + t17) + (t6*t6 + t16)*beta[16];
+    const double t20 = t1*beta[5] + t3*beta[6] + qd[1]*beta[7];
+    const double t21 = t1*beta[4] + qd[1]*beta[6];
+    const double t22 = t4*beta[3] - t8*beta[4] + (t3*t20 - qd[1]*t21);
+    const double t23 = k1*t4;
+    const double t24 = t1*t3*WRIST_bl1;
+    const double t25 = beta[12]*t5 + beta[13]*t7 + t8*beta[14] - (t6*t11 + t2*t14);
+    const double t26 = beta[15]*(c2*t23 + s2*t24) + beta[16]*(c2*t24 - s2*t23) + t25;
+    const double t27 = t1*beta[3] + t3*beta[4] + qd[1]*beta[5];
+    const double t28 = s1*(c2*t13 - s2*t15 - WRIST_bl1*(s2*t18 + c2*t19) - t22);
+    tau[0] = -(t28 + c1*(t26 - (qd[1]*t27 - t1*t20 + t4*beta[4])));
+    const double t29 = s2*t13 + c2*t15 + WRIST_bl1*(c2*t18 - s2*t19);
+    tau[1] = t4*beta[5] - t8*beta[6] + (t1*t21 - t3*t27) + t29;
+    tau[2] = -t26;
+}
+
+/* Torques of all effects but rotor inertias: friction, offsets.
+ * 0 additions, 0 multiplications. */
+void wrist_friction(const double *qd, const double *beta, double *restrict tau)
+{
+    (void)qd;
+    (void)beta;
+    tau[0] = 0.0;
+    tau[1] = 0.0;
+    tau[2] = 0.0;
+}
+
+/* Base parameters from standard ones: the grouping relations.
+ * 12 additions, 3 multiplications. */
+void wrist_base_parameters(const double *chi, double *restrict beta)
+{
+    const double k1 = WRIST_bl1*WRIST_bl1;
+    const double k2 = WRIST_bl1*2.0;
+
+    beta[0] = chi[5] + chi[13];
+    beta[1] = chi[6];
+    beta[2] = chi[7] - chi[18];
+    const double t1 = k2*chi[28];
+    const double t2 = k1*chi[29];
+    beta[3] = chi[10] - chi[13] + chi[23] + t1 + t2;
+    beta[4] = chi[11];
+    beta[5] = chi[12];
+    beta[6] = chi[14];
+    beta[7] = chi[15] + chi[23] + t1 + t2;
+    beta[8] = chi[16];
+    beta[9] = chi[17] + chi[28] + WRIST_bl1*chi[29];
+    beta[10] = chi[20] - chi[23];
+    beta[11] = chi[21];
+    beta[12] = chi[22];
+    beta[13] = chi[24];
+    beta[14] = chi[25];
+    beta[15] = chi[26];
+    beta[16] = chi[27];
+}

@@ -1,0 +1,196 @@
+/* 3R industrial wrist (Hanssen, Hovland, Brogardh)
+ *
+ * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
+ * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
+ *
+ * Joints, in the order of q, qd, qdd, tau: 1, 2, 3.
+ * SI units. Matrices are row-major. Outputs must not overlap inputs.
+ *
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#ifndef WRIST_H
+#define WRIST_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define WRIST_JOINTS 3
+#define WRIST_STANDARD_PARAMETERS 30
+#define WRIST_BASE_PARAMETERS 17
+#define WRIST_NONZEROS 37
+
+/* chi: standard parameters, columns of wrist_regressor
+ *
+ *    0  XX1      kg m2
+ *    1  XY1      kg m2
+ *    2  XZ1      kg m2
+ *    3  YY1      kg m2
+ *    4  YZ1      kg m2
+ *    5  ZZ1      kg m2
+ *    6  MX1      kg m
+ *    7  MY1      kg m
+ *    8  MZ1      kg m
+ *    9  M1       kg
+ *   10  XX2      kg m2
+ *   11  XY2      kg m2
+ *   12  XZ2      kg m2
+ *   13  YY2      kg m2
+ *   14  YZ2      kg m2
+ *   15  ZZ2      kg m2
+ *   16  MX2      kg m
+ *   17  MY2      kg m
+ *   18  MZ2      kg m
+ *   19  M2       kg
+ *   20  XX3      kg m2
+ *   21  XY3      kg m2
+ *   22  XZ3      kg m2
+ *   23  YY3      kg m2
+ *   24  YZ3      kg m2
+ *   25  ZZ3      kg m2
+ *   26  MX3      kg m
+ *   27  MY3      kg m
+ *   28  MZ3      kg m
+ *   29  M3       kg
+ */
+
+/* beta: base parameters, columns of wrist_base_regressor
+ *
+ *    0  ZZ1R = ZZ1 + YY2  [kg m2]
+ *    1  MX1  [kg m]
+ *    2  MY1R = MY1 - MZ2  [kg m]
+ *    3  XX2R = XX2 - YY2 + YY3 + 2*bl1*MZ3 + bl1**2*M3  [kg m2]
+ *    4  XY2  [kg m2]
+ *    5  XZ2  [kg m2]
+ *    6  YZ2  [kg m2]
+ *    7  ZZ2R = ZZ2 + YY3 + 2*bl1*MZ3 + bl1**2*M3  [kg m2]
+ *    8  MX2  [kg m]
+ *    9  MY2R = MY2 + MZ3 + bl1*M3  [kg m]
+ *   10  XX3R = XX3 - YY3  [kg m2]
+ *   11  XY3  [kg m2]
+ *   12  XZ3  [kg m2]
+ *   13  YZ3  [kg m2]
+ *   14  ZZ3  [kg m2]
+ *   15  MX3  [kg m]
+ *   16  MY3  [kg m]
+ */
+
+/* Where the values of wrist_base_regressor_nonzeros stand: joint and column. */
+extern const int wrist_nonzero_row[WRIST_NONZEROS];
+extern const int wrist_nonzero_column[WRIST_NONZEROS];
+
+/* Tells whether this code belongs to a manifest. */
+const char *wrist_signature(void);
+
+/* Regressor of the standard parameters.
+ *
+ * tau = phi chi
+ *
+ * q      3        joint positions [rad]
+ * qd     3        joint velocities [rad/s]
+ * qdd    3        joint accelerations [rad/s2]
+ * phi    3 x 30   torque per unit of each standard parameter, row-major [SI]
+ */
+void wrist_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* Regressor of the base parameters.
+ *
+ * tau = phi beta
+ *
+ * q      3        joint positions [rad]
+ * qd     3        joint velocities [rad/s]
+ * qdd    3        joint accelerations [rad/s2]
+ * phi    3 x 17   torque per unit of each base parameter, row-major [SI]
+ */
+void wrist_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* The entries of the base regressor that are not always 0.
+ *
+ * values[k] = phi[nonzero_row[k]][nonzero_column[k]]
+ *
+ * q      3        joint positions [rad]
+ * qd     3        joint velocities [rad/s]
+ * qdd    3        joint accelerations [rad/s2]
+ * values 37       entries, row after row [SI]
+ */
+void wrist_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
+                                   double *values);
+
+/* Joint torques, by the Newton-Euler recursion.
+ *
+ * tau = M(q) qdd + c(q, qd) + g(q) + f(qd)
+ *
+ * q      3        joint positions [rad]
+ * qd     3        joint velocities [rad/s]
+ * qdd    3        joint accelerations [rad/s2]
+ * beta   17       base parameters [SI]
+ * tau    3        joint torques or forces [N m]
+ */
+void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                            const double *beta, double *tau);
+
+/* Inertia matrix, rotor inertias included; symmetric.
+ *
+ * tau = M(q) qdd + ...
+ *
+ * q      3        joint positions [rad]
+ * beta   17       base parameters [SI]
+ * M      3 x 3    inertia matrix, row-major [kg m2, kg m or kg]
+ */
+void wrist_inertia_matrix(const double *q, const double *beta, double *M);
+
+/* Torques that hold the robot still, without friction.
+ *
+ * g(q) = tau(q, 0, 0) without effects
+ *
+ * q      3        joint positions [rad]
+ * beta   17       base parameters [SI]
+ * tau    3        joint torques or forces [N m]
+ */
+void wrist_gravity(const double *q, const double *beta, double *tau);
+
+/* Coriolis and centripetal torques.
+ *
+ * c(q, qd) = tau(q, qd, 0) without gravity and effects
+ *
+ * q      3        joint positions [rad]
+ * qd     3        joint velocities [rad/s]
+ * beta   17       base parameters [SI]
+ * tau    3        joint torques or forces [N m]
+ */
+void wrist_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+
+/* Torques of all effects but rotor inertias: friction, offsets.
+ *
+ * f(qd)
+ *
+ * qd     3        joint velocities [rad/s]
+ * beta   17       base parameters [SI]
+ * tau    3        joint torques or forces [N m]
+ */
+void wrist_friction(const double *qd, const double *beta, double *tau);
+
+/* Base parameters from standard ones: the grouping relations.
+ *
+ * beta = K chi
+ *
+ * chi    30       standard parameters [SI]
+ * beta   17       base parameters [SI]
+ */
+void wrist_base_parameters(const double *chi, double *beta);
+
+/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+ *
+ * q qd qdd  samples x 3
+ * W         (samples*3) x 17
+ */
+void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                       double *W);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,184 @@
+"""The commands as a user types them: exit status, stdout, stderr, JSON, files."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from modeler.cli import main, parser
+
+COMMANDS = ("derive", "generate", "fit", "compare", "simulate", "robots", "effects", "demo")
+
+
+def run(capsys, *argv: str) -> tuple[int, str, str]:
+    status = main([str(a) for a in argv])
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory):
+    """Simulated logs of the demonstration arm and a model fitted on two of them."""
+    folder = tmp_path_factory.mktemp("arm")
+    for name, seed in (("a", 1), ("b", 2), ("held", 3)):
+        argv = ["simulate", "demo-arm", "--duration", "8", "--rate", "500", "--seed", seed]
+        assert main([*map(str, argv), "--out", str(folder / f"{name}.parquet")]) == 0
+    logs = [str(folder / "a.parquet"), str(folder / "b.parquet")]
+    assert main(["fit", "demo-arm", *logs, "--out", str(folder / "m.json")]) == 0
+    return folder
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_has_an_example(capsys, command):
+    with pytest.raises(SystemExit) as stop:
+        main([command, "--help"])
+    assert stop.value.code == 0
+    assert f"example: modeler {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("argv", [[], ["dance"], ["derive"], ["generate", "wrist"], ["fit", "emps"]])
+def test_wrong_usage_is_status_2(capsys, argv):
+    with pytest.raises(SystemExit) as stop:
+        main(argv)
+    assert stop.value.code == 2
+    assert capsys.readouterr().out == ""
+
+
+def test_derive_says_what_a_script_reads(capsys, tmp_path):
+    status, out, err = run(capsys, "derive", "scara", "--json", tmp_path / "d.json")
+    assert (status, err) == (0, "")
+    raw = json.loads((tmp_path / "d.json").read_text())
+    assert raw["robot"] == "scara" and raw["proof"] == "exact"
+    assert raw["rank"] == len(raw["base"]) == sum(raw["counts"].values())
+    assert set(raw["counts"]) == {"inertial", "rotor_inertia", "friction", "offset"}
+    assert raw["rank_gap"][0] > 1e6 * raw["rank_gap"][1]
+    assert raw["newton_euler_against_lagrange"] < 1e-12
+    assert raw["base"][0]["terms"][0] == {
+        "coefficient": "1", "parameter": raw["base"][0]["column_of"],
+    }  # fmt: skip
+    for entry in raw["base"]:
+        assert f"{entry['name']} = " in out
+
+
+def test_json_on_stdout_is_only_json(capsys):
+    status, out, _ = run(capsys, "derive", "two-link", "--json", "-")
+    assert status == 0 and json.loads(out)["robot"] == "two-link"
+
+
+def test_derive_wrist_prints_all_coefficients(capsys):
+    status, out, _ = run(capsys, "derive", "wrist")
+    assert status == 0
+    names = [line.split()[0] for line in out.splitlines() if line[:2] in ("PG", "PJ", "PS", "PX")]
+    assert len(names) == 101
+    assert "17 base parameters (17 inertial)" in out
+
+
+@pytest.mark.parametrize(("form", "sign"), [("latex", "\\begin{align}"), ("markdown", "| --- |")])
+def test_formats(capsys, form, sign):
+    status, out, _ = run(capsys, "derive", "two-link", "--format", form, "--closed-form")
+    assert status == 0 and sign in out
+
+
+def test_effects_may_be_changed_for_a_run(capsys, tmp_path):
+    run(capsys, "derive", "puma560", "--effects", "viscous,coulomb", "--json", tmp_path / "d.json")
+    counts = json.loads((tmp_path / "d.json").read_text())["counts"]
+    assert counts == {"inertial": 36, "rotor_inertia": 0, "friction": 12, "offset": 0}
+    status, _, err = run(capsys, "derive", "puma560", "--effects", "viscuous")
+    assert status == 1 and err.startswith("modeler: --effects: got viscuous; expected some of")
+
+
+def test_generate_writes_a_folder(capsys, tmp_path):
+    status, out, _ = run(capsys, "generate", "scara", "--out", tmp_path / "c")
+    written = {path.name for path in (tmp_path / "c").rglob("*") if path.is_file()}
+    assert status == 0
+    assert {"scara.c", "scara.h", "manifest.json", "Makefile", "CMakeLists.txt"} <= written
+    assert "scara_base_regressor: " in out
+
+
+def test_fit_and_compare(capsys, arm):
+    status, out, err = run(
+        capsys, "compare", arm / "m.json", arm / "held.parquet", "--json", arm / "c.json",
+        "--report", arm / "page.html",
+    )  # fmt: skip
+    assert (status, err) == (0, "")
+    raw = json.loads((arm / "c.json").read_text())
+    assert set(raw["joints"]) == {"1", "2", "3"}
+    for joint in raw["joints"].values():
+        assert joint["relative_error"] < 0.01 and {"rms", "max", "r2"} <= set(joint)
+    assert "Joint 1: " in out
+    assert "<html" in (arm / "page.html").read_text()[:500]
+
+
+def test_fit_json_and_windows(capsys, arm):
+    status, out, _ = run(
+        capsys, "fit", "demo-arm", f"{arm / 'a.parquet'}@0:4", f"{arm / 'b.parquet'}@2:",
+        "--out", arm / "w.json", "--json", "-", "--method", "ordinary",
+    )  # fmt: skip
+    raw = json.loads(out)
+    assert status == 0 and raw["method"] == "ordinary"
+    assert raw["relative_error"] < 0.01 and raw["condition_number"] > 1
+    assert {"name", "value", "sigma", "relative_sigma_percent", "essential"} <= set(
+        raw["parameters"][0]
+    )
+    status, out, _ = run(capsys, "compare", arm / "w.json", f"{arm / 'a.parquet'}@4:")
+    assert status == 0 and "a.parquet@4:" in out
+
+
+def test_comparing_with_the_training_log_is_told(capsys, arm, tmp_path):
+    run(capsys, "compare", arm / "m.json", arm / "a.parquet", "--report", tmp_path / "p.html")
+    assert "training only: the model was fitted on a.parquet" in (tmp_path / "p.html").read_text()
+
+
+def test_robots_and_effects(capsys):
+    status, out, _ = run(capsys, "robots")
+    assert status == 0
+    for name in ("wrist", "rx90", "puma560", "scara", "panda", "sr400-tree", "ur10e", "emps"):
+        assert f"\n{name} " in f"\n{out}"
+    status, out, _ = run(capsys, "robots", "--show", "wrist")
+    assert 'name = "wrist"' in out
+    status, out, _ = run(capsys, "effects", "asymmetric_coulomb")
+    assert status == 0 and "offset" in out
+    status, _, err = run(capsys, "effects", "stricktion")
+    assert status == 1 and "got stricktion; expected one of" in err
+
+
+MISTAKES = [
+    (("derive", "wirst"), "wirst"),
+    (("derive", "missing.toml"), "missing.toml"),
+    (("fit", "emps", "missing.parquet", "--out", "m.json"), "missing.parquet"),
+    (("compare", "missing.json", "x.parquet"), "missing.json"),
+    (("simulate", "demo-arm", "--out", "log.xlsx"), "expected .parquet or .csv"),
+    (("simulate", "demo-arm", "--duration", "-1", "--out", "log.csv"), "duration"),
+    (("generate", "scara", "--out", "/proc/nowhere/c"), "cannot be written"),
+    (("demo", "--out", "/proc/nowhere"), "cannot be written"),
+]
+
+
+@pytest.mark.parametrize(("argv", "piece"), MISTAKES, ids=lambda x: " ".join(x)[:40])
+def test_mistakes_are_one_line_and_status_1(capsys, tmp_path, monkeypatch, argv, piece):
+    monkeypatch.chdir(tmp_path)
+    status, _, err = run(capsys, *argv)
+    assert status == 1
+    assert err.startswith("modeler: ") and err.count("\n") == 1 and piece in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_wrong_logs_are_told(capsys, arm, tmp_path):
+    status, _, err = run(capsys, "compare", arm / "m.json", f"{arm / 'a.parquet'}@900:901")
+    assert status == 1 and "no rows from 900 to 901 s; its times go from 0 to 7.998 s" in err
+    status, _, err = run(
+        capsys, "fit", "demo-arm", arm / "a.parquet", "--payload-mass", "2", "--out", tmp_path / "m"
+    )
+    assert status == 1 and "--payload-mass: no loaded log" in err
+
+
+def test_a_reader_that_stops_is_no_error():
+    command = f"{sys.executable} -m modeler.cli derive wrist | head -1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("wrist: ") and done.stderr == ""
+
+
+def test_every_command_is_listed():
+    text = parser().format_help()
+    assert all(f"    {command} " in text for command in COMMANDS)

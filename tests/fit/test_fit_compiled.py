@@ -1,0 +1,30 @@
+"""From a built-in robot to a mailed model file that compiles again."""
+
+import numpy as np
+from test_observation_rows import exact_log, some_beta
+
+from modeler.base import base_parameters
+from modeler.codegen import emit
+from modeler.compiled import load
+from modeler.fit import IdentifiedModel, identify, load_model, provenance, save_model
+from modeler.observation import observe
+from modeler.robot import read_robot
+from modeler.symbolic import derive_model
+
+
+def test_a_saved_model_compiles_and_predicts_the_same(tmp_path):
+    robot = read_robot("two-link")
+    symbolic = derive_model(robot)
+    emitted = emit(symbolic, base_parameters(symbolic))
+    compiled = load(emitted.spec, emitted.files)
+    beta = some_beta(compiled)
+    log = exact_log(compiled, beta)
+    seen = observe(compiled, [log])
+    fit = identify(seen)
+    np.testing.assert_allclose(fit.beta, beta, rtol=1e-6)
+    path = tmp_path / "arm.model"
+    save_model(path, IdentifiedModel(robot.text, emitted.spec, emitted.files, fit,
+                                     provenance(seen.report)))  # fmt: skip
+    again = load_model(path)
+    torque = again.compile().inverse_dynamics(log.q, log.qd, log.qdd, again.beta)
+    np.testing.assert_allclose(torque, log.tau, atol=1e-6)

@@ -1,0 +1,72 @@
+"""Robots of these tests, derived once."""
+
+from functools import cache
+
+from modeler.base import base_parameters
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.symbolic import SymbolicModel, derive_model
+from modeler.terms import CoefficientTable, coefficient_table
+
+HEAD = 'name = "{name}"\ntitle = "{name}"\ngravity = {gravity}\n[symbols]\n{symbols}\n[mdh]\n'
+COLUMNS = 'columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]\nrows = [\n'
+
+
+def robot_text(
+    name: str, rows: list[str], symbols: str = "", gravity: str = '[0, 0, "-g"]', rest: str = ""
+) -> str:
+    head = HEAD.format(name=name, gravity=gravity, symbols=f"g = 9.81\n{symbols}")
+    return head + COLUMNS + "".join(f"[{row}],\n" for row in rows) + "]\n" + rest
+
+
+def general(joints: int) -> str:
+    """All angles and lengths general: nothing to lean on."""
+    rows, symbols = [], ""
+    for j in range(1, joints + 1):
+        rows.append(f'"{j}", "{j - 1}", 0, 0, 0, "al{j}", "D{j}", "q{j}", "R{j}"')
+        symbols += f"al{j} = 0.{j}3\nD{j} = 0.{j}1\nR{j} = 0.{j}2\n"
+    return robot_text(f"general{joints}", rows, symbols)
+
+
+TEXTS = {
+    "general3": general(3),
+    # a tree with a fixed frame, a prismatic joint, negative rates, offsets, roots of numbers,
+    # gravity askew, rotor inertias, a motor shared by two joints, names of several characters
+    "odd": robot_text(
+        "odd",
+        [
+            '"1", "0", 0, 0, 0, "pi/4", 0, "-q1 + th", 0',
+            '"2", "1", 1, 0, 0, "pi/3", "D2", "pi/6", "0.3 - q2"',
+            '"9", "1", 2, "be", "B9", "-pi/2", 0.25, 0, 0',
+            '"3", "9", 0, 0, 0, "al", "D3", "pi - q3", "R3"',
+        ],
+        "th = 0.4\nD2 = 0.3\nbe = -0.7\nB9 = 0.15\nal = 1.1\nD3 = 0.2\nR3 = -0.4\nk = 0.6\n",
+        gravity='["g*k", "-2", "-g"]',
+        rest='[coupling]\n3 = "q3 - 2*q1"\n[effects]\nrotor_inertia = "all"\nviscous = "all"\n'
+        'coupled_inertia = ["3"]\n',
+    ),
+    "weightless": robot_text(
+        "weightless", ['"11", "0", 0, 0, 0, 0, 0, "q11", 0', '"12", "11", 0, 0, 0, 0, "L", "q12", 0'],
+        "L = 0.5\n", gravity="[0, 0, 0]",
+    ),
+}  # fmt: skip
+
+SMALL = (*TEXTS, "two-link", "scara", "wrist", "emps", "demo-arm", "orthoglide-leg-tree")
+
+
+@cache
+def model_of(name: str) -> SymbolicModel:
+    return derive_model(robot_from_text(TEXTS[name], name) if name in TEXTS else read_robot(name))
+
+
+@cache
+def table_of(name: str) -> CoefficientTable:
+    return coefficient_table(model_of(name), base_parameters(model_of(name)))
+
+
+def edited_wrist(*edits: tuple[str, str]) -> SymbolicModel:
+    """The wrist's file with pieces of its text replaced."""
+    text = builtin_text("wrist")
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new)
+    return derive_model(robot_from_text(text, "wrist.toml"))

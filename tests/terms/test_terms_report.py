@@ -1,0 +1,43 @@
+"""docs/wrist.md is what the report says today."""
+
+import difflib
+from pathlib import Path
+
+from modeler.base import base_parameters
+from modeler.core.files import write_atomically
+from modeler.terms import terms_report
+from tests.terms.cases import model_of
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "wrist.md"
+
+
+def test_page_of_the_wrist_is_current(regenerate):
+    model = model_of("wrist")
+    page = terms_report(model, base_parameters(model))
+    if regenerate:
+        write_atomically(PAGE, page)
+        return
+    kept = PAGE.read_text(encoding="utf-8")
+    difference = "".join(
+        difflib.unified_diff(kept.splitlines(True), page.splitlines(True), "docs/wrist.md", "now")
+    )
+    assert not difference, f"\n{difference}\nIf this change is meant: pytest --regenerate"
+
+
+def test_page_states_the_decisive_findings():
+    model = model_of("wrist")
+    page = terms_report(model, base_parameters(model))
+    for finding in (
+        "16 + 22 + 63 = **101** coefficients",
+        "all lengths unknown: **17**",
+        "`PS3 = 2*PJ1 + 2*PJ3`, identically",
+        "**at1, aJ12, aJ13, aJ22, aJ23, aJ33, al1**",
+        "Only together: `ct1 + bl1`",
+        "17 x 17 map: **-16**",
+        "**divides by 0**",
+        "**returns -aJ11**",
+        "F1 = tau1 + c2*tau3",
+        "**101 of 101** coefficients are equal",
+        "its own solutions for cJ13 do not return",
+    ):
+        assert finding in page

@@ -1,0 +1,201 @@
+"""Metadata, pins, version and changelog agree, and nothing names one particular machine."""
+
+import re
+import shutil
+import subprocess
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+from packaging.markers import Marker
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+from packaging.version import Version
+
+import modeler
+from tests.repository import ROOT, kept_files
+
+_PIN = re.compile(r"([a-z0-9]+(?:-[a-z0-9]+)*)==([0-9]+(?:\.[0-9]+)*)(?: ; (.+))?")
+
+
+@pytest.fixture(scope="module")
+def settings() -> dict:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def pins() -> dict[str, str]:
+    found = {}
+    for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines():
+        if line and not line.startswith("#"):
+            match = _PIN.fullmatch(line)
+            assert match, f"constraints.txt: got {line!r}, expected name==version, maybe a marker"
+            name, version, marker = match.groups()
+            assert name not in found, f"constraints.txt: {name} stands there twice"
+            if marker:
+                Marker(marker)
+            found[name] = version
+    return found
+
+
+def requirements(settings: dict) -> list[Requirement]:
+    project = settings["project"]
+    lines = [*project["dependencies"], *settings["build-system"]["requires"]]
+    lines += [line for group in project["optional-dependencies"].values() for line in group]
+    return [Requirement(line) for line in lines]
+
+
+def test_metadata(settings: dict) -> None:
+    project = settings["project"]
+    assert project["name"] == "modeler"
+    assert project["requires-python"] == ">=3.11"
+    assert project["license"] == "MIT"
+    for file in [
+        project["readme"],
+        *project["license-files"],
+        settings["tool"]["hatch"]["version"]["path"],
+    ]:
+        assert (ROOT / file).is_file(), file
+    assert project["scripts"] == {"modeler": "modeler.cli:main"}
+    assert (ROOT / "modeler" / "py.typed").is_file()
+
+
+def test_the_version_stands_in_one_place(settings: dict) -> None:
+    Version(modeler.__version__)
+    assert "version" in settings["project"]["dynamic"] and "version" not in settings["project"]
+    places = [
+        path.relative_to(ROOT).as_posix()
+        for path in (ROOT / "modeler").rglob("*.py")
+        if re.search(r"^__version__\s*=", path.read_text(encoding="utf-8"), re.M)
+    ]
+    assert places == ["modeler/__init__.py"]
+
+
+def test_the_changelog_begins_with_this_version() -> None:
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    first, *_ = re.findall(r"^## (\S+) - (\d{4}-\d{2}-\d{2}|unreleased)$", text, re.M)
+    assert first[0] == modeler.__version__
+
+
+def test_every_dependency_is_pinned_to_a_version_it_allows(
+    settings: dict, pins: dict[str, str]
+) -> None:
+    for requirement in requirements(settings):
+        name = canonicalize_name(requirement.name)
+        assert name in pins, f"constraints.txt has no line for {name}"
+        assert requirement.specifier.contains(pins[name]), f"{requirement} excludes {pins[name]}"
+
+
+def test_what_dependencies_need_is_pinned(settings: dict, pins: dict[str, str]) -> None:
+    """Every package that installing brings has its line, and every line brings a package."""
+    waiting = [canonicalize_name(requirement.name) for requirement in requirements(settings)]
+    waiting.append(canonicalize_name("editables"))  # what hatchling asks for to install -e
+    needed: set[str] = set()
+    while waiting:
+        name = waiting.pop()
+        if name in needed:
+            continue
+        needed.add(name)
+        try:
+            lines = metadata.requires(name) or []
+        except metadata.PackageNotFoundError:
+            pytest.skip(f"NOT CHECKED: {name} is not installed, so what it needs is not known")
+        for requirement in map(Requirement, lines):
+            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
+                waiting.append(canonicalize_name(requirement.name))
+    assert needed == pins.keys()
+
+
+# Written in pieces, so that this file does not name what it looks for.
+_FORBIDDEN = {
+    "a registry's host": r"py" + r"pi\.org|python" + r"hosted|ana" + r"conda\.org",
+    "a place to install from": r"--(?:extra-)?index"
+    + r"-url|--find"
+    + r"-links|trusted"
+    + r"-host",
+    "a path of one machine": r"(?<![\w./~}])/(?:work|tmp|root|home|opt)" + r"/\w",
+}
+
+
+def test_nothing_names_a_registry_or_a_machine() -> None:
+    found = []
+    for name in kept_files():
+        text = (ROOT / name).read_bytes().decode("utf-8", errors="ignore")
+        for number, line in enumerate(text.splitlines(), start=1):
+            found += [
+                f"{name}:{number}: {what}: {line.strip()[:80]}"
+                for what, pattern in _FORBIDDEN.items()
+                if re.search(pattern, line)
+            ]
+    assert not found, "\n".join(["", *found])
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "see https://py" + "pi.org/x",
+        "pip install --index" + "-url x",
+        'open("' + "/tmp" + '/x")',
+        "in " + "/work" + "/main",
+    ],
+)
+def test_what_must_not_be_named_would_be_found(line: str) -> None:
+    assert any(re.search(pattern, line) for pattern in _FORBIDDEN.values())
+
+
+def test_there_is_no_lock_file() -> None:
+    names = {Path(name).name.lower() for name in kept_files()}
+    assert not {name for name in names if name.endswith(".lock") or name == "pylock.toml"}
+
+
+@pytest.fixture
+def make(tmp_path: Path):
+    """`make` with our Makefile in an empty folder whose path has a space."""
+    if shutil.which("make") is None:
+        pytest.skip("NOT CHECKED: make is not installed")
+    folder = tmp_path / "a folder"
+    folder.mkdir()
+    for name in ("Makefile", "pyproject.toml", "constraints.txt"):
+        shutil.copy(ROOT / name, folder)
+
+    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            ["make", *arguments], cwd=folder, capture_output=True, text=True, check=False
+        )
+
+    return run
+
+
+def test_make_alone_says_what_there_is(make) -> None:
+    told = make().stdout
+    assert all(f"make {target}" in told for target in ("demo", "test", "lint", "regenerate"))
+
+
+def test_make_without_a_fitting_python_says_so_in_one_line(make, tmp_path: Path) -> None:
+    old = tmp_path / "old-python"
+    old.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
+    old.chmod(0o755)
+    result = make("demo", f"PYTHON={old}")
+    assert result.returncode != 0
+    first = result.stderr.splitlines()[0]
+    assert first.startswith("modeler: Python 3.11 or later not found; install it")
+
+
+def test_make_without_the_venv_module_says_so_in_one_line(make, tmp_path: Path) -> None:
+    bare = tmp_path / "bare-python"
+    bare.write_text('#!/bin/sh\ncase "$2" in *venv*) exit 1;; esac\n', encoding="utf-8")
+    bare.chmod(0o755)
+    result = make("test", f"PYTHON={bare}")
+    assert result.returncode != 0
+    assert "has no venv module; install it" in result.stderr.splitlines()[0]
+
+
+def test_make_without_a_compiler_says_so_in_one_line(make, tmp_path: Path) -> None:
+    empty = tmp_path / "bin"
+    empty.mkdir()
+    shell = shutil.which("sh")
+    assert shell is not None
+    result = make("demo", f"PATH={empty}", f"SHELL={shell}", "CC=")
+    assert result.returncode != 0
+    assert result.stderr.splitlines()[0].startswith("modeler: no C compiler")

@@ -1,0 +1,117 @@
+"""The wheel, installed elsewhere and used from another folder, does what the checkout does."""
+
+import os
+import re
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from tests.repository import ROOT, kept_files
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """The sdist, and the wheel made of what is in the sdist."""
+    folder = tmp_path_factory.mktemp("dist")
+    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), str(ROOT)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
+    (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
+    return sdist, wheel
+
+
+def test_the_wheel_holds_the_package_its_data_and_nothing_else(built: tuple[Path, Path]) -> None:
+    with zipfile.ZipFile(built[1]) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+    moved = {"templates": "modeler/_templates", "csrc": "modeler/_csrc", "modeler": "modeler"}
+    expected = set()
+    for name in kept_files():
+        top, _, rest = name.partition("/")
+        if top in moved:
+            expected.add(f"{moved[top]}/{rest}")
+    assert names == expected
+    assert {
+        "modeler/py.typed",
+        "modeler/_templates/module.c.jinja",
+        "modeler/_csrc/include/modeler_runtime.h",
+        "modeler/robot/library/wrist.toml",
+        *(f"modeler/compare/report.{ending}" for ending in ("html", "css", "js")),
+    } <= names
+
+
+def test_the_sdist_can_be_tested(built: tuple[Path, Path]) -> None:
+    with tarfile.open(built[0]) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert set(kept_files()) <= names
+    assert {"Makefile", "constraints.txt", "tests/test_wheel.py", "LICENSE"} <= names
+
+
+@pytest.fixture(scope="module")
+def installed(built: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of programs of a new environment: our wheel, and what it needs from this one."""
+    place = tmp_path_factory.mktemp("environment with a space")
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(place)], check=True)
+    programs = place / "bin"
+    pip = [sys.executable, "-m", "pip", "--python", str(programs / "python")]
+    install = [*pip, "install", "-q", "--no-deps", "--no-index", str(built[1])]
+    subprocess.run(install, check=True)
+    # A folder named in a .pth file is searched last, and its own .pth files (which make an
+    # editable modeler importable) are not followed: only the wheel can be found as modeler.
+    (packages,) = place.glob("lib/python*/site-packages")
+    (packages / "needs.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
+    return programs
+
+
+_USE = """
+import sys
+import numpy as np
+import modeler
+from modeler.compiled import load, load_folder
+assert modeler.__file__.startswith(sys.prefix), modeler.__file__
+model = load_folder(sys.argv[1])
+assert not {"sympy", "casadi", "jinja2"} & set(sys.modules)
+
+from modeler.base import base_parameters
+from modeler.codegen import emit
+from modeler.robot import read_robot
+from modeler.symbolic import derive_model
+symbolic = derive_model(read_robot("two-link"))
+emitted = emit(symbolic, base_parameters(symbolic))
+assert emitted.spec == model.spec
+
+rng = np.random.default_rng(5)
+chi, q = rng.normal(size=len(model.spec.standard)), rng.normal(size=(7, 2))
+value = dict(zip((column.name for column in model.spec.standard), chi))
+for compiled in (model, load(emitted.spec, emitted.files)):
+    got = compiled.gravity(q, compiled.base_parameters(chi))
+    # The textbook arm, Y up: each joint carries the moments of what comes after it.
+    c1, s1, c12, s12 = np.cos(q[:, 0]), np.sin(q[:, 0]), np.cos(q.sum(1)), np.sin(q.sum(1))
+    outer = 9.81 * (value["MX2"] * c12 - value["MY2"] * s12)
+    inner = 9.81 * ((value["MX1"] + 0.4 * value["M2"]) * c1 - value["MY1"] * s1)
+    assert np.allclose(got, np.stack([inner + outer, outer], axis=1), rtol=1e-12, atol=1e-12)
+print("used")
+"""
+
+
+def test_the_wheel_works_from_another_folder(installed: Path, tmp_path: Path) -> None:
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    environment["MODELER_CACHE"] = str(tmp_path / "cache")
+
+    def run(*command: str) -> str:
+        result = subprocess.run(
+            [str(installed / command[0]), *command[1:]],
+            cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert result.returncode == 0, result.stdout + result.stderr
+        return result.stdout
+
+    run("modeler", "generate", "two-link", "--out", "arm")
+    assert run("python", "-c", _USE, "arm") == "used\n"
+    assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", run("modeler", "--version"))
