@@ -20,7 +20,6 @@ help:
 
 demo: .venv/.installed
 	$(BIN)/modeler demo --out demo
-	@for page in demo/*.html; do echo "open in a browser: $$page"; done
 
 test: lint
 	MODELER_CACHE=build/compiled OPENBLAS_NUM_THREADS=1 \

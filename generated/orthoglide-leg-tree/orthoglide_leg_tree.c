@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "modeler_runtime.h"
+#include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_g=9.81 */
 #ifndef ORTHOGLIDE_LEG_TREE_g
@@ -59,16 +60,16 @@ void orthoglide_leg_tree_observation(size_t samples, const double *q, const doub
 void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                                           const double *beta, double *restrict tau)
 {
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
 
     const double t1 = qd[1]*c5;
     const double t2 = qd[5]*qd[5];
@@ -182,16 +183,16 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
 
     const double k1 = ORTHOGLIDE_LEG_TREE_D4*2.0;
 
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
 
     M[0] = beta[0];
     const double t1 = c4*beta[24] + s4*beta[23];
@@ -275,14 +276,14 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *re
     tau[0] = 0.0;
     tau[1] = 0.0;
 
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
 
     const double t1 = ORTHOGLIDE_LEG_TREE_g*c2;
     const double t2 = ORTHOGLIDE_LEG_TREE_g*s2;
@@ -302,16 +303,16 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
 {
     const double k1 = ORTHOGLIDE_LEG_TREE_D4*2.0;
 
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
 
     const double t1 = qd[1]*c5;
     const double t2 = qd[5]*qd[5];

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "modeler_runtime.h"
+#include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DSR400_TREE_g=9.81 */
 #ifndef SR400_TREE_g
@@ -71,20 +72,20 @@ void sr400_tree_observation(size_t samples, const double *q, const double *qd, c
 void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                                  const double *beta, double *restrict tau)
 {
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
-    const double c6 = cos(q[6]);
-    const double s6 = sin(q[6]);
-    const double c7 = cos(q[7]);
-    const double s7 = sin(q[7]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
+    double s6, c6;
+    modeler_sincos(q[6], &s6, &c6);
+    double s7, c7;
+    modeler_sincos(q[7], &s7, &c7);
 
     const double t1 = qd[0]*c6;
     const double t2 = qd[0]*s6;
@@ -267,20 +268,20 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *rest
     const double k4 = SR400_TREE_RL4*2.0;
     const double k5 = SR400_TREE_D3*2.0;
 
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
-    const double c6 = cos(q[6]);
-    const double s6 = sin(q[6]);
-    const double c7 = cos(q[7]);
-    const double s7 = sin(q[7]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
+    double s6, c6;
+    modeler_sincos(q[6], &s6, &c6);
+    double s7, c7;
+    modeler_sincos(q[7], &s7, &c7);
 
     const double t1 = s5*beta[35] - c5*beta[34];
     const double t2 = beta[27] - t1;
@@ -442,20 +443,20 @@ void sr400_tree_gravity(const double *q, const double *beta, double *restrict ta
 {
     tau[0] = 0.0;
 
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
-    const double c6 = cos(q[6]);
-    const double s6 = sin(q[6]);
-    const double c7 = cos(q[7]);
-    const double s7 = sin(q[7]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
+    double s6, c6;
+    modeler_sincos(q[6], &s6, &c6);
+    double s7, c7;
+    modeler_sincos(q[7], &s7, &c7);
 
     const double t1 = SR400_TREE_g*c1;
     const double t2 = SR400_TREE_g*s1;
@@ -495,20 +496,20 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
     const double k3 = SR400_TREE_RL4*2.0;
     const double k4 = SR400_TREE_D3*2.0;
 
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
-    const double c3 = cos(q[3]);
-    const double s3 = sin(q[3]);
-    const double c4 = cos(q[4]);
-    const double s4 = sin(q[4]);
-    const double c5 = cos(q[5]);
-    const double s5 = sin(q[5]);
-    const double c6 = cos(q[6]);
-    const double s6 = sin(q[6]);
-    const double c7 = cos(q[7]);
-    const double s7 = sin(q[7]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+    double s4, c4;
+    modeler_sincos(q[4], &s4, &c4);
+    double s5, c5;
+    modeler_sincos(q[5], &s5, &c5);
+    double s6, c6;
+    modeler_sincos(q[6], &s6, &c6);
+    double s7, c7;
+    modeler_sincos(q[7], &s7, &c7);
 
     const double t1 = qd[0]*c6;
     const double t2 = qd[0]*s6;

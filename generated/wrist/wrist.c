@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "modeler_runtime.h"
+#include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DWRIST_g=9.81 */
 #ifndef WRIST_g
@@ -53,12 +54,12 @@ void wrist_observation(size_t samples, const double *q, const double *qd, const 
 void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                             const double *beta, double *restrict tau)
 {
-    const double c0 = cos(q[0]);
-    const double s0 = sin(q[0]);
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
+    double s0, c0;
+    modeler_sincos(q[0], &s0, &c0);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
 
     const double t1 = qd[0]*s1;
     const double t2 = qd[1]*c2 + s2*t1;
@@ -107,10 +108,10 @@ void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd
  * 24 additions, 28 multiplications. */
 void wrist_inertia_matrix(const double *q, const double *beta, double *restrict M)
 {
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
 
     const double t1 = c2*beta[10] - s2*beta[11];
     const double t2 = c2*beta[11];
@@ -139,12 +140,12 @@ void wrist_inertia_matrix(const double *q, const double *beta, double *restrict 
  * 12 additions, 24 multiplications. */
 void wrist_gravity(const double *q, const double *beta, double *restrict tau)
 {
-    const double c0 = cos(q[0]);
-    const double s0 = sin(q[0]);
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
+    double s0, c0;
+    modeler_sincos(q[0], &s0, &c0);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
 
     const double t1 = WRIST_g*c0;
     const double t2 = s1*t1;
@@ -165,10 +166,10 @@ void wrist_coriolis(const double *q, const double *qd, const double *beta, doubl
 {
     const double k1 = WRIST_bl1*2.0;
 
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
 
     const double t1 = qd[0]*s1;
     const double t2 = qd[1]*c2 + s2*t1;

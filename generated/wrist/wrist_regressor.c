@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include "modeler_sincos.h"
+
 /* Geometry. To use another value, compile with e.g. -DWRIST_g=9.81 */
 #ifndef WRIST_g
 #define WRIST_g 9.81
@@ -25,12 +27,12 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     for (int i = 0; i < 90; i++)
         phi[i] = 0.0;
 
-    const double c0 = cos(q[0]);
-    const double s0 = sin(q[0]);
-    const double c1 = cos(q[1]);
-    const double s1 = sin(q[1]);
-    const double c2 = cos(q[2]);
-    const double s2 = sin(q[2]);
+    double s0, c0;
+    modeler_sincos(q[0], &s0, &c0);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
 
     phi[5] = qdd[0];
     const double t1 = WRIST_g*s0;

@@ -26,8 +26,8 @@ from modeler.core.errors import EmitError
 from modeler.symbolic import Expr, Graph
 
 _LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
-_HOISTED = ("sin", "cos", "tan", "exp", "tanh")
-_SHORT = {"sin": "s", "cos": "c"}
+_PAIR = {"sin": "s", "cos": "c"}
+_HOISTED = (*_PAIR, "tan", "exp", "tanh")
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class _Writer:
     forced: set[int]
     texts: dict[int, Text] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
-    names: set[str] = field(default_factory=set)
+    pairs: dict[int, str] = field(default_factory=dict)
     count: dict[str, int] = field(default_factory=lambda: {"k": 0, "t": 0})
 
     def take(self) -> tuple[str, ...]:
@@ -159,12 +159,37 @@ class _Writer:
                 continue
             node = self.graph.nodes[index]
             if ready or node.op in ("num", "sym"):
-                self.texts[index] = self._text(index)
-                if index in self.forced:
-                    self._name(index)
+                self._write(index)
             else:
                 stack.append((index, True))
                 stack.extend((abs(arg), False) for arg in reversed(node.args))
+
+    def _write(self, index: int) -> None:
+        node = self.graph.nodes[index]
+        if node.op in _PAIR and not node.static:
+            self.texts[index] = self._sine_or_cosine(node.op, node.args[0])
+            return
+        self.texts[index] = self._text(index)
+        if index in self.forced:
+            self._name(index)
+
+    def _sine_or_cosine(self, op: str, angle: int) -> Text:
+        """The name of one of them; the first to be read computes both."""
+        assert angle > 0, "the graph takes signs out of sines and cosines"
+        if angle not in self.pairs:
+            name = self._pair_name(angle)
+            self.pairs[angle] = name
+            argument = self.texts[angle].text
+            self.lines.append(f"double s{name}, c{name};")
+            self.lines.append(f"modeler_sincos({argument}, &s{name}, &c{name});")
+        return Text(_PAIR[op] + self.pairs[angle], ATOM)
+
+    def _pair_name(self, angle: int) -> str:
+        """The number of the joint, s0 = sin(q[0]), or one that no joint has."""
+        node = self.graph.nodes[angle]
+        place = self.places[node.args[0]] if node.op == "sym" else ""
+        joint = re.fullmatch(r"q\[(\d+)\]", place)
+        return joint[1] if joint else f"a{len(self.pairs) + 1}"
 
     def _text(self, index: int) -> Text:
         text = self._combine(index)
@@ -205,20 +230,8 @@ class _Writer:
 
     def _name(self, index: int) -> None:
         """Give the value a name, and from now on read that."""
-        name = self._new_name(index)
+        letter = "k" if self.graph.nodes[index].static else "t"
+        self.count[letter] += 1
+        name = f"{letter}{self.count[letter]}"
         self.lines.append(f"const double {name} = {self.texts[index].text};")
         self.texts[index] = Text(name, ATOM)
-
-    def _new_name(self, index: int) -> str:
-        node = self.graph.nodes[index]
-        short = _SHORT.get(node.op)
-        if short is not None and not node.static:
-            symbol = self.graph.nodes[abs(node.args[0])]
-            place = self.places[symbol.args[0]] if symbol.op == "sym" else ""
-            joint = re.fullmatch(r"q\[(\d+)\]", place)
-            if joint and short + joint[1] not in self.names:  # s0 = sin(q[0])
-                self.names.add(short + joint[1])
-                return short + joint[1]
-        letter = "k" if node.static else "t"
-        self.count[letter] += 1
-        return f"{letter}{self.count[letter]}"

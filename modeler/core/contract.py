@@ -15,7 +15,7 @@ from modeler.core.errors import ManifestError
 
 FORMAT = 1
 
-RUNTIME = ("modeler_runtime.h", "modeler_batch.c")
+RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 """Hand-written C files that stand beside every emitted module."""
 
 MANIFEST = "manifest.json"

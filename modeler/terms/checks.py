@@ -8,6 +8,7 @@ from typing import Any
 
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
+from sympy.polys.polyerrors import ExactQuotientFailed
 from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
@@ -182,7 +183,7 @@ def _evaluated(
 ) -> Poly:
     try:
         return ring(text.fold(values, {}, None, lambda x: QQ(x.numerator, x.denominator)))
-    except (KeyError, TypeError, ValueError, ZeroDivisionError):
+    except (KeyError, TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
         unknown = ", ".join(sorted(text.names - set(values)))
         raise RobotError(
             f'robot {table.closed.robot.name}, [terms], printed, {where}: got "{text.text}"'

@@ -7,6 +7,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from sympy.polys.polyerrors import ExactQuotientFailed
+
 from modeler.base import BaseParameters
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
@@ -197,7 +199,7 @@ def _exponents(cell: Expression, algebra: TrigRing) -> Exponents | None:
     generators = dict(zip(algebra.names, algebra.ring.gens[: algebra.moving], strict=False))
     try:
         value = algebra.ring(cell.fold(generators, {}, None, _integer))
-    except (KeyError, ValueError, TypeError, ZeroDivisionError):
+    except (KeyError, ValueError, TypeError, ZeroDivisionError, ExactQuotientFailed):
         return None
     if len(value) != 1 or value.LC != 1:
         return None

@@ -8,6 +8,7 @@ from typing import Any
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
+from sympy.polys.polyerrors import ExactQuotientFailed
 from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
@@ -156,7 +157,7 @@ class _Reader:
             if derived:
                 raise ValueError
             return self.ring(entry.fold(values, _refused(), None, _rational))
-        except (TypeError, ValueError, ZeroDivisionError):
+        except (TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
             raise RobotError(
                 f'robot {self.model.robot.name}, [physical.{joint}]: got "{entry.text}"; expected '
                 "a polynomial of the link's letters and of symbols that are given by a number"

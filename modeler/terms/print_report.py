@@ -1,5 +1,7 @@
 """Where a paper's print is wrong, and how one sees it."""
 
+from fractions import Fraction
+
 from modeler.symbolic import SymbolicModel
 from modeler.terms.checks import (
     SolutionCheck,
@@ -11,7 +13,9 @@ from modeler.terms.checks import (
     wrong_functions,
 )
 from modeler.terms.coefficients import CoefficientTable
+from modeler.terms.friction import check_friction
 from modeler.terms.power import STATE, exact_state, example_values, power_balance
+from modeler.terms.printed import Coupling
 
 
 def print_sections(model: SymbolicModel, table: CoefficientTable) -> list[str]:
@@ -29,6 +33,8 @@ def print_sections(model: SymbolicModel, table: CoefficientTable) -> list[str]:
         _vanishing(table),
         _forces(model),
     ]
+    if printed.coupling is not None:
+        sections.append(_friction(printed.coupling))
     if printed.twin:
         sections.append(_twin(table))
     return [section for section in sections if section]
@@ -173,6 +179,32 @@ def _forces(model: SymbolicModel) -> str:
             "```",
             "",
             "With the reactions they are the motor torques themselves.",
+            "",
+        ]
+    )
+
+
+def _friction(coupling: Coupling) -> str:
+    check = check_friction(coupling)
+
+    def row(values: tuple[Fraction, ...]) -> str:
+        return ", ".join(f"{float(value):g}" for value in values)
+
+    matrix = "; ".join(row(line) for line in coupling.motor_from_joint)
+    return "\n".join(
+        [
+            "### Friction of coupled motors",
+            "",
+            "Printed: G_ii C_i sgn(qd_i). Virtual work gives (G^T C sgn(G qd))_i, with the signs "
+            "of the motor speeds G qd; what friction takes must be sum C_i |(G qd)_i|.",
+            "",
+            f"With G = [{matrix}], C = ({row(coupling.coulomb)}) N m, qd = ({row(coupling.speed)}) "
+            f"rad/s the motors take {float(check.dissipated):g} W:",
+            "",
+            "| | joint torques, N m | power, W |",
+            "|---|---|---|",
+            f"| printed | {row(check.printed)} | {float(check.printed_power):g} |",
+            f"| derived | {row(check.derived)} | {float(check.derived_power):g} |",
             "",
         ]
     )

@@ -9,6 +9,8 @@ Keys, all optional:
 * `[terms.printed]`: the print letter by letter, to be checked: `count` of coefficients,
   `independent` coefficients, `vanishing` parameters, and the tables `functions`, `definitions`,
   `solutions` (a fraction as [numerator, denominator]).
+* `[terms.printed.coupling]`: an example at which the print G_ii C_i sgn(qd_i) of Coulomb friction is
+  tried: `motor_from_joint` (rows of G, from joint to motor speeds), `coulomb` (C), `speed` (qd).
 * `[terms.example]` and `[terms.twin]`: two sets of physical parameters, as exact fractions.
 """
 
@@ -22,7 +24,31 @@ from modeler.core.expression import Expression, ExpressionError, parse
 from modeler.robot import Robot
 
 _KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin")
-_PRINTED = ("count", "independent", "vanishing", "functions", "definitions", "solutions")
+_COUPLING = ("motor_from_joint", "coulomb", "speed")
+_PRINTED = (
+    "count",
+    "independent",
+    "vanishing",
+    "functions",
+    "definitions",
+    "solutions",
+    "coupling",
+)
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """Motors that turn with several joints, and one motion.
+
+    Attributes:
+        motor_from_joint: G, rows of motors: motor speed = G qd.
+        coulomb: (motors,) N m.
+        speed: (joints,) rad/s.
+    """
+
+    motor_from_joint: tuple[tuple[Fraction, ...], ...]
+    coulomb: tuple[Fraction, ...]
+    speed: tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
@@ -41,6 +67,7 @@ class Print:
         solutions: physical parameter -> (numerator, denominator) as printed.
         example: physical parameters of an example.
         twin: changes to it which, the robot file claims, leave all coefficients as they are.
+        coupling: an example of motors that turn with several joints.
     """
 
     source: str = ""
@@ -54,6 +81,7 @@ class Print:
     solutions: Mapping[str, tuple[Expression, Expression]] = field(default_factory=dict)
     example: Mapping[str, Fraction] = field(default_factory=dict)
     twin: Mapping[str, Fraction] = field(default_factory=dict)
+    coupling: Coupling | None = None
 
 
 def read_print(robot: Robot) -> Print:
@@ -83,7 +111,32 @@ def read_print(robot: Robot) -> Print:
         solutions=_solutions(printed, where),
         example=_numbers(terms.get("example", {}), f"{where}, example"),
         twin=_numbers(terms.get("twin", {}), f"{where}, twin"),
+        coupling=_coupling(printed, f"{where}, printed, coupling"),
     )
+
+
+def _coupling(printed: Mapping[str, Any], where: str) -> Coupling | None:
+    if "coupling" not in printed:
+        return None
+    table = _table(printed["coupling"], where, _COUPLING)
+    for key in _COUPLING:
+        if key not in table:
+            raise RobotError(f"{where}: {key} is missing; expected {', '.join(_COUPLING)}")
+    speed = _row(table["speed"], f"{where}, speed")
+    coulomb = _row(table["coulomb"], f"{where}, coulomb")
+    place = f"{where}, motor_from_joint"
+    rows = tuple(_row(row, place) for row in _list(table["motor_from_joint"], place))
+    if {len(rows), len(coulomb), *(len(row) for row in rows)} != {len(speed)}:
+        raise RobotError(
+            f"{where}: got {len(rows)} rows of {', '.join(str(len(row)) for row in rows)}, "
+            f"{len(coulomb)} coulomb, {len(speed)} speed; expected as many motors as joints"
+        )
+    return Coupling(rows, coulomb, speed)
+
+
+def _row(value: Any, where: str) -> tuple[Fraction, ...]:
+    cells = {f"entry {i}": cell for i, cell in enumerate(_list(value, where), start=1)}
+    return tuple(_numbers(cells, where).values())
 
 
 def _table(value: Any, where: str, keys: tuple[str, ...] = ()) -> Mapping[str, Any]:

@@ -5,7 +5,7 @@ prismatic one), then what the geometry is made of: letters of lengths and of gra
 cosine of every general constant angle, square roots of numbers. Normal form: no square of a sine.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import comb
 from typing import Any, TypeAlias
@@ -49,7 +49,7 @@ class TrigRing:
         names, self.motions = _motion_generators(geometry)
         self.moving = len(names)
         atoms = _atoms(geometry)
-        static = [_generator_name(atom) for atom in atoms]
+        static = [str(atom) for atom in atoms]
         for name in static:
             if name in names:
                 raise DerivationError(
@@ -138,8 +138,9 @@ class TrigRing:
 
     def static_values(self, values: Mapping[str, float]) -> list[float]:
         """Numbers of the static generators."""
-        symbols = {symbol: values[symbol.name] for atom in self._place for symbol in _symbols(atom)}
-        return [float(atom.subs(symbols)) for atom in self._place]
+        used = {symbol for atom in self._place for symbol in atom.free_symbols} - {_PI}
+        numbers = {symbol: values[symbol.name] for symbol in used} | {_PI: sympy.pi}
+        return [float(atom.subs(numbers)) for atom in self._place]
 
     @property
     def static_atoms(self) -> tuple[sympy.Expr, ...]:
@@ -253,11 +254,3 @@ def _polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.Expr, in
         f"got {value} in the table; closed forms need lengths and angles whose sines are "
         "polynomials of the symbols: declare a symbol for it"
     )
-
-
-def _generator_name(atom: sympy.Expr) -> str:
-    return str(atom)
-
-
-def _symbols(atom: sympy.Expr) -> Iterable[sympy.Symbol]:
-    return (symbol for symbol in atom.free_symbols if symbol is not _PI)

@@ -36,7 +36,12 @@ def test_sines_and_cosines_come_before_arithmetic_and_follow_the_joint():
     q0, q1 = graph.symbol("q0"), graph.symbol("q1")
     value = q0 * q1 + graph.call("cos", q1) * graph.call("sin", q0)
     block = make_block([("tau[0]", value)], PLACES)
-    assert set(block.calls) == {"const double c1 = cos(q[1]);", "const double s0 = sin(q[0]);"}
+    assert block.calls == (
+        "double s1, c1;",
+        "modeler_sincos(q[1], &s1, &c1);",
+        "double s0, c0;",
+        "modeler_sincos(q[0], &s0, &c0);",
+    )
     assert block.body == ("tau[0] = q[0]*q[1] + c1*s0;",)
 
 
@@ -47,8 +52,8 @@ def test_two_angles_of_one_joint_get_two_names():
         [("tau[0]", graph.call("cos", q0) + graph.call("cos", q0 + g) + graph.call("sin", q0))],
         PLACES,
     )
-    names = re.findall(r"const double (\w+) =", " ".join(block.calls))
-    assert len(set(names)) == 3
+    names = re.findall(r"double (\w+), (\w+);", " ".join(block.calls))
+    assert len({name for pair in names for name in pair}) == 4
 
 
 def test_a_very_long_sum_is_cut_into_readable_lines():
@@ -67,9 +72,10 @@ def test_each_temporary_is_defined_once_and_before_its_use():
     for body in re.findall(r"^\{\n(.*?)^\}", block, re.M | re.S):
         seen: set[str] = set()
         for line in body.splitlines():
-            name = re.search(r"const double (\w+) =", line)
+            names = re.findall(r"double (\w+)(?:, (\w+);| =)", line)
+            new = {name for pair in names for name in pair if name}
+            assert not new & seen, line
             used = set(re.findall(r"\b[tksc]\d+\b", line.split("=", 1)[-1]))
-            assert used <= seen, line
-            if name:
-                assert name[1] not in seen, line
-                seen.add(name[1])
+            assert used - new <= seen, line
+            seen |= new
+        assert seen

@@ -164,7 +164,7 @@ def test_emitted_c_compiles_without_a_warning(cc, name, tmp_path):
 def test_the_header_stands_alone_also_in_cpp(language, cc, tmp_path):
     write_emitted(module("wrist").emitted, tmp_path)
     standard = "-std=c99" if language == "c" else "-std=c++11"
-    for header in ("wrist.h", "modeler_runtime.h"):
+    for header in ("wrist.h", "modeler_runtime.h", "modeler_sincos.h"):
         unit = tmp_path / f"only.{'c' if language == 'c' else 'cc'}"
         unit.write_text(f'#include "{header}"\n#include "{header}"\nint only = 1;\n')
         flags = [standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only"]

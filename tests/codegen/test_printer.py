@@ -10,6 +10,7 @@ import pytest
 from modeler.codegen.block import make_block
 from modeler.codegen.printer import number_text
 from modeler.core.errors import EmitError
+from modeler.core.resources import resource_dir
 from modeler.symbolic import Expr, Graph
 from tests.modules import compiler
 
@@ -44,12 +45,23 @@ def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path) -> np.ndar
     lines = "\n".join((*block.constants, *block.calls, *block.body))
     source, library = tmp_path / "f.c", tmp_path / "f.so"
     source.write_text(
-        f"#include <math.h>\nvoid f(const double *in, double *out);\n"
+        f'#include "modeler_sincos.h"\nvoid f(const double *in, double *out);\n'
         f"void f(const double *in, double *out)\n{{\n(void)in;\n{lines}\n}}\n"
     )
     # No contraction: what is printed must be what Python computes.
     command = [compiler("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable"]
-    command += ["-O1", "-ffp-contract=off", "-shared", "-fPIC", "-o", library, source, "-lm"]
+    command += [
+        "-I",
+        resource_dir("csrc") / "include",
+        "-O1",
+        "-ffp-contract=off",
+        "-shared",
+        "-fPIC",
+        "-o",
+        library,
+        source,
+        "-lm",
+    ]
     subprocess.run(command, check=True)
     given = np.array(list(values.values()))
     out = np.empty(len(outputs))

@@ -30,25 +30,31 @@ def general(joints: int) -> str:
 TEXTS = {
     "general3": general(3),
     # a tree with a fixed frame, a prismatic joint, negative rates, offsets, roots of numbers,
-    # gravity askew, rotor inertias, a motor shared by two joints, names of several characters
+    # gravity askew, rotor inertias
     "odd": robot_text(
         "odd",
         [
             '"1", "0", 0, 0, 0, "pi/4", 0, "-q1 + th", 0',
             '"2", "1", 1, 0, 0, "pi/3", "D2", "pi/6", "0.3 - q2"',
-            '"9", "1", 2, "be", "B9", "-pi/2", 0.25, 0, 0',
+            '"9", "1", 2, "be", "B9", "-pi/2", "pi/8", 0, 0',
             '"3", "9", 0, 0, 0, "al", "D3", "pi - q3", "R3"',
         ],
         "th = 0.4\nD2 = 0.3\nbe = -0.7\nB9 = 0.15\nal = 1.1\nD3 = 0.2\nR3 = -0.4\nk = 0.6\n",
         gravity='["g*k", "-2", "-g"]',
-        rest='[coupling]\n3 = "q3 - 2*q1"\n[effects]\nrotor_inertia = "all"\nviscous = "all"\n'
-        'coupled_inertia = ["3"]\n',
+        rest='[effects]\nrotor_inertia = "all"\nviscous = "all"\n',
     ),
     "weightless": robot_text(
-        "weightless", ['"11", "0", 0, 0, 0, 0, 0, "q11", 0', '"12", "11", 0, 0, 0, 0, "L", "q12", 0'],
-        "L = 0.5\n", gravity="[0, 0, 0]",
+        "weightless",
+        ['"11", "0", 0, 0, 0, 0, 0, "q11", 0', '"12", "11", 0, 0, 0, 0, "L", "q12", 0'],
+        "L = 0.5\n",
+        gravity="[0, 0, 0]",
     ),
-}  # fmt: skip
+    "shared": robot_text(
+        "shared",
+        ['"1", "0", 0, 0, 0, 0, 0, "q1", 0', '"2", "1", 0, 0, 0, "pi/2", 0, "q2", 0'],
+        rest='[coupling]\n2 = "q2 - 2*q1"\n[effects]\ncoupled_inertia = ["2"]\n',
+    ),
+}
 
 SMALL = (*TEXTS, "two-link", "scara", "wrist", "emps", "demo-arm", "orthoglide-leg-tree")
 

@@ -168,6 +168,13 @@ def test_gravity_letter_is_taken_out_only_where_it_divides_everything():
     assert closed_form(model_of("weightless")).gravity_factor == ""
 
 
+def test_rotor_that_two_joints_turn_enters_all_their_entries():
+    """v = q2 - 2 q1: Iam2 v**2 / 2 gives 4, -2, 1 times Iam2."""
+    model = model_of("shared")
+    found = evaluate(closed_form(model), [0.2, 0.9], {"Iam2": 1.5}).inertia
+    assert found[0, 0] == 6.0 and found[0, 1] == found[1, 0] == -3.0 and found[1, 1] == 1.5
+
+
 def test_long_joint_names_are_kept_apart():
     names = [f.name for f in closed_form(model_of("weightless")).functions]
     assert names == [

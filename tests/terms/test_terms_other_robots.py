@@ -67,7 +67,7 @@ def test_an_axis_needs_only_its_mass():
 
 def test_rotor_inertias_are_physical_parameters():
     appearing = table_of("odd").identifiability.appearing
-    assert {"Ia1", "Ia2", "Iam3"} & set(appearing) == {"Ia1", "Ia2", "Iam3"}
+    assert {"Ia1", "Ia2", "Ia3"} <= set(appearing)
 
 
 def test_angles_count_once():

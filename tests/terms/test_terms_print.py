@@ -1,5 +1,8 @@
 """What is wrong in the paper's print, and that a right print is not called wrong."""
 
+import dataclasses
+from fractions import Fraction
+
 import pytest
 
 from modeler.base import base_parameters
@@ -13,7 +16,9 @@ from modeler.terms.checks import (
     wrong_definitions,
     wrong_functions,
 )
+from modeler.terms.friction import check_friction
 from modeler.terms.power import exact_state, power_balance
+from modeler.terms.printed import Coupling
 from tests.terms.cases import edited_wrist, model_of, table_of
 
 CORRECTED = [
@@ -28,10 +33,8 @@ CORRECTED = [
     ),
     ('PJ5 = "2*(cJ13 - cm*ct2*', 'PJ5 = "2*(cJ13 - cm*ct3*'),
     ('cm = ["-PG2**2 + PG3**2", "PJ3 - PS3/2 + PJ1"]', 'cm = ["PG2**2 + PG3**2", "PJ16 - cJ11"]'),
-    ('aJ11 = "-PJ7 + bJ11 + cJ11 + am', 'aJ11 = "PJ7 - bJ11 - cJ11 - am'),
-    ("+ bm*(bt2**2 + bt3**2) + cm*(ct2**2 + ct3**2)\"\n\n[terms.example]",
-     "- bm*(bt2**2 + bt3**2) - cm*(ct2**2 + ct3**2)\"\n\n[terms.example]"),
-    ("(at2**2 + at3**2) + bm*(bt2**2 + bt3**2) - cm", "(at2**2 + at3**2) - bm*(bt2**2 + bt3**2) - cm"),
+    ('aJ11 = "-PJ7 +', 'aJ11 = ["-PJ7 +'),
+    ('+ ct3**2)"\n\n[terms.printed.c', '+ ct3**2)", -1]\n\n[terms.printed.c'),
     ('"PJ10", "PJ13", "PJ16", "PJ19", "PS3",', '"PJ10", "PJ13", "PJ16", "PJ19",'),
 ]  # fmt: skip
 
@@ -125,9 +128,33 @@ def test_report_without_a_print_has_no_section_on_it():
     assert "## All coefficients" in page
 
 
+def test_printed_friction_of_coupled_motors_does_not_take_its_power():
+    coupling = Coupling(
+        ((Fraction(1), Fraction(0)), (Fraction(-1), Fraction(2))),
+        (Fraction(3), Fraction(5)),
+        (Fraction(1), Fraction(1)),
+    )
+    check = check_friction(coupling)
+    # motor speeds 1 and 1: torques 3 and 5 on the motor side, by hand
+    assert check.derived == (3 - 5, 10)
+    assert check.derived_power == check.dissipated == 8
+    assert check.printed == (3, 10) and check.printed_power == 13
+    uncoupled = dataclasses.replace(coupling, motor_from_joint=((1, 0), (0, 2)))
+    assert check_friction(uncoupled).printed == check_friction(uncoupled).derived
+
+
+def test_wrist_friction_as_printed_takes_the_wrong_power(table):
+    check = check_friction(table.printed.coupling)
+    assert check.derived_power == check.dissipated != check.printed_power
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
+        ("coulomb = [3, 2, 1.2]", "", r"printed, coupling: coulomb is missing; expected motor_fr"),
+        ("coulomb = [3, 2, 1.2]", "coulomb = [3, 2]", r"coupling: got 3 rows of 3, 3, 3, 2 coul"),
+        ("coulomb = [3, 2, 1.2]", 'coulomb = [3, 2, "x"]', r"coulomb, entry 3: got 'x'; expected"),
+        ("coulomb = [3, 2, 1.2]", "coulomb = 3", r"coupling, coulomb: got 3; expected a list"),
         ('missing = "PX" ', 'mising = "PX" ', r"\[terms\]: unknown key mising; expected source"),
         ("count = 96", "count = 96.5", r"printed, count: got 96.5; expected a number"),
         ("count = 96", "conut = 96", r"printed: unknown key conut; expected count"),

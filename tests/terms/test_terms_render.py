@@ -65,7 +65,7 @@ def expected(name: str, function: str, q: list[float], chi: dict[str, float]) ->
 def test_text_can_be_read_back(name):
     names, q, chi = numbers_of(name)
     printed = printed_functions(closed_form_text(closed_form(model_of(name))))
-    for function, text in list(printed.items())[::3]:
+    for function, text in list(printed.items())[::6]:
         assert value(text, names) == pytest.approx(expected(name, function, q, chi), rel=1e-9)
 
 
@@ -73,7 +73,7 @@ def test_text_can_be_read_back(name):
 def test_json_can_be_read_back(name):
     names, q, chi = numbers_of(name)
     content = json.loads(closed_form_json(closed_form(model_of(name))))
-    for function in content["functions"][::4]:
+    for function in content["functions"][::7]:
         text = " + ".join(f"({t['coefficient']})*{t['monomial']}" for t in function["terms"])
         assert value(text, names) == pytest.approx(
             expected(name, function["name"], q, chi), rel=1e-9
