@@ -10,7 +10,7 @@ from modeler.base.field import Element, ExactField
 from modeler.base.priority import priority_order
 from modeler.base.result import BaseParameter, Term
 from modeler.base.shafts import friction_relations
-from modeler.base.transfer import apply, inertial_transfer, joint_constant, placement
+from modeler.base.transfer import joint_constant, placement, transferred
 from modeler.base.tree import INERTIA, OFFSET, group_tree
 from modeler.effects import EnergyBlock
 from modeler.robot import INERTIAL
@@ -70,7 +70,7 @@ def _carrying(
     parent = rows[k].parent
     while parent is not None and rows[parent].index is None:
         for step in (joint_constant(rows[parent], K), placement(rows[parent], K)):
-            moved = apply(inertial_transfer(step.R, step.p, K.zero, K.one), moved, K.zero)
+            moved = transferred(step, moved, K)
         parent = rows[parent].parent
     return parent, moved
 

@@ -44,7 +44,7 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
     q, qd, qdd = states
     values = dict(model.geometry.values)
     inputs = {
-        f"{kind}{i}": array[:, i]
+        f"{kind}[{i}]": array[:, i]
         for kind, array in (("q", q), ("qd", qd), ("qdd", qdd))
         for i in range(q.shape[1])
     }

@@ -19,7 +19,6 @@ Matrix = list[list[Element]]
 """Rows of equal length."""
 
 _J = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-_PLACE = {(0, 0): 0, (0, 1): 1, (0, 2): 2, (1, 1): 3, (1, 2): 4, (2, 2): 5}
 
 
 def product(a: Matrix, b: Matrix, zero: Element) -> Matrix:
@@ -42,34 +41,25 @@ def apply(a: Matrix, v: Sequence[Element], zero: Element) -> list[Element]:
 
 
 def inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Element) -> Matrix:
-    """10 x 10: parameters at a frame posed at (R, p) -> the same body's parameters at the origin.
-
-    With S = R MS: J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), MS' = S + M p.
-    """
-    columns = []
-    for unit in range(10):
-        J = [[zero] * 3 for _ in range(3)]
-        MS, M = [zero] * 3, zero
-        if unit < 6:
-            i, j = _J[unit]
-            J[i][j] = J[j][i] = one
-        elif unit < 9:
-            MS[unit - 6] = one
-        else:
-            M = one
-        columns.append(_moved(R, p, J, MS, M, zero))
+    """10 x 10: parameters at a frame posed at (R, p) -> the same body's parameters at the origin."""
+    units = [[one if i == j else zero for j in range(10)] for i in range(10)]
+    columns = [_moved(R, p, unit, zero) for unit in units]
     return [list(line) for line in zip(*columns, strict=True)]
 
 
-def _moved(
-    R: Matrix, p: Sequence[Element], J: Matrix, MS: list[Element], M: Element, zero: Element
-) -> list[Element]:
-    S = apply(R, MS, zero)
-    turned = product(product(R, J, zero), [list(c) for c in zip(*R, strict=True)], zero)
-    pS, pp = _dot(p, S, zero), _dot(p, p, zero)
+def _moved(R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element) -> list[Element]:
+    """With S = R MS: J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), MS' = S + M p."""
+    J = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]]
+    M = c[9]
+    S = apply(R, c[6:9], zero)
+    turned = product(product(R, J, zero), [list(column) for column in zip(*R, strict=True)], zero)
+    pS = _dot(p, S, zero)
+    pp = _dot(p, p, zero) if M else zero
     out = []
     for i, j in _J:
-        value = turned[i][j] - p[i] * S[j] - S[i] * p[j] - M * p[i] * p[j]
+        value = turned[i][j] - p[i] * S[j] - S[i] * p[j]
+        if M:
+            value = value - M * p[i] * p[j]
         out.append(value + 2 * pS + M * pp if i == j else value)
     return out + [S[i] + M * p[i] for i in range(3)] + [M]
 
@@ -90,6 +80,16 @@ class Constant:
 
     R: Matrix
     p: list[Element]
+
+    def inverse(self, K: ExactField) -> "Constant":
+        """R^T and -R^T p."""
+        back = [list(column) for column in zip(*self.R, strict=True)]
+        return Constant(back, [-x for x in apply(back, self.p, K.zero)])
+
+
+def transferred(step: Constant, parameters: Sequence[Element], K: ExactField) -> list[Element]:
+    """Ten parameters at a frame posed at `step`, as the same body's parameters at the origin."""
+    return _moved(step.R, step.p, parameters, K.zero)
 
 
 def placement(row: Row, K: ExactField) -> Constant:

@@ -14,7 +14,7 @@ and of its gravity vector vanish identically. These three spaces follow by recur
 where twist and energy are zero and gravity is constant.
 """
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from modeler.base.elimination import null_space, row_reduce
@@ -28,6 +28,7 @@ from modeler.base.transfer import (
     joint_motion,
     placement,
     product,
+    transferred,
 )
 from modeler.symbolic.geometry import Geometry, Row
 
@@ -90,33 +91,36 @@ def _base_reach(geometry: Geometry, K: ExactField) -> Reach:
 
 
 class _Step:
-    """One joint: from the reach of the antecedent to the grouping and the reach of the link."""
+    """One joint: from the reach of the antecedent to the grouping and the reach of the link.
+
+    The conditions are written for the parameters at the frame that moves with the joint, before the
+    constant part of its placement. Once the antecedent moves in every way, which is so from the
+    third or fourth joint on, they hold rational numbers only.
+    """
 
     def __init__(self, row: Row, K: ExactField, antecedent: Reach) -> None:
         self.K, self.row = K, row
         self.fixed_part = placement(row, K)
-        before = _through(antecedent, self.fixed_part, K)
-        self.before = before
+        self.before = _through(antecedent, self.fixed_part, K)
         self.constant = joint_constant(row, K)
-        self.to_joint = inertial_transfer(self.constant.R, self.constant.p, K.zero, K.one)
         self.motion = joint_motion(row.joint.angular) if row.index is not None else ()
 
     def grouping(self, absent: list[int]) -> LinkGrouping:
         """What the antecedent hides; `absent` are the joint columns that the robot has not."""
         K = self.K
-        to_antecedent = inertial_transfer(self.fixed_part.R, self.fixed_part.p, K.zero, K.one)
         if not self.motion:
-            hidden = [[K.one if i == j else K.zero for j in range(12)] for i in range(10)]
-            steady = self.to_joint
-        else:
-            rows = self._motion_rows(with_joint_columns=True)
-            for L, _ in self.motion[1:]:
-                rows += self._pad(product(self.before.energy, self._carried(L), K.zero))
-            rows += [[K.one if i == j else K.zero for i in range(12)] for j in absent]
-            hidden = null_space(rows, 12, K.zero, K.one)
-            steady = self._carried(self.motion[0][0])
-        moved = [apply(to_antecedent, apply(steady, line[:10], K.zero), K.zero) for line in hidden]
-        return LinkGrouping(hidden, moved)
+            return LinkGrouping([], [])
+        rows = self._motion_rows(with_joint_columns=True)
+        for L, _ in self.motion[1:]:
+            rows += self._pad(product(self.before.energy, L, K.zero))
+        rows += [[K.one if i == j else K.zero for i in range(12)] for j in absent]
+        found = null_space(rows, 12, K.zero, K.one)
+        steady = [apply(self.motion[0][0], line[:10], K.zero) for line in found]
+        back = self.constant.inverse(K)
+        return LinkGrouping(
+            [[*transferred(back, line[:10], K), *line[10:]] for line in found],
+            [transferred(self.fixed_part, line, K) for line in steady],
+        )
 
     def reach(self) -> Reach:
         """What vanishes identically of the link's own motion."""
@@ -127,23 +131,17 @@ class _Step:
         twist: Matrix = [[K.one if i == self._own_speed else K.zero for i in range(6)]]
         gravity: Matrix = []
         for m, (L, X) in enumerate(self.motion):
-            energy += product(self.before.energy, self._carried(L), K.zero)
+            energy += product(self.before.energy, L, K.zero)
             twist += product(self.before.twist, X, K.zero)
             R = [[*line[:3], K.zero] for line in X[:3]]
             R.append([K.zero, K.zero, K.zero, K.one if m == 0 else K.zero])
             gravity += product(self.before.gravity, R, K.zero)
-        constant = Constant(self.constant.R, self.constant.p)
-        after = _through(Reach([], twist, gravity), constant, K)
-        return Reach(
-            row_reduce(energy)[0], row_reduce(after.twist)[0], row_reduce(after.gravity)[0]
-        )
+        own = Reach(row_reduce(energy)[0], row_reduce(twist)[0], row_reduce(gravity)[0])
+        return _through(own, self.constant, K)
 
     @property
     def _own_speed(self) -> int:
         return 5 if self.row.joint.angular else 2
-
-    def _carried(self, L: Matrix) -> Matrix:
-        return product(L, self.to_joint, self.K.zero)
 
     def _pad(self, rows: Matrix) -> Matrix:
         return [[*line, self.K.zero, self.K.zero] for line in rows]
@@ -152,8 +150,7 @@ class _Step:
         """Conditions that nothing depends on the joint speed: terms in qd**2 and qd."""
         K, rows = self.K, []
         for m, (L, _) in enumerate(self.motion):
-            carried = self._carried(L)
-            own, momentum, pull = _speed_terms(carried, self.row.joint.angular, K.zero)
+            own, momentum, pull = _speed_terms(L, self.row.joint.angular, K.zero)
             here = K.one if m == 0 and with_joint_columns else K.zero
             rows.append([*own, here, K.zero])
             rows += self._pad(product(self.before.twist, momentum, K.zero))
@@ -187,16 +184,29 @@ def _minus(line: list[Element]) -> list[Element]:
 
 def _through(reach: Reach, step: Constant, K: ExactField) -> Reach:
     """The reach of a frame posed at (R, p) on a frame: what vanishes, told in its coordinates."""
-    zero, R, p = K.zero, step.R, step.p
-    L = inertial_transfer(R, p, zero, K.one)
+    return Reach(
+        _told(reach.energy, 10, lambda: inertial_transfer(step.R, step.p, K.zero, K.one), K),
+        _told(reach.twist, 6, lambda: _twist_transfer(step, K), K),
+        _told(reach.gravity, 4, lambda: _gravity_transfer(step, K), K),
+    )
+
+
+def _told(rows: Matrix, width: int, transfer: Callable[[], Matrix], K: ExactField) -> Matrix:
+    """Rows in the coordinates of the next frame; where all vanish there is nothing to compute."""
+    if len(rows) == width:
+        return rows
+    return product(rows, transfer(), K.zero) if rows else []
+
+
+def _twist_transfer(step: Constant, K: ExactField) -> Matrix:
     # a.v' + b.w' with v' = R^T (v + w x p), w' = R^T w is (R a).v + (R b + p x R a).w.
+    R, p = step.R, step.p
     lower = [
         [p[(i + 1) % 3] * R[(i + 2) % 3][j] - p[(i + 2) % 3] * R[(i + 1) % 3][j] for j in range(3)]
         for i in range(3)
     ]
-    X = [[*line, zero, zero, zero] for line in R] + [[*lower[i], *R[i]] for i in range(3)]
-    G = [[*line, zero] for line in R] + [[zero, zero, zero, K.one]]
-    return Reach(
-        product(reach.energy, L, zero), product(reach.twist, X, zero),
-        product(reach.gravity, G, zero),
-    )  # fmt: skip
+    return [[*line, K.zero, K.zero, K.zero] for line in R] + [[*lower[i], *R[i]] for i in range(3)]
+
+
+def _gravity_transfer(step: Constant, K: ExactField) -> Matrix:
+    return [[*line, K.zero] for line in step.R] + [[K.zero, K.zero, K.zero, K.one]]

@@ -56,7 +56,7 @@ def make_block(outputs: Sequence[tuple[str, Expr]], places: Mapping[str, str]) -
 
     Args:
         outputs: (C place, value), e.g. ("phi[3]", ...); at least one, all of one graph.
-        places: C text of every symbol of the graph, e.g. {"q0": "q[0]", "D4": "PUMA560_D4"}.
+        places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_D4"}.
 
     Raises:
         EmitError: a function or a symbol has no C form.

@@ -42,15 +42,6 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
 
 
 def graph_places(joints: int, macros: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
-    """C text of every graph symbol: inputs q, qd, qdd; geometric symbols; parameters as named.
-
-    Raises:
-        EmitError: a geometric symbol is spelled like an input.
-    """
-    inputs = {f"{kind}{i}": f"{kind}[{i}]" for kind in ("q", "qd", "qdd") for i in range(joints)}
-    for symbol in macros:
-        if symbol in inputs:
-            raise EmitError(
-                f"symbol {symbol} is the name of a joint variable; rename it in [symbols]"
-            )
-    return {**inputs, **macros, **{name: name for name in arrays}}
+    """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
+    inputs = [f"{kind}[{i}]" for kind in ("q", "qd", "qdd") for i in range(joints)]
+    return {**macros, **{name: name for name in (*inputs, *arrays)}}

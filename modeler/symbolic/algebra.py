@@ -34,7 +34,7 @@ class Algebra(Protocol):
 
 
 class GraphAlgebra:
-    """Expressions of a graph; q, qd, qdd are its symbols `q0`, `qd0`, `qdd0`, ..."""
+    """Expressions of a graph; q, qd, qdd are its symbols `q[0]`, `qd[0]`, ..."""
 
     def __init__(self, graph: Graph, geometry: Geometry) -> None:
         self.graph = graph
@@ -71,7 +71,7 @@ class GraphAlgebra:
 
     def variable(self, row: Row) -> Expr:
         """rate * q + offset of a prismatic joint."""
-        q = self.graph.symbol(f"q{row.index}")
+        q = self.graph.symbol(f"q[{row.index}]")
         return (q if row.rate > 0 else -q) + self.static(row.r)
 
     def cos_sin(self, row: Row) -> tuple[Expr, Expr]:
@@ -79,7 +79,7 @@ class GraphAlgebra:
         if row.index is None or not row.joint.angular:
             c, s = cos_sin(row.theta)
             return self.static(c), self.static(s)
-        q = self.graph.symbol(f"q{row.index}")
+        q = self.graph.symbol(f"q[{row.index}]")
         angle = q if row.rate > 0 else -q
         quarters = row.theta / (sympy.pi / 2)
         if not quarters.is_Integer:

@@ -29,8 +29,8 @@ Entries = Mapping[tuple[int, int], Expr]
 class SymbolicModel:
     """The dynamics of a robot as expressions of one graph.
 
-    Inputs of the graph: `q0..`, `qd0..`, `qdd0..` in the order of `robot.moving`, the geometric
-    symbols by name, and `chi0..` for parameters.
+    Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.moving`, which no
+    geometric symbol can be named like, and the geometric symbols by name.
     """
 
     robot: Robot
@@ -55,7 +55,7 @@ class SymbolicModel:
 
     def inputs(self, kind: str) -> list[Expr]:
         """The symbols of `kind` "q", "qd" or "qdd"."""
-        return [self.graph.symbol(f"{kind}{i}") for i in range(self.geometry.joints)]
+        return [self.graph.symbol(f"{kind}[{i}]") for i in range(self.geometry.joints)]
 
     def _gravity(self) -> list[Expr]:
         return [self.algebra.static(entry) for entry in self.geometry.gravity]

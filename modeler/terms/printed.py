@@ -9,7 +9,7 @@ Keys, all optional:
 * `[terms.printed]`: the print letter by letter, to be checked: `count` of coefficients,
   `independent` coefficients, `vanishing` parameters, and the tables `functions`, `definitions`,
   `solutions` (a fraction as [numerator, denominator]).
-* `[terms.printed.coupling]`: an example at which the print G_ii C_i sgn(qd_i) of Coulomb friction is
+* `[terms.printed.coupling]`: an example at which a printed Coulomb friction G_ii C_i sgn(qd_i) is
   tried: `motor_from_joint` (rows of G, from joint to motor speeds), `coulomb` (C), `speed` (qd).
 * `[terms.example]` and `[terms.twin]`: two sets of physical parameters, as exact fractions.
 """

@@ -1,6 +1,7 @@
 """The commands as a user types them: exit status, stdout, stderr, JSON, files."""
 
 import json
+import shlex
 import subprocess
 import sys
 
@@ -174,7 +175,7 @@ def test_wrong_logs_are_told(capsys, arm, tmp_path):
 
 
 def test_a_reader_that_stops_is_no_error():
-    command = f"{sys.executable} -m modeler.cli derive wrist | head -1"
+    command = f"{shlex.quote(sys.executable)} -m modeler.cli derive wrist | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert done.stdout.startswith("wrist: ") and done.stderr == ""
 

@@ -75,7 +75,7 @@ def control_step() -> tuple[str, np.ndarray]:
     v = qdd_d + 40 * (qd_d - qd) + 400 * (q_d - q)
     values = dict(model.geometry.values)
     for kind, vector in (("q", q), ("qd", qd), ("qdd", v)):
-        values |= {f"{kind}{i}": x for i, x in enumerate(vector)}
+        values |= {f"{kind}[{i}]": x for i, x in enumerate(vector)}
     phi = np.zeros((3, len(chi)))
     entries = model.graph.evaluate(list(model.regressor.values()), values)
     for place, value in zip(model.regressor, entries, strict=True):

@@ -66,10 +66,10 @@ def test_recursion_agrees_with_the_regressor(name):
     model = derive_model(read_robot(name))
     q, qd, qdd = random_states(model, 12, np.random.default_rng(5))
     chi = np.random.default_rng(6).normal(size=len(model.columns))
-    symbols = {i: model.graph.symbol(f"chi{i}") for i in range(len(chi))}
-    values = dict(model.geometry.values) | {f"chi{i}": x for i, x in enumerate(chi)}
+    symbols = {i: model.graph.symbol(f"chi[{i}]") for i in range(len(chi))}
+    values = dict(model.geometry.values) | {f"chi[{i}]": x for i, x in enumerate(chi)}
     for kind, array in (("q", q), ("qd", qd), ("qdd", qdd)):
-        values |= {f"{kind}{i}": array[:, i] for i in range(array.shape[1])}
+        values |= {f"{kind}[{i}]": array[:, i] for i in range(array.shape[1])}
 
     def evaluated(expressions) -> np.ndarray:
         found = model.graph.evaluate(expressions, values)

@@ -21,14 +21,14 @@ def graph_torque(model: SymbolicModel, q, qd, qdd, chi) -> np.ndarray:
     """Torque of links and rotors by the Newton-Euler graph: another formula, another algebra."""
     graph = model.graph
     kept = {
-        i: graph.symbol(f"chi{i}")
+        i: graph.symbol(f"chi[{i}]")
         for i, column in enumerate(model.columns)
         if column.column is None or column.column.block is EnergyBlock.KINETIC
     }
     values = dict(model.geometry.values)
     for i in range(len(q)):
-        values |= {f"q{i}": q[i], f"qd{i}": qd[i], f"qdd{i}": qdd[i]}
-    values |= {f"chi{i}": chi[name] for i, name in enumerate(model.names)}
+        values |= {f"q[{i}]": q[i], f"qd[{i}]": qd[i], f"qdd[{i}]": qdd[i]}
+    values |= {f"chi[{i}]": chi[name] for i, name in enumerate(model.names)}
     return np.array(graph.evaluate(model.torque(kept), values), dtype=float)
 
 
