@@ -25,12 +25,13 @@ from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.contract import Emitted
+from modeler.core.errors import ManifestError
 from modeler.fit import IdentifiedModel, identify, provenance
 from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.window import window
-from modeler.robot import Robot, read_robot
+from modeler.robot import Robot, read_robot, robot_from_text
 from modeler.symbolic import SymbolicModel, derive_model
 
 
@@ -109,8 +110,26 @@ def fit(
     )
 
 
+def recompile(model: IdentifiedModel) -> CompiledModel:
+    """The compiled robot of a model, its C emitted anew from the robot text in the model.
+
+    A model file may come from anybody; `model.compile()` would run the C that stands in it.
+
+    Raises:
+        ManifestError: this version derives another manifest than the one that the values belong to.
+    """
+    robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
+    emitted = generate(derive(robot))
+    if emitted.spec.signature() != model.spec.signature():
+        raise ManifestError(
+            f"model of {model.spec.robot}: made by another version of modeler, or changed since; "
+            "fit it again, or use --run-embedded-c to run the C in the file if you trust its source"
+        )
+    return compile_model(emitted)
+
+
 def compare(model: IdentifiedModel, logs: Sequence[str | Path | Log]) -> Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
-    compiled = model.compile()
+    compiled = recompile(model)
     prediction, _ = predict(model, read_logs(compiled, logs), compiled)
     return compare_prediction(prediction)

@@ -41,14 +41,14 @@ def apply(a: Matrix, v: Sequence[Element], zero: Element) -> list[Element]:
 
 
 def inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Element) -> Matrix:
-    """10 x 10: parameters at a frame posed at (R, p) -> the same body's parameters at the origin."""
+    """10 x 10: a body's parameters at a frame posed at (R, p) -> those at the origin."""
     units = [[one if i == j else zero for j in range(10)] for i in range(10)]
     columns = [_moved(R, p, unit, zero) for unit in units]
     return [list(line) for line in zip(*columns, strict=True)]
 
 
 def _moved(R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element) -> list[Element]:
-    """With S = R MS: J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), MS' = S + M p."""
+    """MS' = S + M p and J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), S = R MS."""
     J = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]]
     M = c[9]
     S = apply(R, c[6:9], zero)

@@ -13,6 +13,8 @@ from modeler.cli.robots import add_robot, robot_of
 from modeler.core.files import write_atomically
 from modeler.symbolic.lagrange import lagrange_model
 from modeler.terms import (
+    CoefficientTable,
+    backward_lines,
     closed_form,
     closed_form_latex,
     closed_form_markdown,
@@ -21,6 +23,7 @@ from modeler.terms import (
     coefficients_latex,
     coefficients_markdown,
     coefficients_text,
+    determinant_text,
     terms_report,
 )
 
@@ -105,11 +108,36 @@ def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
         say()
         say(_CLOSED_FORMS[args.format](closed_form(model, base)))
     if args.terms or (args.terms is None and small and args.format == "text"):
+        table = coefficient_table(model, base)
         say()
-        say(_TABLES[args.format](coefficient_table(model, base)))
+        say(_TABLES[args.format](table))
+        say()
+        for line in _facts(table):
+            say(line)
     if args.report is not None:
         write_atomically(Path(args.report), terms_report(model, base))
         say(f"written: {args.report}")
+
+
+def _facts(table: CoefficientTable) -> list[str]:
+    """How many coefficients, what they tell, and what follows from what."""
+    first = [coefficient.function[0] for coefficient in table.coefficients]
+    counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
+    found = table.identifiability
+    lines = [
+        f"{len(first)} coefficients ("
+        + ", ".join(f"{n} {letter}" for letter, n in counts.items())
+        + f"), rank {table.relations.rank}: {' '.join(table.relations.independent)}",
+        f"{len(found.appearing)} of {len(found.letters)} physical parameters appear; without "
+        f"effect: {' '.join(found.vanishing) or 'none'}",
+    ]
+    for group in found.sums:
+        lines.append(f"only together: {' '.join(group)}")
+    size, determinant = len(table.map.rows), determinant_text(table)
+    if determinant is not None:
+        lines += [f"map to the base parameters, {size} x {size}, determinant {determinant}:"]
+        lines += [f"  {line}" for line in backward_lines(table)]
+    return lines
 
 
 def add_generate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:

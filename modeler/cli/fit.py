@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from modeler.api import Derivation, compile_model, derive, generate, read_logs
+from modeler.api import Derivation, compile_model, derive, generate, read_logs, recompile
 from modeler.cli.console import say, working, write_json
 from modeler.cli.robots import add_robot, robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
@@ -158,6 +158,11 @@ def add_compare(commands: "argparse._SubParsersAction[argparse.ArgumentParser]")
     parser.add_argument("logs", metavar="LOG", nargs="+", help=_LOGS)
     parser.add_argument("--report", metavar="PAGE.html", help="write one self-contained page")
     parser.add_argument("--pictures", metavar="DIR", help="write every picture as PNG, SVG and CSV")
+    parser.add_argument(
+        "--run-embedded-c",
+        action="store_true",
+        help="compile the C in MODEL instead of emitting it anew: only for files that you trust",
+    )
     parser.add_argument("--json", metavar="FILE", help="write the result for machines")
     parser.set_defaults(run=run_compare)
 
@@ -166,7 +171,7 @@ def run_compare(args: argparse.Namespace) -> None:
     """Prints the table and the verdict; writes page and pictures."""
     model = load_model(args.model)
     with working("predicting"):
-        compiled = model.compile()
+        compiled = model.compile() if args.run_embedded_c else recompile(model)
         comparison, lines = judged(model, args.logs, compiled)
     write_json(args.json, comparison.as_dict())
     if args.json != "-":

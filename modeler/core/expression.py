@@ -40,7 +40,7 @@ class Expression:
 
     def number(self, values: Mapping[str, float] | None = None) -> float:
         """Its value in floating point, with `values` for the names."""
-        functions = {
+        functions: dict[str, Callable[[Any], Any]] = {
             "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt,
             "exp": math.exp, "abs": abs, "tanh": math.tanh,
             "sign": lambda x: float((x > 0) - (x < 0)),

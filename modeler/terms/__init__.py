@@ -9,6 +9,9 @@ from modeler.terms.coefficients import coefficient_table as coefficient_table
 from modeler.terms.evaluation import Evaluation as Evaluation
 from modeler.terms.evaluation import evaluate as evaluate
 from modeler.terms.identifiability import Identifiability as Identifiability
+from modeler.terms.map_render import backward_lines as backward_lines
+from modeler.terms.map_render import determinant_text as determinant_text
+from modeler.terms.map_render import forward_lines as forward_lines
 from modeler.terms.relations import BaseMap as BaseMap
 from modeler.terms.relations import Relations as Relations
 from modeler.terms.render import closed_form_json as closed_form_json

@@ -1,19 +1,19 @@
 """The page about a robot's coefficients, computed while it is written."""
 
 import dataclasses
-from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
 
-from modeler.base import BaseParameter, BaseParameters
+from modeler.base import BaseParameters
+from modeler.base.render import relation_text
 from modeler.symbolic import SymbolicModel
 from modeler.terms.closed_form import closed_form
 from modeler.terms.coefficients import CoefficientTable, by_function, coefficient_table
+from modeler.terms.map_render import backward_lines, determinant_text, forward_lines
 from modeler.terms.print_report import print_sections
-from modeler.terms.relations import classes, inverse_map
+from modeler.terms.relations import classes
 from modeler.terms.render import equation
 from modeler.terms.table_render import coefficients_markdown
-from modeler.terms.text import form_text, polynomial_text, signed_sum
+from modeler.terms.text import signed_sum
 
 _WIDTH = 96
 
@@ -120,52 +120,15 @@ def _relations(model: SymbolicModel, table: CoefficientTable) -> str:
 
 
 def _map(table: CoefficientTable) -> str:
-    static = table.closed.algebra.names[table.closed.algebra.moving :]
     lines = ["## Map to the base parameters", ""]
-    grouped = [_grouping(parameter) for parameter in table.base.parameters if parameter.terms[1:]]
+    grouped = [relation_text(p) for p in table.base.parameters if p.terms[1:]]
     if grouped:
         lines += ["Grouped parameters:", "", "```text", *grouped, "```", ""]
-    lines.append("```text")
-    for name in table.map.rows:
-        lines.append(f"{name} = {form_text(table.by_name[name].base, table.base_names, static)}")
-    lines += ["```", ""]
-    determinant, size = table.map.determinant, len(table.map.rows)
+    lines += ["```text", *forward_lines(table), "```", ""]
+    determinant, size = determinant_text(table), len(table.map.rows)
     if determinant is None:
         lines.append(f"This map is {size} x {len(table.map.columns)}, not square.")
     else:
-        lines.append(
-            f"Determinant of this {size} x {size} map: **{polynomial_text(determinant, static)}**."
-        )
-        inverse = inverse_map(table.map, table.closed.algebra.static_ring) or {}
-        if inverse:
-            lines += ["", "Backwards:", "", "```text"]
-            lines += [f"{name} = {_row_text(row, static)}" for name, row in inverse.items()]
-            lines.append("```")
+        lines.append(f"Determinant of this {size} x {size} map: **{determinant}**.")
+        lines += ["", "Backwards:", "", "```text", *backward_lines(table), "```"]
     return "\n".join([*lines, ""])
-
-
-def _grouping(parameter: BaseParameter) -> str:
-    terms: list[tuple[Fraction, str]] = []
-    for term in parameter.terms:
-        number, rest = term.coefficient.as_coeff_Mul()
-        factor = "" if rest == 1 else f"({rest})*" if rest.is_Add else f"{rest}*"
-        terms.append((Fraction(int(number.p), int(number.q)), f"{factor}{term.parameter}"))
-    return f"{parameter.name} = {signed_sum(terms)}"
-
-
-def _row_text(row: Mapping[str, Any], static: tuple[str, ...]) -> str:
-    """A row of the inverse: each factor is a quotient of polynomials of the geometry."""
-    terms: list[tuple[Fraction, str]] = []
-    for name, factor in row.items():
-        above, below = factor.numer, factor.denom
-        if len(above) == 1 and below.is_ground:
-            number = Fraction(int(above.LC.numerator), int(above.LC.denominator))
-            number /= Fraction(int(below.LC.numerator), int(below.LC.denominator))
-            letters = polynomial_text(above.monic(), static)
-            terms.append((number, name if letters == "1" else f"{letters}*{name}"))
-        else:
-            quotient = f"({polynomial_text(above, static)})"
-            if below != 1:
-                quotient += f"/({polynomial_text(below, static)})"
-            terms.append((Fraction(1), f"{quotient}*{name}"))
-    return signed_sum(terms)

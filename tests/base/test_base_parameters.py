@@ -185,13 +185,14 @@ def random_table(rng: np.random.Generator):
         )
         symbols += [
             f"{s}{j} = {v:.3f}"
-            for s, v in zip(("al", "ga", "d", "b", "r"), rng.uniform(0.2, 0.7, 5))
+            for s, v in zip(("al", "ga", "d", "b", "r"), rng.uniform(0.2, 0.7, 5), strict=True)
         ]
     gravity = rng.choice(['[0, 0, "-g"]', '["g", 0, 0]', '["g", "0.5*g", "-g"]', "[0, 0, 0]"])
     effects = [e for e in ("rotor_inertia", "viscous", "coulomb", "offset") if rng.random() < 0.4]
     return (
         f'name = "random"\ngravity = {gravity}\n[symbols]\ng = 9.81\n' + "\n".join(symbols)
-        + '\n[mdh]\ncolumns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]\nrows = ['
+        + '\n[mdh]\ncolumns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]'
+        + "\nrows = ["
         + ",\n".join(rows) + "]\n[effects]\n" + "\n".join(f'{e} = "all"' for e in effects)
     )  # fmt: skip
 

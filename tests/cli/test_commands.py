@@ -38,7 +38,9 @@ def test_help_has_an_example(capsys, command):
     assert f"example: modeler {command}" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("argv", [[], ["dance"], ["derive"], ["generate", "wrist"], ["fit", "emps"]])
+@pytest.mark.parametrize(
+    "argv", [[], ["dance"], ["derive"], ["generate", "wrist"], ["fit", "emps"]]
+)
 def test_wrong_usage_is_status_2(capsys, argv):
     with pytest.raises(SystemExit) as stop:
         main(argv)
@@ -172,6 +174,26 @@ def test_wrong_logs_are_told(capsys, arm, tmp_path):
         capsys, "fit", "demo-arm", arm / "a.parquet", "--payload-mass", "2", "--out", tmp_path / "m"
     )
     assert status == 1 and "--payload-mass: no loaded log" in err
+
+
+def test_the_c_in_a_model_file_runs_only_when_asked(capsys, arm, tmp_path):
+    """A model file may be mailed: its robot text is derived anew, its C is not run."""
+    raw = json.loads((arm / "m.json").read_text())
+    raw["sources"] = {
+        name: "#error not to be compiled\n" if name.endswith(".c") else text
+        for name, text in raw["sources"].items()
+    }
+    (tmp_path / "mailed.json").write_text(json.dumps(raw))
+    status, _, err = run(capsys, "compare", tmp_path / "mailed.json", arm / "held.parquet")
+    assert (status, err) == (0, "")
+    status, _, err = run(
+        capsys, "compare", tmp_path / "mailed.json", arm / "held.parquet", "--run-embedded-c"
+    )
+    assert status == 1 and "not to be compiled" in err
+    raw["robot_text"] = raw["robot_text"].replace("D3 = ", "D3 = 1")
+    (tmp_path / "mailed.json").write_text(json.dumps(raw))
+    status, _, err = run(capsys, "compare", tmp_path / "mailed.json", arm / "held.parquet")
+    assert status == 1 and "made by another version of modeler, or changed since" in err
 
 
 def test_a_reader_that_stops_is_no_error():

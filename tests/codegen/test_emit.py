@@ -9,7 +9,7 @@ import pytest
 
 from modeler.base import grouping_matrix
 from modeler.codegen import emit, write_emitted
-from modeler.codegen.names import graph_places, module_prefix, symbol_macros
+from modeler.codegen.names import module_prefix, symbol_macros
 from modeler.core.contract import module_from_json
 from modeler.core.errors import EmitError, ModelerError
 from tests.modules import STRICT, compiled, compiler, module, states
