@@ -22,8 +22,7 @@ demo: .venv/.installed
 	$(BIN)/modeler demo --out demo
 
 test: lint
-	MODELER_CACHE=build/compiled OPENBLAS_NUM_THREADS=1 \
-	  $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 
 lint: .venv/.installed-test
 	$(BIN)/python -m ruff check .

@@ -14,11 +14,8 @@ Each step is a function of the stage of that name; use the stages directly for m
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.base import BaseParameters, base_parameters
-from modeler.codegen import emit, write_emitted
 from modeler.compare import Comparison
 from modeler.compare import compare as compare_prediction
 from modeler.compare.predict import predict
@@ -26,41 +23,16 @@ from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.contract import Emitted
 from modeler.core.errors import ManifestError
+from modeler.derivation import Derivation as Derivation
+from modeler.derivation import derive as derive
+from modeler.derivation import generate as generate
+from modeler.derivation import load as load
 from modeler.fit import IdentifiedModel, identify, provenance
 from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.window import window
-from modeler.robot import Robot, read_robot, robot_from_text
-from modeler.symbolic import SymbolicModel, derive_model
-
-
-@dataclass(frozen=True)
-class Derivation:
-    """A robot, its symbolic model and its base parameters."""
-
-    robot: Robot
-    model: SymbolicModel
-    base: BaseParameters
-
-
-def load(robot: str | Path) -> Robot:
-    """The robot of that file, or the built-in robot of that name."""
-    return read_robot(robot)
-
-
-def derive(robot: Robot) -> Derivation:
-    """The symbolic model and the base parameters with their proof."""
-    model = derive_model(robot)
-    return Derivation(robot, model, base_parameters(model))
-
-
-def generate(derivation: Derivation, folder: str | Path | None = None) -> Emitted:
-    """The C module; written to `folder` if one is given."""
-    emitted = emit(derivation.model, derivation.base)
-    if folder is not None:
-        write_emitted(emitted, Path(folder))
-    return emitted
+from modeler.robot import robot_from_text
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api import Derivation, derive, generate
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
 from modeler.cli.console import say, working, write_json
 from modeler.cli.robots import add_robot, robot_of
 from modeler.core.files import write_atomically
+from modeler.derivation import Derivation, derive, generate
 from modeler.symbolic.lagrange import lagrange_model
 from modeler.terms import (
     CoefficientTable,

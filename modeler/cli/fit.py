@@ -25,6 +25,8 @@ from modeler.observation import Observation, Processing, observe
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
+_TRAINING = "training only: "
+
 
 def add_fit(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """`modeler fit`."""
@@ -179,6 +181,9 @@ def run_compare(args: argparse.Namespace) -> None:
         say()
         for sentence in verdict(comparison):
             say(sentence)
+        for line in lines:
+            if line.startswith(_TRAINING):
+                say(line)
     if args.report is not None:
         place = write_report(Path(args.report), comparison, lines)
         _written(args, str(place))
@@ -199,7 +204,7 @@ def judged(
     ]
     overlap = sorted({log.name for log in model.logs} & set(prediction.logs))
     if overlap:
-        lines.append(f"training only: the model was fitted on {', '.join(overlap)}")
+        lines.append(f"{_TRAINING}the model was fitted on {', '.join(overlap)}")
     return compare(prediction), lines + observation.report.summary()
 
 

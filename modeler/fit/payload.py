@@ -71,12 +71,7 @@ def identify_with_payloads(
             y -= payload.mass * columns[:, labels.index("M")]
             columns, labels, unit = columns[:, 1:], labels[1:], unit[1:]
         kept = _independent(np.column_stack([base, *found]), columns)
-        gone = [f"{label}{link}" for i, label in enumerate(labels) if i not in kept]
-        if gone:
-            said.append(
-                f"{payload.name}: {', '.join(gone)} of the load cannot be told from the others "
-                "and are grouped with them"
-            )
+        said += _remarks(payload, columns, [f"{label}{link}" for label in labels], kept)
         found.append(columns[:, kept])
         names += [f"{labels[i]}{link}_{payload.name}" for i in kept]
         units += [unit[i] for i in kept]
@@ -125,6 +120,23 @@ def _load_columns(
     rows = everywhere[observation.used]
     rows[~np.isin(observation.row_run, runs)] = 0.0
     return rows, labels, [model.spec.standard[i].unit for i in columns]
+
+
+def _remarks(
+    payload: Payload, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
+) -> list[str]:
+    """What became of the load's parameters that are not estimated."""
+    idle = [name for i, name in enumerate(names) if not columns[:, i].any()]
+    gone = [n for i, n in enumerate(names) if i not in kept and n not in idle]
+    said = []
+    if idle:
+        said.append(f"{payload.name}: {', '.join(idle)} of the load have no effect on the torques")
+    if gone:
+        said.append(
+            f"{payload.name}: {', '.join(gone)} of the load cannot be told from the others "
+            "and are grouped with them"
+        )
+    return said
 
 
 def _independent(base: np.ndarray, columns: np.ndarray) -> list[int]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.band import choose_cutoffs
+from modeler.observation.consistency import Consistency, consistency
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.processing import Processing
@@ -25,6 +26,7 @@ class Prepared:
         splits: what splitting did, by log.
         derivatives: where qd and qdd come from, by log.
         dropped: rows in pieces that were all edge, by log.
+        checks: of the logged derivatives, by log; None where positions are differentiated.
     """
 
     processing: Processing
@@ -34,13 +36,15 @@ class Prepared:
     splits: tuple[SplitReport, ...]
     derivatives: tuple[str, ...]
     dropped: tuple[int, ...]
+    checks: tuple[Consistency | None, ...]
 
 
 def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
     """Split, resample, choose the cut-offs, filter and differentiate.
 
     Raises:
-        DataError: no logs, a log of another robot, or nothing long enough to differentiate.
+        DataError: no logs, a log of another robot, nothing long enough to differentiate, or a
+            logged derivative that is none.
     """
     _check(spec, logs, processing)
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
@@ -52,9 +56,16 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
             "than 4 rows; record without interruptions"
         )
     chosen, choices = choose_cutoffs(processing, pieces)
+    found = [own for own, _ in split_logs]
+    checks = [
+        _checked(log, own, chosen) if use else None
+        for log, own, use in zip(logs, found, logged, strict=True)
+    ]
+    if not chosen.keep_contradicted:
+        found = [_believed(own, check) for own, check in zip(found, checks, strict=True)]
     segments: list[Segment] = []
     dropped = [0] * len(logs)
-    for piece in pieces:
+    for piece in (piece for own in found for piece in own):
         segment = segment_of(piece, chosen)
         if segment is None:
             dropped[piece.run] += len(piece.time)
@@ -70,10 +81,30 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         processing=chosen,
         choices=choices,
         segments=tuple(segments),
-        pieces=tuple(found for found, _ in split_logs),
+        pieces=tuple(found),
         splits=tuple(report for _, report in split_logs),
         derivatives=tuple(_source(log, use) for log, use in zip(logs, logged, strict=True)),
         dropped=tuple(dropped),
+        checks=tuple(checks),
+    )
+
+
+def _checked(log: Log, pieces: Sequence[Piece], chosen: Processing) -> Consistency:
+    assert chosen.parallel_cutoff is not None
+    return consistency(log, pieces, chosen.parallel_cutoff, not chosen.keep_contradicted)
+
+
+def _believed(pieces: tuple[Piece, ...], check: Consistency | None) -> tuple[Piece, ...]:
+    """The pieces without their contradicted samples: an acceleration enters every torque.
+
+    Where accelerations come from the logged velocities, the filter carries a wrong velocity as far
+    as its start-up reaches: like a bridge, it takes its surroundings with it.
+    """
+    if check is None:
+        return pieces
+    return tuple(
+        dataclasses.replace(piece, valid=piece.valid & ~bad[:, None], bridged=piece.bridged | bad)
+        for piece, bad in zip(pieces, check.bad, strict=True)
     )
 
 

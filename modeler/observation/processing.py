@@ -28,6 +28,8 @@ class Processing:
         speed_floors: those speeds, rad/s or m/s, by shaft; None: `low_speed` times the top speed
             over the logs.
         keep_saturated: use rows whose torque is stuck at the drive's limit.
+        keep_contradicted: use samples whose logged qd or qdd is not the derivative of q or qd,
+            and do not refuse columns that are wrong throughout.
         edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
             `position_cutoff`, where the filter's start-up has faded below 1 %.
     """
@@ -40,6 +42,7 @@ class Processing:
     speed_floors: Mapping[str, float] | None = None
     keep_saturated: bool = False
     edge: float | None = None
+    keep_contradicted: bool = False
 
     def __post_init__(self) -> None:
         for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.processing import Processing
 
 
@@ -26,6 +27,8 @@ class LogReport:
         decimation: samples per row.
         samples: samples after decimation.
         notes: sentences.
+        contradictions: logged derivatives that cannot be, by column.
+        contradicted: samples that any of them makes unusable.
     """
 
     name: str
@@ -43,6 +46,8 @@ class LogReport:
     decimation: int
     samples: int
     notes: tuple[str, ...]
+    contradictions: tuple[Contradiction, ...] = ()
+    contradicted: int = 0
 
     def lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""
@@ -64,6 +69,9 @@ class LogReport:
             text.append(f"  {column}: {count} rows without a value; bridged, not used for the fit")
         for joint, count in self.saturated.items():
             text.append(f"  joint {joint}: torque stuck at its limit in {count} rows")
+        if self.contradicted:
+            text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
+        text += [f"  {found.line()}" for found in self.contradictions]
         return text + [f"  {note}" for note in self.notes]
 
 
@@ -126,4 +134,13 @@ class DataReport:
         if any(log.saturated for log in self.logs):
             used = "used" if self.processing.keep_saturated else "not used"
             lines.append(f"rows with a torque at its limit are {used}")
+        if any(log.contradicted for log in self.logs):
+            used = "used" if self.processing.keep_contradicted else "not used"
+            lines.append(
+                f"samples with impossible derivatives are {used}: over a window of the parallel "
+                "filter the mean of the logged derivative and the change of the signal below it "
+                f"differ by more than {SCATTERS:g} robust standard deviations, {100 * SHARE:g} % of "
+                f"the derivative's size and {STEPS:g} resolution steps per window; "
+                "--derivatives position differentiates the positions instead"
+            )
         return lines + [joint.line() for joint in self.joints]

@@ -31,7 +31,7 @@ class Piece:
         qd, qdd: (n, joints) as logged, or None.
         extra: further columns, (n,).
         valid: (n, joints) False where torque or motion was missing and is bridged.
-        bridged: (n,) True where the motion was missing.
+        bridged: (n,) True where the motion was missing, or is not to be differentiated.
         clipped: (n, joints) True where the torque was at the drive's limit.
         resampled: True if the rows were moved to the grid.
     """

@@ -106,6 +106,7 @@ def _stack(
 
 def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:
     own = [part for part in stretches if part.segment.run == run]
+    check = prepared.checks[run]
     pieces, split = prepared.pieces[run], prepared.splits[run]
     clipped = (
         np.sum([np.sum(piece.clipped, axis=0) for piece in pieces], axis=0)
@@ -129,7 +130,9 @@ def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stre
         derivatives=prepared.derivatives[run],
         decimation=spacing[0] if spacing else 1,
         samples=sum(len(part.rows.centres) for part in own),
-        notes=log.notes,
+        notes=log.notes + (check.notes if check else ()),
+        contradictions=check.contradictions if check else (),
+        contradicted=sum(int(bad.sum()) for bad in check.bad) if check else 0,
     )
 
 

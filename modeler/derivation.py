@@ -1,0 +1,38 @@
+"""The deriving half of the chain: a robot, its model, its base parameters, its C."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeler.base import BaseParameters, base_parameters
+from modeler.codegen import emit, write_emitted
+from modeler.core.contract import Emitted
+from modeler.robot import Robot, read_robot
+from modeler.symbolic import SymbolicModel, derive_model
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """A robot, its symbolic model and its base parameters."""
+
+    robot: Robot
+    model: SymbolicModel
+    base: BaseParameters
+
+
+def load(robot: str | Path) -> Robot:
+    """The robot of that file, or the built-in robot of that name."""
+    return read_robot(robot)
+
+
+def derive(robot: Robot) -> Derivation:
+    """The symbolic model and the base parameters with their proof."""
+    model = derive_model(robot)
+    return Derivation(robot, model, base_parameters(model))
+
+
+def generate(derivation: Derivation, folder: str | Path | None = None) -> Emitted:
+    """The C module; written to `folder` if one is given."""
+    emitted = emit(derivation.model, derivation.base)
+    if folder is not None:
+        write_emitted(emitted, Path(folder))
+    return emitted

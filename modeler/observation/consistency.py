@@ -1,0 +1,313 @@
+"""Are the logged velocities and accelerations the derivatives of what they claim?"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.observation.log import Log
+from modeler.observation.segments import Piece
+
+SCATTERS = 8.0
+"""A disagreement counts above this many robust standard deviations of all disagreements ..."""
+
+SHARE = 0.25
+"""... above this share of the derivative's own size ..."""
+
+STEPS = 3.0
+"""... and above this many resolution steps of the lower signal over the window."""
+
+WRONG = 0.5
+"""Disagreeing by this share on average while it moves, a column is wrong throughout."""
+
+_LEAST_HALF = 3  # samples: a leap of the acceleration then weighs 1/12 of itself at most
+_CLEAR = 10.0  # times the noise of the lower signal, over a window: a derivative that can be judged at all
+_TOLD = 0.5  # steps: a delay below this is not told
+_DEGREES = 180.0 / np.pi
+
+Column = Literal["qd", "qdd"]
+
+
+@dataclass(frozen=True)
+class Contradiction:
+    """A logged column that disagrees with the signal it is the derivative of, at times.
+
+    Attributes:
+        column: of the log, "qdd4".
+        of: the column it should be the derivative of, "qd4".
+        samples: where it disagrees.
+        limit: disagreement that is tolerated, in the column's unit.
+        largest: disagreement.
+        time: of the largest, s.
+    """
+
+    column: str
+    of: str
+    samples: int
+    limit: float
+    largest: float
+    time: float
+
+    def line(self) -> str:
+        """Text."""
+        return (
+            f"{self.column}: {self.samples} samples disagree with the difference quotient of "
+            f"{self.of} by more than {self.limit:.3g}, at worst {self.largest:.3g} at "
+            f"{self.time:.2f} s"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Consistency:
+    """What the check of one log found.
+
+    Attributes:
+        bad: (n,) True at contradicted samples, for each piece.
+        contradictions: by column.
+        notes: delays, one sentence each.
+    """
+
+    bad: tuple[np.ndarray, ...]
+    contradictions: tuple[Contradiction, ...]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Windows:
+    """Window means of one piece: logged derivative and difference quotient, (n - 2m, joints)."""
+
+    time: np.ndarray
+    step: float
+    half: int
+    logged: np.ndarray
+    quotient: np.ndarray
+    slope: np.ndarray  # of the logged derivative, for its delay
+
+    @property
+    def error(self) -> np.ndarray:
+        return self.logged - self.quotient
+
+
+def consistency(
+    log: Log, pieces: Sequence[Piece], parallel_cutoff: float, refuse: bool = True
+) -> Consistency:
+    """Which samples of a log carry a velocity or acceleration that cannot be.
+
+    Over every window of T = 1 / parallel_cutoff (7 samples at least) the mean of a derivative is,
+    exactly, the change of what it is the derivative of:
+
+        mean(qd) = (q(t + T/2) - q(t - T/2)) / T,  mean(qdd) = (qd(t + T/2) - qd(t - T/2)) / T,
+
+    so both sides are smoothed alike and neither steps of the time nor of the resolution grow in
+    it. A sample is contradicted where the two sides of its window (at the ends of a piece: of the
+    nearest whole window) differ by more than the largest of
+    - 8 robust standard deviations (1.4826 median) of that joint's differences over the log,
+    - a quarter of the joint's derivative, sqrt(sum d^4 / sum d^2): its size while it moves,
+    - 3 resolution steps of the lower signal, divided by T.
+    Noise and rounding stay below the first and the last, discretisation below the second. A delay
+    common to the joints is taken out before and told from half a sample on.
+
+    Args:
+        log: as read: resampling hides the resolution of its columns.
+        pieces: its uniform pieces, with logged qd and perhaps qdd.
+        parallel_cutoff: Hz; 0: windows of 7 samples.
+        refuse: a column that is wrong throughout is an error; otherwise all its samples may pass.
+
+    Raises:
+        DataError: a column that disagrees by half and more wherever its joint moves.
+    """
+    bad = [np.zeros(len(piece.time), dtype=bool) for piece in pieces]
+    found: list[Contradiction] = []
+    notes: list[str] = []
+    levels: tuple[tuple[Column, str], ...] = (("qd", "q"), ("qdd", "qd"))
+    for column, lower in levels:
+        if not pieces or getattr(pieces[0], column) is None:
+            break
+        delay = _delay(pieces, column, lower, parallel_cutoff)
+        if delay:
+            notes.append(_delay_sentence(column, lower, delay, pieces[0].step))
+        windows = [_windows(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
+        for j, joint in enumerate(log.joints):
+            step = _resolution(getattr(log, lower)[:, j])
+            noises = [_noise(getattr(piece, lower)[:, j]) for piece in pieces]
+            noise = max(step, float(np.median(noises)))
+            if refuse:
+                _refuse_wrong(log, (column, lower), j, windows, noise)
+            flags, limit = _contradicted(windows, step, j)
+            if any(flag.any() for flag in flags):
+                names = f"{column}{joint}", f"{lower}{joint}"
+                found.append(_contradiction(names, windows, flags, limit, j))
+            for mask, flag, part in zip(bad, flags, windows, strict=True):
+                mask |= np.pad(flag, part.half, mode="edge")
+    return Consistency(tuple(bad), tuple(found), tuple(notes))
+
+
+def _windows(piece: Piece, column: Column, lower: str, cutoff: float, delay: float) -> _Windows:
+    below, logged = getattr(piece, lower), getattr(piece, column)
+    if delay:
+        later = piece.time + delay
+        logged = np.column_stack([np.interp(later, piece.time, v) for v in logged.T])
+    half = max(_LEAST_HALF, round(0.5 / (cutoff * piece.step)) if cutoff else 0)
+    half = min(half, (len(piece.time) - 1) // 2)
+    length = 2 * half * piece.step
+    trapezoids = 0.5 * piece.step * (logged[1:] + logged[:-1])
+    integral = np.concatenate([np.zeros((1, logged.shape[1])), np.cumsum(trapezoids, axis=0)])
+    mean, quotient, slope = (
+        (v[2 * half :] - v[: -2 * half]) / length for v in (integral, below, logged)
+    )
+    return _Windows(piece.time[half:-half], piece.step, half, mean, quotient, slope)
+
+
+def _delay(pieces: Sequence[Piece], column: Column, lower: str, cutoff: float) -> float:
+    """Seconds by which a logged derivative lags, all joints; 0 if small or not to be told.
+
+    Least absolute values of error + delay slope, every joint in its own size: gross errors of a
+    few samples do not move it. Believed where it halves the sum of the errors.
+    """
+    delay, before = 0.0, 0.0
+    for turn in range(3):  # the equation is linear for small delays only
+        windows = [_windows(piece, column, lower, cutoff, delay) for piece in pieces]
+        error = np.concatenate([part.error for part in windows])
+        slope = np.concatenate([part.slope for part in windows])
+        size = _size(np.concatenate([part.quotient for part in windows]))
+        kept = size > 0.0
+        error, slope = (v[:, kept] / size[kept] for v in (error, slope))
+        before = before if turn else float(np.sum(np.abs(error)))
+        there = slope != 0.0
+        if not there.any():
+            return 0.0
+        delay += _weighted_median(-error[there] / slope[there], np.abs(slope[there]))
+    after = float(np.sum(np.abs(error)))
+    told = abs(delay) >= _TOLD * pieces[0].step and after <= 0.5 * before
+    return delay if told else 0.0
+
+
+def _contradicted(
+    windows: Sequence[_Windows], resolution: float, j: int
+) -> tuple[list[np.ndarray], float]:
+    """Windows of joint j beyond the limit, by piece; and the limit of a window of full length."""
+    full = max(part.half for part in windows)
+    # A piece too short for the full window has the more noise in its quotients.
+    noisier = [full / part.half for part in windows]
+    scaled = [part.error[:, j] / n for part, n in zip(windows, noisier, strict=True)]
+    scatter = 1.4826 * float(np.median(np.abs(np.concatenate(scaled))))
+    size = float(_size(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
+    length = 2 * full * windows[0].step
+    random = max(SCATTERS * scatter, STEPS * resolution / length)
+    flags = [
+        np.abs(part.error[:, j]) > max(SHARE * size, random * n)
+        for part, n in zip(windows, noisier, strict=True)
+    ]
+    return flags, max(SHARE * size, random)
+
+
+def _contradiction(
+    names: tuple[str, str],
+    windows: Sequence[_Windows],
+    flags: Sequence[np.ndarray],
+    limit: float,
+    j: int,
+) -> Contradiction:
+    error = np.concatenate(
+        [np.where(flag, np.abs(part.error[:, j]), 0.0)
+         for part, flag in zip(windows, flags, strict=True)]
+    )  # fmt: skip
+    worst = int(np.argmax(error))
+    return Contradiction(
+        column=names[0],
+        of=names[1],
+        samples=sum(int(np.pad(flag, part.half, mode="edge").sum())
+                    for part, flag in zip(windows, flags, strict=True)),
+        limit=limit,
+        largest=float(error[worst]),
+        time=float(np.concatenate([part.time for part in windows])[worst]),
+    )  # fmt: skip
+
+
+def _refuse_wrong(
+    log: Log, levels: tuple[Column, str], j: int, windows: Sequence[_Windows], noise: float
+) -> None:
+    """Raises DataError if the column of joint j is no derivative of the one below it at all.
+
+    `noise` is that of the lower signal, its resolution included.
+    """
+    column, lower = levels
+    joints = log.joints
+    quotients = np.concatenate([part.quotient for part in windows])
+    logged = np.concatenate([part.logged[:, j] for part in windows])
+    size = _size(quotients)
+    length = 2 * min(part.half for part in windows) * windows[0].step
+    if size[j] * length <= _CLEAR * noise:
+        return  # it hardly moves: nothing to compare with
+    misfits = [_misfit(logged, quotients[:, k], size[k]) for k in range(len(joints))]
+    if misfits[j] <= WRONG:
+        return
+    gain = _gain(logged, quotients[:, j])
+    other = int(np.argmin(misfits))
+    if other != j and misfits[other] < 0.5 * WRONG:
+        guess = f"it is that of {lower}{joints[other]}: are columns exchanged?"
+    elif _misfit(logged / gain if gain else logged, quotients[:, j], size[j]) < WRONG:
+        guess = f"it is {gain:.4g} times that: {_cause(gain)}"
+    else:
+        guess = f"it follows no {lower}"
+    raise DataError(
+        f"{log.name}: {column}{joints[j]} is not the derivative of {lower}{joints[j]}; {guess}; "
+        "correct the column, or differentiate the measured positions with --derivatives position"
+    )
+
+
+def _cause(gain: float) -> str:
+    if abs(gain + 1.0) < 0.1:
+        return "is its sign swapped?"
+    for factor, words in ((_DEGREES, "in degrees"), (1.0 / _DEGREES, "the position in degrees")):
+        if abs(abs(gain) / factor - 1.0) < 0.1:
+            return f"is it {words}?"
+    return "is it in another unit, or on the motor's side of the gear?"
+
+
+def _misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
+    """Mean absolute disagreement as a share of the quotient's, while either moves."""
+    moving = np.maximum(np.abs(logged), np.abs(quotient)) > SHARE * size
+    total = float(np.sum(np.abs(quotient[moving])))
+    return float(np.sum(np.abs(logged - quotient)[moving])) / total if total else float("inf")
+
+
+def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
+    there = quotient != 0.0
+    return _weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
+
+
+def _size(values: np.ndarray) -> np.ndarray:
+    """(joints,) of (n, joints): root mean square weighted by energy, so long rests do not count."""
+    total = np.sum(values**2, axis=0)
+    return np.sqrt(np.sum(values**4, axis=0) / np.where(total > 0.0, total, 1.0))
+
+
+def _noise(values: np.ndarray) -> float:
+    """Standard deviation of white noise on a smooth signal, from its third differences."""
+    return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / np.sqrt(20.0)
+
+
+def _resolution(values: np.ndarray) -> float:
+    """Smallest step between two values; those of the arithmetic do not count."""
+    levels = np.unique(values[np.isfinite(values)])
+    gaps = np.diff(levels)
+    gaps = gaps[gaps > 1e-9 * np.max(np.abs(levels))]
+    return float(gaps.min()) if gaps.size else 0.0
+
+
+def _weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
+    order = np.argsort(values)
+    total = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(total, 0.5 * total[-1])])
+
+
+def _delay_sentence(column: str, lower: str, delay: float, step: float) -> str:
+    way = "lags behind" if delay > 0.0 else "runs ahead of"
+    return (
+        f"{column} {way} the derivative of {lower} by {abs(delay):.3g} s "
+        f"({abs(delay) / step:.2g} samples) in all joints; used as logged; --derivatives position "
+        "avoids it"
+    )

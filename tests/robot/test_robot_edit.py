@@ -1,0 +1,68 @@
+"""Replacing the effects of a robot file."""
+
+import tomllib
+
+import pytest
+
+from modeler.core.errors import RobotError
+from modeler.robot import builtin_names, read_robot, robot_from_text
+from modeler.robot.edit import with_effects
+
+ARM = """
+name = "arm"
+gravity = [0, 0, 0]
+
+[mdh]
+columns = ["j", "theta"]
+rows = [["1", "q1"], ["2", "q2"]]
+
+[effects]                # of both joints
+viscous = "all"
+coulomb = ["1"]
+rotor_inertia = "all"
+
+[parameters]             # nominal values
+ZZ1 = 0.5
+Fv1 = 2.0                # N m s/rad
+"Fs1" = 3.0
+Ia2 = 0.1
+M2 = 1.5
+"""
+
+
+def test_only_effects_and_their_values_change():
+    robot = robot_from_text(with_effects(ARM, {"viscous": ["2"]}), "changed")
+    assert [(use.effect, use.joints) for use in robot.effects] == [("viscous", ("2",))]
+    assert robot.parameters == {"ZZ1": 0.5, "M2": 1.5}
+    before, after = tomllib.loads(ARM), tomllib.loads(robot.text)
+    for key in ("name", "gravity", "mdh"):
+        assert before[key] == after[key]
+
+
+def test_values_of_links_and_of_effects_that_stay_stay():
+    kept = robot_from_text(with_effects(ARM, {"back_emf": "all"}), "changed").parameters
+    assert kept == {"ZZ1": 0.5, "Fv1": 2.0, "M2": 1.5}
+
+
+@pytest.mark.parametrize("name", builtin_names())
+def test_every_built_in_robot_can_lose_all_effects(name):
+    robot = read_robot(name)
+    bare = robot_from_text(with_effects(robot.text, {}), name)
+    assert bare.effects == () and bare.joints == robot.joints
+    assert set(bare.parameters) <= set(robot.parameters)
+
+
+def test_values_of_coupled_motors_are_not_taken_for_those_of_joints():
+    text = ARM.replace('coulomb = ["1"]', 'coupled_friction = "all"')
+    text = text.replace('"Fs1" = 3.0', "Fvm2 = 3.0") + '\n[coupling]\n2 = "q1 + q2"\n'
+    assert "Fvm2" in robot_from_text(text, "arm").parameters
+    bare = robot_from_text(with_effects(text, {"viscous": "all"}), "changed")
+    assert set(bare.parameters) == {"ZZ1", "Fv1", "M2"}
+
+
+@pytest.mark.parametrize("line", ['effects = { viscous = "all" }', 'effects.viscous = "all"'])
+def test_a_table_that_cannot_be_replaced_is_refused(line):
+    start, rest = ARM.split("[mdh]")
+    mdh = rest.split("[effects]")[0]
+    with pytest.raises(RobotError, match="write it as a table of its own"):
+        with_effects(f"{start}{line}\n[mdh]{mdh}", {"coulomb": "all"})
