@@ -2,10 +2,12 @@
 
 Data flows one way::
 
-    robot -> effects -> symbolic -> base -> codegen => C + manifest
-          => compiled -> observation -> fit -> compare
+    effects -> robot -> symbolic -> base -> codegen => C + manifest
+            => compiled -> observation -> fit -> compare
 
 The stages before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
+A robot names effects of the catalogue; `terms` stands beside codegen and writes for people;
+`simulate` has physics of its own. `derivation` and `api` put the steps in a row.
 This module imports nothing, so that the numeric stages never load the symbolic ones.
 """
 

@@ -15,8 +15,9 @@ STAGES: dict[str, set[str]] = {
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
     "simulate": {"core", "robot"},
-    "api": {"core", *NORTH, *SOUTH},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "api"},
+    "derivation": {"core", *NORTH},
+    "api": {"core", *NORTH, *SOUTH, "derivation"},
+    "cli": {"core", *NORTH, *SOUTH, "simulate", "derivation", "api"},
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -33,6 +34,7 @@ PACKAGES: dict[str, set[str]] = {
     "fit": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
+    "derivation": set(),
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }

@@ -4,7 +4,6 @@ Exit status: 0 done, 1 the input is at fault (one line on stderr), 2 wrong usage
 """
 
 import argparse
-import importlib
 import os
 import sys
 from collections.abc import Sequence
@@ -12,21 +11,53 @@ from collections.abc import Sequence
 from modeler import __version__
 from modeler.core.errors import ModelerError
 
-_COMMANDS = {
-    "derive": "derive",
-    "generate": "derive",
-    "fit": "fit",
-    "compare": "fit",
-    "simulate": "simulate",
-    "robots": "robots",
-    "effects": "robots",
-    "demo": "demo",
+_Commands = argparse._SubParsersAction
+
+
+def _deriving(commands: _Commands) -> None:
+    from modeler.cli.derive import add_derive, add_generate
+
+    add_derive(commands)
+    add_generate(commands)
+
+
+def _fitting(commands: _Commands) -> None:
+    from modeler.cli.fit import add_compare, add_fit
+
+    add_fit(commands)
+    add_compare(commands)
+
+
+def _simulating(commands: _Commands) -> None:
+    from modeler.cli.simulate import add_simulate
+
+    add_simulate(commands)
+
+
+def _listing(commands: _Commands) -> None:
+    from modeler.cli.robots import add_effects, add_robots
+
+    add_robots(commands)
+    add_effects(commands)
+
+
+def _showing(commands: _Commands) -> None:
+    from modeler.cli.demo import add_demo
+
+    add_demo(commands)
+
+
+_GROUPS = {
+    ("derive", "generate"): _deriving,
+    ("fit", "compare"): _fitting,
+    ("simulate",): _simulating,
+    ("robots", "effects"): _listing,
+    ("demo",): _showing,
 }
-"""Command -> the module that has its add_<command>."""
 
 
 def parser(only: str | None = None) -> argparse.ArgumentParser:
-    """The parser of all commands, or of one: a command loads only the stages that it uses."""
+    """The parser of all commands, or of those that stand with one: others load more stages."""
     top = argparse.ArgumentParser(
         prog="modeler",
         description="From the MDH table of a robot to exact base parameters, C, a fit and a "
@@ -35,9 +66,9 @@ def parser(only: str | None = None) -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"modeler {__version__}")
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for command in [only] if only in _COMMANDS else _COMMANDS:
-        module = importlib.import_module(f"modeler.cli.{_COMMANDS[command]}")
-        getattr(module, f"add_{command}")(commands)
+    wanted = [add for names, add in _GROUPS.items() if only in names]
+    for add in wanted or _GROUPS.values():
+        add(commands)
     return top
 
 

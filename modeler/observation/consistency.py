@@ -16,15 +16,15 @@ SCATTERS = 8.0
 SHARE = 0.25
 """... above this share of the derivative's own size ..."""
 
-STEPS = 3.0
+STEPS = 5.0
 """... and above this many resolution steps of the lower signal over the window."""
 
 WRONG = 0.5
 """Disagreeing by this share on average while it moves, a column is wrong throughout."""
 
 _LEAST_HALF = 3  # samples: a leap of the acceleration then weighs 1/12 of itself at most
-_CLEAR = 10.0  # times the noise of the lower signal, over a window: a derivative that can be judged at all
-_TOLD = 0.5  # steps: a delay below this is not told
+_CLEAR = 10.0  # times its noise is what the lower signal must change by over a window to judge it
+_TOLD = 0.75  # steps; a leap between two samples already looks half a step early or late
 _DEGREES = 180.0 / np.pi
 
 Column = Literal["qd", "qdd"]
@@ -105,9 +105,9 @@ def consistency(
     nearest whole window) differ by more than the largest of
     - 8 robust standard deviations (1.4826 median) of that joint's differences over the log,
     - a quarter of the joint's derivative, sqrt(sum d^4 / sum d^2): its size while it moves,
-    - 3 resolution steps of the lower signal, divided by T.
+    - 5 resolution steps of the lower signal, divided by T.
     Noise and rounding stay below the first and the last, discretisation below the second. A delay
-    common to the joints is taken out before and told from half a sample on.
+    common to the joints is taken out before and told from 3/4 of a sample on.
 
     Args:
         log: as read: resampling hides the resolution of its columns.
@@ -249,12 +249,12 @@ def _refuse_wrong(
     if other != j and misfits[other] < 0.5 * WRONG:
         guess = f"it is that of {lower}{joints[other]}: are columns exchanged?"
     elif _misfit(logged / gain if gain else logged, quotients[:, j], size[j]) < WRONG:
-        guess = f"it is {gain:.4g} times that: {_cause(gain)}"
+        guess = f"it is {gain:.3g} times that: {_cause(gain)}"
     else:
         guess = f"it follows no {lower}"
     raise DataError(
         f"{log.name}: {column}{joints[j]} is not the derivative of {lower}{joints[j]}; {guess}; "
-        "correct the column, or differentiate the measured positions with --derivatives position"
+        "correct the column, or fit with --derivatives position, which differentiates q"
     )
 
 
@@ -308,6 +308,6 @@ def _delay_sentence(column: str, lower: str, delay: float, step: float) -> str:
     way = "lags behind" if delay > 0.0 else "runs ahead of"
     return (
         f"{column} {way} the derivative of {lower} by {abs(delay):.3g} s "
-        f"({abs(delay) / step:.2g} samples) in all joints; used as logged; --derivatives position "
-        "avoids it"
+        f"({abs(delay) / step:.2g} samples) in all joints; used as logged; fit with "
+        "--derivatives position to avoid it"
     )

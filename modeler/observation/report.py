@@ -139,8 +139,8 @@ class DataReport:
             lines.append(
                 f"samples with impossible derivatives are {used}: over a window of the parallel "
                 "filter the mean of the logged derivative and the change of the signal below it "
-                f"differ by more than {SCATTERS:g} robust standard deviations, {100 * SHARE:g} % of "
-                f"the derivative's size and {STEPS:g} resolution steps per window; "
-                "--derivatives position differentiates the positions instead"
+                f"differ by more than {SCATTERS:g} robust standard deviations, "
+                f"{100 * SHARE:g} % of the derivative's size and {STEPS:g} resolution steps per "
+                "window; --derivatives position differentiates the positions instead"
             )
         return lines + [joint.line() for joint in self.joints]

@@ -172,7 +172,7 @@ def test_held_out_logs_are_treated_like_the_fitted_ones():
     beta = some_beta(model)
     seen = observe(model, [exact_log(model, beta)])
     held = exact_log(model, beta, seed=4)
-    slower = dataclasses.replace(held, qd=0.1 * held.qd)
+    slower = dataclasses.replace(held, time=10.0 * held.time, qd=0.1 * held.qd, qdd=0.01 * held.qdd)
     again = observe(model, [slower], seen.report.processing)
     assert again.report.processing == seen.report.processing
     fresh = observe(model, [slower])
