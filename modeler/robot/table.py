@@ -189,13 +189,19 @@ def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
     return cell == 1
 
 
+_HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
+"""Column of the joint variable."""
+
+
 def _joint(
     row: Row, place: Place, kinds: Mapping[str, JointKind], symbols: Mapping[str, float]
 ) -> Joint:
     kind = kinds[row["j"]]
+    # The place of the variable last: a variable in the wrong column is told there, not as missing.
+    order = sorted(_GEOMETRY, key=lambda column: column == _HOME.get(kind))
     cells = {
         column: _cell(row, column, place.at(f"column {column}"), kinds, symbols)
-        for column in _GEOMETRY
+        for column in order
     }
     return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
 
@@ -209,7 +215,7 @@ def _cell(
 ) -> Expression:
     expression = expression_at(row.get(column, 0), place)
     kind, own = kinds[row["j"]], f"q{row['j']}"
-    home = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}.get(kind)
+    home = _HOME.get(kind)
     _check_variables(expression, own, home, column, kinds, place)
     check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:

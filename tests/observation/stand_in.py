@@ -42,6 +42,7 @@ class StandIn:
     rows: list
     gravity: tuple = (0.0, 0.0, -9.81)
     friction: bool = True
+    offsets: tuple | None = None  # rows with one; None: all that have friction
     rotor: bool = True
     coupling: dict = field(default_factory=dict)  # row -> coefficients of qd
     gains: tuple | None = None
@@ -58,9 +59,11 @@ class StandIn:
                 names.append(f"Ia{j + 1}")
                 kinds.append(("rotor_inertia", "rotor_inertia", j))
             if self.friction:
-                names += [f"Fv{j + 1}", f"Fs{j + 1}", f"Off{j + 1}"]
-                kinds += [("friction", "viscous", j), ("friction", "coulomb", j),
-                          ("offset", "offset", j)]  # fmt: skip
+                names += [f"Fv{j + 1}", f"Fs{j + 1}"]
+                kinds += [("friction", "viscous", j), ("friction", "coulomb", j)]
+            if self.friction and (self.offsets is None or j in self.offsets):
+                names.append(f"Off{j + 1}")
+                kinds.append(("offset", "offset", j))
         for j in self.coupling:
             names += [f"Iam{j + 1}", f"Fvm{j + 1}", f"Fsm{j + 1}"]
             kinds += [("rotor_inertia", "coupled_inertia", j)]

@@ -97,7 +97,9 @@ def test_measured_robots_carry_friction():
         robot = read_robot(name)
         every = tuple(joint.name for joint in robot.moving)
         uses = {use.effect: use.joints for use in robot.effects}
-        assert all(uses[effect] == every for effect in ("viscous", "coulomb", "offset"))
+        assert all(uses[effect] == every for effect in ("viscous", "coulomb"))
+        # The offset of joint 1 does not carry over between the Kinova's runs, that of 7 does.
+        assert uses["offset"] == (("7",) if name == "kinova_gen3" else every)
         assert ("rotor_inertia" in uses) == (name not in ("emps", "odrive"))
     tx40 = read_robot("tx40")
     assert tx40.coupling == {"6": {"5": 1.0, "6": 1.0}}
