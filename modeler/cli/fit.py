@@ -1,6 +1,7 @@
 """`modeler fit ROBOT LOG... --out MODEL` and `modeler compare MODEL LOG...`."""
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import Derivation, compile_model, derive, generate, read_logs, recompile
@@ -116,6 +117,7 @@ def run_fit(args: argparse.Namespace) -> None:
         emitted = generate(derivation)
         compiled = compile_model(emitted)
     with working("building the observation matrix"):
+        _check_once(args.logs, args.payload_log)
         logs = read_logs(compiled, args.logs)
         loaded = read_logs(compiled, args.payload_log)
         observation = observe(compiled, [*logs, *loaded], _processing(args))
@@ -133,6 +135,24 @@ def run_fit(args: argparse.Namespace) -> None:
     for line in (*observation.report.summary(), "", *result.summary()):
         say(line)
     say(f"written: {args.out}")
+
+
+def _check_once(logs: Sequence[str], loaded: Sequence[str]) -> None:
+    """Refuse a log given twice, and a loaded log with the file name of a bare one."""
+    given = [*logs, *loaded]
+    for place in given:
+        if given.count(place) > 1:
+            raise DataError(
+                f"{place}: got {given.count(place)} times; rows that repeat make every sigma too "
+                "small; give each log once"
+            )
+    bare = {Path(place).name: place for place in logs}
+    for place in loaded:
+        if Path(place).name in bare:
+            raise DataError(
+                f"{place}: carries the load, and {bare[Path(place).name]} has the same file name; "
+                "rename one, loads are assigned by name"
+            )
 
 
 def _model(

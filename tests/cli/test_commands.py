@@ -129,7 +129,9 @@ def test_fit_json_and_windows(capsys, arm):
 
 
 def test_comparing_with_the_training_log_is_told(capsys, arm, tmp_path):
-    run(capsys, "compare", arm / "m.json", arm / "a.parquet", "--report", tmp_path / "p.html")
+    argv = ("compare", arm / "m.json", arm / "a.parquet", "--report", tmp_path / "p.html")
+    _, out, _ = run(capsys, *argv)
+    assert "training only: the model was fitted on a.parquet\n" in out
     assert "training only: the model was fitted on a.parquet" in (tmp_path / "p.html").read_text()
 
 
@@ -174,6 +176,21 @@ def test_wrong_logs_are_told(capsys, arm, tmp_path):
         capsys, "fit", "demo-arm", arm / "a.parquet", "--payload-mass", "2", "--out", tmp_path / "m"
     )
     assert status == 1 and "--payload-mass: no loaded log" in err
+
+
+def test_a_log_counts_once(capsys, arm, tmp_path):
+    bare, again = arm / "a.parquet", tmp_path / "a.parquet"
+    status, _, err = run(capsys, "fit", "demo-arm", bare, bare, "--out", tmp_path / "m")
+    assert status == 1 and "a.parquet: got 2 times; rows that repeat" in err
+    argv = ("fit", "demo-arm", bare, arm / "b.parquet", "--payload-log", again)
+    status, _, err = run(capsys, *argv, "--out", tmp_path / "m")
+    assert status == 1 and "has the same file name; rename one" in err
+
+
+def test_effects_can_be_left_out_of_a_robot_with_values_for_them(capsys):
+    status, out, err = run(capsys, "derive", "demo-arm", "--effects", "viscous", "--no-terms")
+    assert (status, err) == (0, "")
+    assert "Fv3" in out and "Fs3" not in out and "Off3" not in out and "Ia3" not in out
 
 
 def test_the_c_in_a_model_file_runs_only_when_asked(capsys, arm, tmp_path):

@@ -1,0 +1,243 @@
+"""The documentation is run: all commands and programs shown work and print what is shown."""
+
+import contextlib
+import dataclasses
+import io
+import json
+import os
+import re
+import shlex
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main, parser
+from modeler.effects import CATALOGUE
+from modeler.observation import Processing
+from modeler.robot.read import _KEYS
+from modeler.robot.table import COLUMNS
+
+ROOT = Path(__file__).resolve().parents[1]
+RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/processing.md",
+       "docs/emitted-c.md")  # fmt: skip
+PAGES = sorted(
+    p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
+)
+
+TOLERANCE = 0.05  # of a shown number: other processors round simulated motions differently
+_FLOAT = re.compile(r"(?<![\w.*])-?\d+\.\d+(?:e[-+]?\d+)?(?![\w.]*\w)")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: its language, its lines, where it stands, and the text that follows."""
+
+    kind: str
+    lines: tuple[str, ...]
+    line: int
+    after: str
+
+
+def blocks(text: str) -> Iterator[Block]:
+    """The fenced blocks of a page."""
+    lines = text.splitlines()
+    fences = [i for i, line in enumerate(lines) if line.startswith("```")]
+    assert len(fences) % 2 == 0, "a fence is not closed"
+    for start, end in zip(fences[::2], fences[1::2], strict=True):
+        kind = lines[start].removeprefix("```").strip()
+        yield Block(kind, tuple(lines[start + 1 : end]), start + 1, "\n".join(lines[end + 1 :][:3]))
+
+
+def same(shown: str, printed: str) -> bool:
+    """True if two lines agree: texts and whole numbers exactly, decimal numbers nearly."""
+    if _words(shown) != _words(printed):
+        return False
+    pairs = zip(_FLOAT.findall(shown), _FLOAT.findall(printed), strict=True)
+    return all(_near(a, b) for a, b in pairs)
+
+
+def _words(line: str) -> list[str]:
+    return _FLOAT.sub(" # ", line).split()
+
+
+def _near(shown: str, printed: str) -> bool:
+    a, b = float(shown), float(printed)
+    mantissa, _, exponent = shown.partition("e")
+    digit = 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+    rounding = abs(a) < 1e-9 and abs(b) < 1e-9  # rounding errors differ from machine to machine
+    return rounding or abs(a - b) <= digit + TOLERANCE * abs(a)
+
+
+def missing(shown: list[str], printed: list[str]) -> str | None:
+    """The first shown line that was not printed where it stands; "..." is any number of lines."""
+    at, anywhere = 0, False
+    for line in shown:
+        if line == "...":
+            anywhere = True
+            continue
+        while anywhere and at < len(printed) and not same(line, printed[at]):
+            at += 1
+        if at == len(printed) or not same(line, printed[at]):
+            return line
+        at, anywhere = at + 1, False
+    if not anywhere and at < len(printed):
+        return f'nothing, but "{printed[at]}" was printed'
+    return None
+
+
+class Reader:
+    """Does what a reader of a page would do, block after block, in the current folder."""
+
+    def __init__(self, page: str) -> None:
+        self.page = page
+        self.printed: list[str] = []
+        self.names: dict[str, object] = {"__name__": "__main__"}
+
+    def do(self, block: Block) -> None:
+        """One block."""
+        where = f"{self.page}, line {block.line}"
+        if block.kind in ("toml", "c"):
+            self._save(block, where)
+        elif block.kind == "console":
+            self._commands(block, where)
+        elif block.kind == "python":
+            out = io.StringIO()
+            with contextlib.redirect_stdout(out):
+                exec(compile("\n".join(block.lines), where, "exec"), self.names)
+            self.printed = out.getvalue().splitlines()
+        elif block.kind == "text":
+            self._check(list(block.lines), where)
+        else:
+            pytest.fail(f"{where}: blocks of kind {block.kind!r} are not run; use another")
+
+    def _save(self, block: Block, where: str) -> None:
+        suffix = f".{block.kind}"
+        named = re.match(r"(?:#|/\*) ([\w-]+\.\w+)", block.lines[0])
+        saved = re.search(r"Save it as `([\w.-]+)`", block.after)
+        found = named or saved
+        name = found[1] if found else "snippet.c"
+        assert name.endswith(suffix) and (found or suffix == ".c"), f"{where}: how is it called?"
+        Path(name).write_text("\n".join(block.lines) + "\n", encoding="utf-8")
+        if suffix == ".c" and not any("main(" in line for line in block.lines):
+            folders = sorted({f"-I{path.parent}" for path in Path().glob("*/*.h")})
+            strict = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-c", name, *folders]
+            subprocess.run(strict, check=True)
+
+    def _commands(self, block: Block, where: str) -> None:
+        starts = [i for i, line in enumerate(block.lines) if line.startswith("$ ")]
+        assert starts and starts[0] == 0, f"{where}: a console block starts with a command"
+        for start, end in zip(starts, [*starts[1:], len(block.lines)], strict=True):
+            command, shown = block.lines[start][2:], list(block.lines[start + 1 : end])
+            if command.startswith("make ") and not command.startswith("make -C "):
+                continue  # of the checkout: sets everything up
+            status, printed = run(command)
+            refused = bool(shown) and shown[0].startswith("modeler: ")
+            assert status == int(refused), f"{where}: {command}\n{printed}"
+            self.printed = printed.splitlines()
+            if shown:
+                self._check(shown, f"{where}: {command}")
+
+    def _check(self, shown: list[str], where: str) -> None:
+        line = missing(shown, self.printed)
+        printed = "\n".join(self.printed)
+        assert line is None, f"{where}\nshown:   {line}\nprinted:\n{printed}"
+
+
+def run(command: str) -> tuple[int, str]:
+    """Exit status and output; `modeler` in this process, which saves the start of many others."""
+    words = shlex.split(command)
+    if words[0] != "modeler":
+        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, env=os.environ)
+        return done.returncode, done.stdout + done.stderr
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+        status = main(words[1:])
+    return status, out.getvalue()
+
+
+@pytest.mark.parametrize("page", RUN)
+def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    reader = Reader(page)
+    for block in blocks((ROOT / page).read_text(encoding="utf-8")):
+        reader.do(block)
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "missed"),
+    [
+        (["a 1.50", "b"], ["a 1.51", "b"], None),
+        (["a 1.50"], ["a 1.70"], "a 1.50"),
+        (["3 rows"], ["4 rows"], "3 rows"),
+        (["run1.csv"], ["run2.csv"], "run1.csv"),
+        (["at 1.20-1.65 s"], ["at 1.20-2.65 s"], "at 1.20-1.65 s"),
+        (["4.7e-16 left"], ["1.2e-15 left"], None),
+        (["4.7e-16 left"], ["1.2e-5 left"], "4.7e-16 left"),
+        (["a", "...", "c"], ["a", "b", "c"], None),
+        (["...", "c"], ["a", "c", "d"], 'nothing, but "d" was printed'),
+        (["a", "c"], ["a", "b", "c"], "c"),
+        (["b", "..."], ["a", "b", "c"], "b"),
+    ],
+)
+def test_what_counts_as_shown(shown, printed, missed):
+    assert missing(shown, printed) == missed
+
+
+def anchors(page: Path) -> set[str]:
+    """The headings of a page, as links spell them."""
+    heads = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_somewhere(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if re.match(r"https?://", target):
+            continue
+        file, _, anchor = target.partition("#")
+        place = (ROOT / page).parent / file if file else ROOT / page
+        assert place.is_file(), f"{page}: {target}"
+        assert not anchor or anchor in anchors(place), f"{page}: {target}"
+    for path in re.findall(r"`((?:modeler|docs|tests|csrc)/[\w/.-]+\.\w+)`", text):
+        assert (ROOT / path).is_file(), f"{page}: {path}"
+
+
+def text_of(page: str) -> str:
+    return (ROOT / page).read_text(encoding="utf-8")
+
+
+def test_every_key_of_a_robot_file_is_described():
+    text = text_of("docs/robot-file.md")
+    for key in _KEYS:
+        assert f"`{key}`" in text or f"`[{key}]`" in text, key
+    for word in (*COLUMNS, "physical.<joint>"):
+        assert re.search(rf"`\[?{re.escape(word)}\]?`", text), word
+    for effect in CATALOGUE:
+        assert effect.id in text, effect.id
+
+
+def test_every_choice_of_the_processing_is_described():
+    for field in dataclasses.fields(Processing):
+        assert f"`{field.name}`" in text_of("docs/processing.md"), field.name
+
+
+def test_every_command_stands_in_the_readme():
+    usage = parser().format_help()
+    commands = re.findall(r"^    (\w+) ", usage, re.MULTILINE)
+    assert {"derive", "fit", "demo"} <= set(commands)
+    for command in commands:
+        assert f"`modeler {command}" in text_of("README.md"), command
+
+
+def test_every_file_and_function_of_the_c_is_described():
+    text = text_of("docs/emitted-c.md")
+    manifest = json.loads((ROOT / "generated/wrist/manifest.json").read_text(encoding="utf-8"))
+    roles = [f["name"].removeprefix("wrist_") for f in manifest["functions"]]
+    for role in (*roles, "observation", "signature"):
+        assert f"`two_link_{role}`" in text, role
+    for path in (ROOT / "generated/wrist").iterdir():
+        assert f"`{path.name.replace('wrist', 'two_link')}`" in text, path.name
