@@ -27,7 +27,7 @@ from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate
 from modeler.derivation import load as load
-from modeler.fit import IdentifiedModel, identify, provenance
+from modeler.fit import FitResult, IdentifiedModel, identify, provenance
 from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
@@ -73,11 +73,18 @@ def fit(
     method: Method = "weighted",
 ) -> IdentifiedModel:
     """The base parameters from an observation, with all that a model file holds."""
+    return identified(derivation, emitted, observation, identify(observation, method))
+
+
+def identified(
+    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
+) -> IdentifiedModel:
+    """A fit with all that a model file holds."""
     return IdentifiedModel(
         robot_text=derivation.robot.text,
         spec=emitted.spec,
         sources=emitted.files,
-        fit=identify(observation, method),
+        fit=result,
         logs=provenance(observation.report),
     )
 

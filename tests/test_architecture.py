@@ -83,7 +83,11 @@ PLANTED = {
     "unknown stage": ("magic/a.py", "import sympy", "magic is no stage we know"),
     "eager package": ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
     "long module": ("fit/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 400"),
-    "long function": ("fit/a.py", "def f():\n" + "    x = 1\n" * FUNCTION_LINES, "f has 61 lines"),
+    "long function": (
+        "fit/a.py",
+        "def f():\n" + "    x = 1\n" * FUNCTION_LINES,
+        f"f has {FUNCTION_LINES + 1} lines",
+    ),
 }
 
 

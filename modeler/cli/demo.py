@@ -10,6 +10,7 @@ from modeler.base import grouping_matrix
 from modeler.base.render import as_text
 from modeler.cli.console import progress, say, working, write_json
 from modeler.cli.fit import judged
+from modeler.cli.options import add_number
 from modeler.compare import verdict, write_pictures, write_report
 from modeler.fit import IdentifiedModel, save_model
 from modeler.robot import Robot
@@ -30,8 +31,7 @@ def add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") ->
         epilog="example: modeler demo --out demo",
     )
     parser.add_argument("--out", metavar="DIR", default="demo", help="folder (default %(default)s)")
-    parser.add_argument("--duration", metavar="S", type=float, default=20.0,
-                        help="seconds of each simulated run (default %(default)s)")  # fmt: skip
+    add_number(parser, "--duration", "S", float, "seconds of each simulated run", default=20.0)
     parser.add_argument("--json", metavar="FILE", help="write the comparison for machines")
     parser.set_defaults(run=run_demo)
 

@@ -4,25 +4,23 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import Derivation, compile_model, derive, generate, read_logs, recompile
+from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
 from modeler.cli.console import say, working, write_json
+from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
-from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
 from modeler.fit import (
-    FitResult,
     IdentifiedModel,
     Payload,
     identify,
     identify_with_payloads,
     load_model,
-    provenance,
     save_model,
 )
-from modeler.observation import Observation, Processing, observe
+from modeler.observation import Processing, observe
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -35,7 +33,7 @@ def add_fit(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "fit",
         help="estimate the base parameters from logs",
         description="Filters the logs, builds the observation matrix and estimates the base "
-        "parameters of ROBOT: value, sigma, %%sigma, errors per joint; saves a model file.",
+        "parameters of ROBOT: value, sigma, %sigma, errors per joint; saves a model file.",
         epilog="example: modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json",
     )
     add_robot(parser)
@@ -48,53 +46,48 @@ def add_fit(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         help="least squares with one weight per joint, iterated, or without weights",
     )
     _add_processing(parser)
-    loads = parser.add_argument_group("load", "some of the logs carry a load on a link")
-    loads.add_argument(
-        "--payload-log",
-        metavar="LOG",
-        action="append",
-        default=[],
-        help="a further log, with the load; may be given several times",
-    )
-    loads.add_argument("--payload-mass", metavar="KG", type=float, help="its mass, if it is known")
-    loads.add_argument(
-        "--payload-link", metavar="J", help="the link that carries it; default: the last"
-    )
+    _add_load(parser)
     parser.add_argument("--json", metavar="FILE", help="write the result for machines")
     parser.set_defaults(run=run_fit)
 
 
 def _add_processing(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("processing", "chosen from the logs and told where left out")
-    group.add_argument(
-        "--cutoff",
-        metavar="HZ",
-        type=float,
-        help="low-pass of the positions (zero phase, Butterworth order 4)",
+    add_number(group, "--cutoff", "HZ", float,
+               "low-pass of the positions (zero phase, Butterworth order 4)")  # fmt: skip
+    add_number(
+        group, "--parallel-cutoff", "HZ", float, "the one low-pass of torques and all columns"
     )
-    group.add_argument(
-        "--parallel-cutoff",
-        metavar="HZ",
-        type=float,
-        help="the one low-pass of torques and all columns",
-    )
-    group.add_argument("--decimate", metavar="N", type=int, help="keep every N-th row after it")
+    add_number(group, "--decimate", "N", int, "keep every N-th row after it")
     group.add_argument(
         "--derivatives",
         choices=("auto", "log", "position"),
         default="auto",
         help="logged velocities, or positions differentiated",
     )
-    group.add_argument(
-        "--low-speed",
-        metavar="SHARE",
-        type=float,
-        default=Processing.low_speed,
-        help="leave out rows below this share of the joint's top speed, where the "
-        "sign of the speed is doubtful (default %(default)s)",
-    )
+    add_number(
+        group, "--low-speed", "SHARE", float,
+        "leave out rows below this share of the joint's top speed, where the sign of the speed is "
+        "doubtful",
+        Processing.low_speed,
+    )  # fmt: skip
     group.add_argument(
         "--keep-saturated", action="store_true", help="use rows whose torque is stuck at its limit"
+    )
+
+
+def _add_load(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("load", "some of the logs carry a load on a link")
+    group.add_argument(
+        "--payload-log",
+        metavar="LOG",
+        action="append",
+        default=[],
+        help="a further log, with the load; may be given several times",
+    )
+    add_number(group, "--payload-mass", "KG", float, "its mass, if it is known")
+    group.add_argument(
+        "--payload-link", metavar="J", help="the link that carries it; default: the last"
     )
 
 
@@ -128,7 +121,7 @@ def run_fit(args: argparse.Namespace) -> None:
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
         result = identify(observation, args.method)
-    save_model(args.out, _model(derivation, emitted, observation, result))
+    save_model(args.out, identified(derivation, emitted, observation, result))
     write_json(args.json, result.to_json())
     if args.json == "-":
         return
@@ -153,18 +146,6 @@ def _check_once(logs: Sequence[str], loaded: Sequence[str]) -> None:
                 f"{place}: carries the load, and {bare[Path(place).name]} has the same file name; "
                 "rename one, loads are assigned by name"
             )
-
-
-def _model(
-    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
-) -> IdentifiedModel:
-    return IdentifiedModel(
-        robot_text=derivation.robot.text,
-        spec=emitted.spec,
-        sources=emitted.files,
-        fit=result,
-        logs=provenance(observation.report),
-    )
 
 
 def add_compare(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:

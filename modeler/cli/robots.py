@@ -4,9 +4,11 @@ import argparse
 
 from modeler.cli.console import say, write_json
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE, effect_named
+from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
 from modeler.robot.edit import with_effects
+
+_KNOWN = ", ".join(effect.id for effect in CATALOGUE)
 
 
 def add_robot(parser: argparse.ArgumentParser) -> None:
@@ -29,8 +31,7 @@ def robot_of(args: argparse.Namespace) -> Robot:
     wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
     unknown = [name for name in wanted if effect_named(name) is None]
     if unknown:
-        known = ", ".join(effect.id for effect in CATALOGUE)
-        raise RobotError(f"--effects: got {unknown[0]}; expected some of {known}")
+        raise RobotError(f"--effects: got {unknown[0]}; expected some of {_KNOWN}")
     text = with_effects(robot.text, dict.fromkeys(wanted, "all"))
     return robot_from_text(text, f"{args.robot} with --effects")
 
@@ -89,42 +90,36 @@ def add_effects(commands: "argparse._SubParsersAction[argparse.ArgumentParser]")
 
 def run_effects(args: argparse.Namespace) -> None:
     """Prints the catalogue, or one page of it."""
-    chosen = CATALOGUE
-    if args.effect is not None:
-        found = effect_named(args.effect)
-        if found is None:
-            known = ", ".join(effect.id for effect in CATALOGUE)
-            raise RobotError(f"effects: got {args.effect}; expected one of {known}")
-        chosen = (found,)
-    facts = [
-        {
-            "id": effect.id,
-            "aliases": list(effect.aliases),
-            "title": effect.title,
-            "equation": effect.equation,
-            "parameters": [column.prefix for column in effect.columns],
-            "unit": [column.unit_revolute for column in effect.columns],
-            "signature": effect.signature,
-            "look_alikes": effect.look_alikes,
-            "range": effect.range,
-            "source": effect.source,
-        }
-        for effect in chosen
-    ]
+    chosen = CATALOGUE if args.effect is None else (_effect(args.effect),)
+    facts = [_facts(effect) for effect in chosen]
     write_json(args.json, facts)
     if args.json == "-":
         return
     for fact in facts:
         say(f"{fact['id']:<17} {fact['equation']:<36} {fact['title']}")
         if args.effect is not None:
-            for name in (
-                "aliases",
-                "parameters",
-                "unit",
-                "signature",
-                "look_alikes",
-                "range",
-                "source",
-            ):
-                value = fact[name]
-                say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
+            for name, value in fact.items():
+                if name not in ("id", "equation", "title"):
+                    say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
+
+
+def _effect(name: str) -> Effect:
+    effect = effect_named(name)
+    if effect is None:
+        raise RobotError(f"effects: got {name}; expected one of {_KNOWN}")
+    return effect
+
+
+def _facts(effect: Effect) -> dict[str, str | list[str]]:
+    return {
+        "id": effect.id,
+        "aliases": list(effect.aliases),
+        "title": effect.title,
+        "equation": effect.equation,
+        "parameters": [column.prefix for column in effect.columns],
+        "unit": [column.unit_revolute for column in effect.columns],
+        "signature": effect.signature,
+        "look_alikes": effect.look_alikes,
+        "range": effect.range,
+        "source": effect.source,
+    }

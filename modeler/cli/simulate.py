@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from modeler.cli.console import progress, say, write_json
+from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.simulate import (
     SimulationSettings,
@@ -16,7 +17,6 @@ from modeler.simulate import (
 
 def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """`modeler simulate`."""
-    default = SimulationSettings()
     parser = commands.add_parser(
         "simulate",
         help="measurements by forward simulation in closed loop",
@@ -30,48 +30,22 @@ def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
         "--out", metavar="LOG", required=True, help="log to write, .parquet or .csv"
     )
     parser.add_argument("--truth", metavar="FILE", help="write the true parameters as JSON")
-    parser.add_argument(
-        "--duration",
-        metavar="S",
-        type=float,
-        default=default.duration,
-        help="seconds (default %(default)s)",
-    )
-    parser.add_argument(
-        "--rate",
-        metavar="HZ",
-        type=float,
-        default=default.rate,
-        help="samples per second (default %(default)s)",
-    )
-    parser.add_argument(
-        "--seed",
-        metavar="N",
-        type=int,
-        default=default.seed,
-        help="of motion and noise (default %(default)s)",
-    )
-    parser.add_argument(
-        "--parameter-seed",
-        metavar="N",
-        type=int,
-        default=default.parameter_seed,
-        help="of parameters the file leaves open (default %(default)s)",
-    )
-    parser.add_argument(
-        "--noise",
-        metavar="SHARE",
-        type=float,
-        default=default.torque_noise,
-        help="torque noise, share of the rms torque (default %(default)s)",
-    )
-    parser.add_argument(
-        "--encoder-counts",
-        metavar="N",
-        type=int,
-        default=default.encoder_counts,
-        help="per turn, 0 for an ideal encoder (default %(default)s)",
-    )
+    default = SimulationSettings()
+    add_number(parser, "--duration", "S", float, "seconds", default.duration)
+    add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)
+    add_number(parser, "--seed", "N", int, "of motion and noise", default.seed)
+    add_number(
+        parser, "--parameter-seed", "N", int,
+        "of parameters the file leaves open", default.parameter_seed,
+    )  # fmt: skip
+    add_number(
+        parser, "--noise", "SHARE", float,
+        "torque noise, share of the rms torque", default.torque_noise,
+    )  # fmt: skip
+    add_number(
+        parser, "--encoder-counts", "N", int,
+        "per turn, 0 for an ideal encoder", default.encoder_counts,
+    )  # fmt: skip
     parser.add_argument("--json", metavar="FILE", help="write what was simulated for machines")
     parser.set_defaults(run=run_simulate)
 

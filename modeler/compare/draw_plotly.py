@@ -6,7 +6,7 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from modeler.compare.picture import BLUE, Bars, Curve, Heat, Means, Panel, Picture, Series
+from modeler.compare.picture import BLUE, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 
 _GRID = "#e4e4e4"
 
@@ -86,19 +86,7 @@ def _add_panel(figure: go.Figure, panel: Panel, at: tuple[int, int], labelled: s
 
 def _trace(series: Series) -> Any:
     if isinstance(series, Heat):
-        return go.Heatmap(
-            x=series.columns,
-            y=series.rows,
-            z=_compact(series.values),
-            text=series.texts,
-            texttemplate="%{text}",
-            colorscale=[[0, "#ffffff"], [1, BLUE]],
-            zmin=0.0,
-            zmax=series.top,
-            showscale=False,
-            xgap=2,
-            ygap=2,
-        )
+        return _cells(series)
     if isinstance(series, Bars):
         return go.Bar(
             x=series.names,
@@ -109,28 +97,45 @@ def _trace(series: Series) -> Any:
             marker_color=series.style.color,
             name=series.label,
         )
-    style = series.style
-    common: dict[str, Any] = {
-        "x": _compact(series.x),
-        "y": _compact(series.y),
-        "name": series.label,
-        "opacity": style.opacity,
-    }
-    if isinstance(series, Means):
-        return go.Scatter(
-            mode="lines+markers",
-            error_y={"array": _compact(series.error), "thickness": 1, "width": 2},
-            marker={"color": style.color, "size": 5},
-            line={"color": style.color, "width": style.width},
-            **common,
-        )
-    if isinstance(series, Curve):
-        dash = "dash" if style.dash else "solid"
-        line = {"color": style.color, "width": style.width, "dash": dash}
-        return go.Scatter(mode="lines", line=line, **common)
     return go.Scatter(
-        mode="markers", marker={"color": style.color, "size": style.width + 1}, **common
+        x=_compact(series.x),
+        y=_compact(series.y),
+        name=series.label,
+        opacity=series.style.opacity,
+        **_look(series),
     )
+
+
+def _cells(heat: Heat) -> go.Heatmap:
+    return go.Heatmap(
+        x=heat.columns,
+        y=heat.rows,
+        z=_compact(heat.values),
+        text=heat.texts,
+        texttemplate="%{text}",
+        colorscale=[[0, "#ffffff"], [1, BLUE]],
+        zmin=0.0,
+        zmax=heat.top,
+        showscale=False,
+        xgap=2,
+        ygap=2,
+    )
+
+
+def _look(series: Curve | Points | Means) -> dict[str, Any]:
+    """What tells lines, dots and means apart."""
+    style = series.style
+    line = {"color": style.color, "width": style.width}
+    if isinstance(series, Curve):
+        return {"mode": "lines", "line": line | {"dash": "dash" if style.dash else "solid"}}
+    if isinstance(series, Points):
+        return {"mode": "markers", "marker": {"color": style.color, "size": style.width + 1}}
+    return {
+        "mode": "lines+markers",
+        "line": line,
+        "marker": {"color": style.color, "size": 5},
+        "error_y": {"array": _compact(series.error), "thickness": 1, "width": 2},
+    }
 
 
 def _compact(values: np.ndarray) -> np.ndarray:

@@ -6,8 +6,8 @@ from typing import Literal
 import numpy as np
 
 # Okabe and Ito, "Color Universal Design" (2008): told apart by colour-blind readers.
-BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
-BLUE, VERMILLION, GREY = "#0072B2", "#D55E00", "#9A9A9A"
+BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
+GREY = "#9A9A9A"
 
 
 @dataclass(frozen=True)

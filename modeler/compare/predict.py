@@ -10,26 +10,20 @@ from modeler.observation import Log, Observation, observe
 
 
 def predict(
-    model: IdentifiedModel, logs: Sequence[Log], compiled: CompiledModel | None = None
+    model: IdentifiedModel, logs: Sequence[Log], compiled: CompiledModel
 ) -> tuple[Prediction, Observation]:
     """What the model says of logs, processed as the logs it was fitted on.
 
     Args:
         model: fitted.
         logs: read with its manifest.
-        compiled: if it is at hand already.
+        compiled: its robot.
 
     Raises:
         DataError: no usable row.
-        BuildError: no C compiler.
     """
-    observation = observe(compiled or model.compile(), logs, model.processing)
-    return prediction_of(observation, model), observation
-
-
-def prediction_of(observation: Observation, model: IdentifiedModel) -> Prediction:
-    """The prediction on an observation that is made already."""
-    return Prediction(
+    observation = observe(compiled, logs, model.processing)
+    prediction = Prediction(
         robot=model.spec.robot,
         joints=tuple(
             JointInfo(
@@ -50,3 +44,4 @@ def prediction_of(observation: Observation, model: IdentifiedModel) -> Predictio
         predicted=observation.predicted(model.beta),
         used=observation.used,
     )
+    return prediction, observation

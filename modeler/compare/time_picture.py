@@ -1,5 +1,7 @@
 """One joint against time: measured, predicted, residual, and a close look at the worst window."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from modeler.compare.comparison import JointComparison
@@ -24,30 +26,18 @@ _RESIDUAL = Style(VERMILLION, width=1.0)
 
 def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     """Two rows sharing time: torques above, residual below; all logs left, worst window right."""
-    whole, label, marks = running_time(prediction)
-    every = np.arange(prediction.time.size)
-    window = item.worst
-    inside = (
-        (prediction.segment == window.segment)
-        & (prediction.time >= window.start - 0.5 * WINDOW)
-        & (prediction.time <= window.end + 0.5 * WINDOW)
-    )
-    zoom = np.flatnonzero(inside)
-    at = (prediction.segment == window.segment) & (prediction.time == window.start)
-    start = float(whole[np.flatnonzero(at)[0]])
-    end = start + window.end - window.start
-    left = _column(prediction, item, every, whole, _whole_title(prediction), label)
+    window, time = item.worst, prediction.time
+    own = prediction.segment == window.segment
+    margin = 0.5 * WINDOW
+    near = own & (time >= window.start - margin) & (time <= window.end + margin)
+    running, label, marks = running_time(prediction)
+    start = float(running[own & (time == window.start)][0])
+    left = _column(prediction, item, np.arange(time.size), running, _whole_title(prediction), label)
     right = _column(
-        prediction, item, zoom, prediction.time, f"Worst {WINDOW} s", f"time in {window.log} [s]"
-    )
-    rows = []
-    for wide, close in zip(left, right, strict=True):
-        rows.append(
-            (
-                _marked(wide, marks, (start, end)),
-                _marked(close, (), (window.start, window.end)),
-            )
-        )
+        prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
+        f"time in {window.log} [s]",
+    )  # fmt: skip
+    here, close = (start, start + window.end - window.start), (window.start, window.end)
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_time",
@@ -58,7 +48,10 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
             "for low speed or saturation) are left out of it. Grey: the "
             f"{WINDOW} s with the largest squared residual, enlarged on the right."
         ),
-        panels=tuple(rows),
+        panels=tuple(
+            (replace(all_logs, marks=marks, shade=here), replace(worst, shade=close))
+            for all_logs, worst in zip(left, right, strict=True)
+        ),
         heights=(0.58, 0.42),
         widths=(0.68, 0.32),
         height=440,
@@ -123,17 +116,3 @@ def _column(
               tuple(series[:2])),
         Panel(f"{title}: residual", label, f"residual [{unit}]", (series[2],), zero=True),
     )  # fmt: skip
-
-
-def _marked(
-    panel: Panel, marks: tuple[tuple[float, str], ...], shade: tuple[float, float]
-) -> Panel:
-    return Panel(
-        title=panel.title,
-        x_label=panel.x_label,
-        y_label=panel.y_label,
-        series=panel.series,
-        marks=marks,
-        shade=shade,
-        zero=panel.zero,
-    )

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.stats import f as fisher
 
 from modeler.fit.compressed import Compressed, triangle
-from modeler.fit.least_squares import Estimate, Method, least_squares
+from modeler.fit.least_squares import Estimate, Method, least_squares, solve_by_qr
 
 LEVEL = 0.05
 
@@ -57,22 +57,7 @@ def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Es
         full: the estimate with all parameters.
         method: how the reduced model is estimated at the end.
     """
-    whole = data.whole(full.sigma)
-    kept = list(full.rank.kept)
-    reference = _squares(whole, kept)
-    noise = max(reference / full.degrees, np.finfo(float).tiny)
-    dropped: list[int] = []
-    ratio, limit = 0.0, float("inf")
-    while len(kept) > 1:
-        weakest = _weakest(whole, kept)
-        rest = [i for i in kept if i != weakest]
-        count = len(dropped) + 1
-        trial = (_squares(whole, rest) - reference) / count / noise
-        quantile = float(fisher.ppf(1.0 - LEVEL, count, full.degrees))
-        if not trial < quantile:
-            break
-        kept, ratio, limit = rest, trial, quantile
-        dropped.append(weakest)
+    kept, dropped, ratio, limit = _eliminate(data.whole(full.sigma), full)
     left = tuple(data.names[i] for i in dropped)
     aside = [tangle.name for tangle in full.rank.aside]
     reduced = least_squares(data.without([*left, *aside]), method)
@@ -95,6 +80,26 @@ def relative_error(data: Compressed, beta: np.ndarray) -> float:
     return float(np.linalg.norm(data.residual_norms(beta)) / total) if total > 0.0 else 0.0
 
 
+def _eliminate(whole: np.ndarray, full: Estimate) -> tuple[list[int], list[int], float, float]:
+    """Columns kept, columns dropped in the order of leaving, their F statistic and its limit."""
+    kept = list(full.rank.kept)
+    dropped: list[int] = []
+    reference = _squares(whole, kept)
+    noise = max(reference / full.degrees, np.finfo(float).tiny)
+    ratio, limit = 0.0, float("inf")
+    while len(kept) > 1:
+        weakest = _weakest(whole, kept)
+        rest = [i for i in kept if i != weakest]
+        count = len(dropped) + 1
+        trial = (_squares(whole, rest) - reference) / count / noise
+        quantile = float(fisher.ppf(1.0 - LEVEL, count, full.degrees))
+        if not trial < quantile:
+            break
+        kept, ratio, limit = rest, trial, quantile
+        dropped.append(weakest)
+    return kept, dropped, ratio, limit
+
+
 def _squares(whole: np.ndarray, kept: list[int]) -> float:
     reduced = triangle(whole[:, [*kept, whole.shape[1] - 1]])
     return float(np.sum(reduced[len(kept) :, -1] ** 2))
@@ -102,11 +107,7 @@ def _squares(whole: np.ndarray, kept: list[int]) -> float:
 
 def _weakest(whole: np.ndarray, kept: list[int]) -> int:
     """Column with the largest sigma / |beta|; a value of exactly 0 is the weakest of all."""
-    columns = whole[:, kept]
-    lengths = np.linalg.norm(columns, axis=0)
-    q, r = np.linalg.qr(columns / lengths)
-    inverse = np.linalg.solve(r, np.eye(len(kept)))
-    beta = inverse @ (q.T @ whole[:, -1])
-    sigma = np.linalg.norm(inverse, axis=1)
+    beta, root = solve_by_qr(whole[:, kept], whole[:, -1])
+    sigma = np.linalg.norm(root, axis=1)
     with np.errstate(divide="ignore"):
         return kept[int(np.argmax(sigma / np.abs(beta)))]

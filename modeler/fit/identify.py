@@ -1,15 +1,34 @@
 """From an observation to a fitted model."""
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.fit.compressed import Compressed, compress
-from modeler.fit.essential import Essential, essential_parameters, relative_error
+from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.least_squares import MAX_ITERATIONS, Estimate, Method, least_squares
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """y = W beta, row for row those of an observation; first the base parameters, then loads.
+
+    Attributes:
+        W: (rows, c + loads).
+        y: (rows,) N m or N.
+        names: (c + loads,) of the columns.
+        units: (c + loads,) of the parameters.
+        sentences: what a reader of the fit must know of them.
+    """
+
+    W: np.ndarray
+    y: np.ndarray
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    sentences: tuple[str, ...] = ()
 
 
 def identify(observation: Observation, method: Method = "weighted") -> FitResult:
@@ -24,64 +43,61 @@ def identify(observation: Observation, method: Method = "weighted") -> FitResult
     Raises:
         DataError: fewer rows than parameters.
     """
-    names = observation.names
-    return fit_columns(observation, observation.W, observation.y, names, observation.units, method)
+    return fit_equations(observation, base_equations(observation), method)
 
 
-def fit_columns(
-    observation: Observation,
-    W: np.ndarray,
-    y: np.ndarray,
-    names: Sequence[str],
-    units: Sequence[str],
-    method: Method,
-    sentences: Sequence[str] = (),
-) -> FitResult:
-    """The fit of y = W beta, where the first columns of W are the base parameters.
+def base_equations(observation: Observation) -> Equations:
+    """The equations of the bare robot."""
+    return Equations(observation.W, observation.y, observation.names, observation.units)
+
+
+def fit_equations(observation: Observation, equations: Equations, method: Method) -> FitResult:
+    """The fit of y = W beta.
 
     Args:
         observation: says which row is which joint.
-        W: (rows, c + loads).
-        y: (rows,).
-        names: of all columns; those beyond the base parameters belong to loads.
-        units: of all columns.
+        equations: row for row those of the observation.
         method: as for `identify`.
-        sentences: remarks to pass on.
 
     Raises:
         DataError: fewer rows than parameters.
     """
-    if len(y) < len(names):
-        raise DataError(
-            f"{', '.join(observation.logs)}: {len(y)} rows for {len(names)} parameters; record "
-            "more motion, or filter less (a higher parallel_cutoff gives more rows)"
-        )
-    data = compress(W, y, observation.row_joint, len(observation.joints), names)
+    _check_enough_rows(observation, equations)
+    joints, count = len(observation.joints), len(observation.names)
+    data = compress(equations.W, equations.y, observation.row_joint, joints, equations.names)
     estimate = least_squares(data, method)
     essential = essential_parameters(data, estimate, method)
-    every = _parameters(estimate, essential, names, units)
-    count = len(observation.names)
+    every = _parameters(estimate, essential, equations)
     return FitResult(
         robot=observation.robot,
         method=method,
         status=_status(estimate),
         samples=len(observation.time),
-        rows=len(y),
+        rows=len(equations.y),
         condition_number=estimate.condition_number,
         condition_scaled=estimate.condition_scaled,
-        relative_error=relative_error(data, estimate.beta),
+        relative_error=essential.error_before,
         essential_error=essential.error_after,
         joints=_joints(observation, data, estimate),
         parameters=every[:count],
         covariance=estimate.covariance[:count, :count],
         loads=every[count:],
-        sentences=(*sentences, *_sentences(estimate, essential)),
+        sentences=(*equations.sentences, *_sentences(estimate, essential)),
         processing=observation.report.processing,
     )
 
 
+def _check_enough_rows(observation: Observation, equations: Equations) -> None:
+    rows, columns = equations.W.shape
+    if rows < columns:
+        raise DataError(
+            f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
+            "more motion, or filter less (a higher parallel_cutoff gives more rows)"
+        )
+
+
 def _parameters(
-    estimate: Estimate, essential: Essential, names: Sequence[str], units: Sequence[str]
+    estimate: Estimate, essential: Essential, equations: Equations
 ) -> tuple[ParameterEstimate, ...]:
     kept, needed = set(estimate.rank.kept), set(essential.names)
     sigma = np.sqrt(np.diag(estimate.covariance))
@@ -94,7 +110,7 @@ def _parameters(
             essential=name in needed,
             status="estimated" if i in kept else "set aside",
         )
-        for i, (name, unit) in enumerate(zip(names, units, strict=True))
+        for i, (name, unit) in enumerate(zip(equations.names, equations.units, strict=True))
     )
 
 

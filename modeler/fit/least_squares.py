@@ -80,6 +80,19 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
     return Estimate(beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees)
 
 
+def solve_by_qr(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The beta (c,) of least ||y - W beta||, and a root (c, c): root root^T = (W^T W)^-1.
+
+    Args:
+        W: (rows, c) independent columns; scaled to length one before the QR.
+        y: (rows,).
+    """
+    lengths = np.linalg.norm(W, axis=0)
+    q, r = np.linalg.qr(W / lengths)
+    root = np.linalg.solve(r, np.eye(W.shape[1])) / lengths[:, None]
+    return root @ (q.T @ y), root
+
+
 def _rms(data: Compressed) -> np.ndarray:
     return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
 
@@ -91,16 +104,13 @@ def _floor(data: Compressed) -> np.ndarray:
 
 
 def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """beta and (W^T S^-1 W)^-1 over all columns, by QR of the scaled kept columns."""
+    """beta and (W^T S^-1 W)^-1 over all columns."""
     c = len(data.names)
     beta, covariance = np.zeros(c), np.zeros((c, c))
     if kept.size:
         whole = data.whole(sigma)
-        lengths = np.linalg.norm(whole[:, kept], axis=0)
-        q, r = np.linalg.qr(whole[:, kept] / lengths)
-        inverse = np.linalg.solve(r, np.eye(len(kept))) / lengths[:, None]
-        beta[kept] = inverse @ (q.T @ whole[:, -1])
-        covariance[np.ix_(kept, kept)] = inverse @ inverse.T
+        beta[kept], root = solve_by_qr(whole[:, kept], whole[:, -1])
+        covariance[np.ix_(kept, kept)] = root @ root.T
     return beta, covariance
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.fit.identify import fit_columns
+from modeler.fit.identify import Equations, base_equations, fit_equations
 from modeler.fit.least_squares import Method
 from modeler.fit.result import FitResult
 from modeler.observation import Observation
@@ -60,23 +60,31 @@ def identify_with_payloads(
         DataError: a log or link that is not there, every log loaded, a mass that is not positive.
     """
     _check(model, observation, payloads)
-    base, y = observation.W, observation.y.copy()
-    names, units = list(observation.names), list(observation.units)
-    found: list[np.ndarray] = []
-    said: list[str] = []
+    equations = base_equations(observation)
     for payload in payloads:
-        link = payload.link or model.spec.joints[-1].name
-        columns, labels, unit = _load_columns(model, observation, payload, link)
-        if payload.mass is not None:
-            y -= payload.mass * columns[:, labels.index("M")]
-            columns, labels, unit = columns[:, 1:], labels[1:], unit[1:]
-        kept = _independent(np.column_stack([base, *found]), columns)
-        said += _remarks(payload, columns, [f"{label}{link}" for label in labels], kept)
-        found.append(columns[:, kept])
-        names += [f"{labels[i]}{link}_{payload.name}" for i in kept]
-        units += [unit[i] for i in kept]
-    W = np.column_stack([base, *found])
-    return fit_columns(observation, W, y, names, units, method, said)
+        equations = _with_load(equations, model, observation, payload)
+    return fit_equations(observation, equations, method)
+
+
+def _with_load(
+    equations: Equations, model: "CompiledModel", observation: Observation, payload: Payload
+) -> Equations:
+    """The equations with the columns of a load that can be told apart, beside those there are."""
+    link = payload.link or model.spec.joints[-1].name
+    columns, labels, units = _load_columns(model, observation, payload, link)
+    y = equations.y
+    if payload.mass is not None:
+        y = y - payload.mass * columns[:, labels.index("M")]
+        columns, labels, units = columns[:, 1:], labels[1:], units[1:]
+    kept = _independent(equations.W, columns)
+    remarks = _remarks(payload, columns, [f"{label}{link}" for label in labels], kept)
+    return Equations(
+        W=np.column_stack([equations.W, columns[:, kept]]),
+        y=y,
+        names=(*equations.names, *(f"{labels[i]}{link}_{payload.name}" for i in kept)),
+        units=(*equations.units, *(units[i] for i in kept)),
+        sentences=(*equations.sentences, *remarks),
+    )
 
 
 def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:

@@ -86,7 +86,8 @@ def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], S
     steps = np.diff(log.time[rows])
     cut = steps > GAP * step
     gaps = int(cut.sum())
-    inside = steps[~cut]
+    stamps = np.diff(log.time)
+    inside = stamps[stamps <= GAP * step]
     if log.segment is not None:
         cut = cut | (np.diff(log.segment[rows]) != 0)
     groups = np.split(rows, np.flatnonzero(cut) + 1)
