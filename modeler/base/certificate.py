@@ -12,10 +12,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import sympy
 
-from modeler.base.field import ExactField
+from modeler.base.field import ExactField, cosine_letter
 from modeler.effects import EnergyBlock
 from modeler.symbolic import Geometry, StandardColumn
-from modeler.symbolic.geometry import cos_sin
+from modeler.symbolic.angles import cos_sin
 
 PRIME = 2**31 - 1
 """Products of two residues fit in 64 bits."""
@@ -46,6 +46,9 @@ class ModularState:
         if e.is_Rational:
             number = int(e.p) * pow(int(e.q), -1, PRIME) % PRIME
             return np.full(self.points, number, dtype=np.int64)
+        if e.func in (sympy.cos, sympy.sin):
+            c, s = _circle(self.letters[cosine_letter(e)])
+            return c if e.func is sympy.cos else s
         if e in self.letters:
             return self.letters[e]
         if e.is_Add or e.is_Mul:
@@ -54,12 +57,9 @@ class ModularState:
                 other = self.value(arg)
                 total = (total + other if e.is_Add else total * other) % PRIME
             return total
-        if e.is_Pow:
-            n = int(e.exp)
-            base = power(self.value(e.base), abs(n))
-            return base if n >= 0 else inverse(base)
-        c, s = _circle(self.letters[e.args[0]])
-        return c if e.func is sympy.cos else s
+        n = int(e.exp)
+        base = power(self.value(e.base), abs(n))
+        return base if n >= 0 else inverse(base)
 
     def _frames(self) -> None:
         """R (3, 3), p, angular and linear velocity of every row's frame, in the base frame."""

@@ -5,6 +5,13 @@ from collections.abc import Mapping, Sequence
 from modeler.base.field import Element
 from modeler.base.transfer import Matrix
 
+LARGEST = 400
+"""Terms of a coefficient, numerator and denominator together, beyond which nobody reads it."""
+
+
+class TooLarge(ArithmeticError):
+    """The exact coefficients grow beyond `LARGEST` terms."""
+
 
 def row_reduce(rows: Matrix) -> tuple[Matrix, list[int]]:
     """Reduced row echelon form without zero rows, and the pivot columns."""
@@ -49,6 +56,8 @@ def sparse_row_reduce(
 def _subtract(row: dict[int, Element], pivot: Mapping[int, Element], factor: Element) -> None:
     for j, x in pivot.items():
         value = row[j] - factor * x if j in row else -(factor * x)
+        if _terms(value) > LARGEST:
+            raise TooLarge(f"a coefficient has more than {LARGEST} terms")
         if value:
             row[j] = value
         else:
@@ -68,3 +77,7 @@ def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
             vector[pivot] = -line[free]
         basis.append(vector)
     return basis
+
+
+def _terms(value: Element) -> int:
+    return len(value.numer) + len(value.denom) if hasattr(value, "numer") else 1

@@ -12,7 +12,8 @@ import sympy
 from sympy.polys.fields import field as rational_functions
 
 from modeler.base.trigonometry import in_cosines
-from modeler.symbolic.geometry import Geometry, cos_sin
+from modeler.symbolic.angles import cos_sin
+from modeler.symbolic.geometry import Geometry
 
 Element = Any
 """An element of the field: a sympy `FracElement`, or a rational number."""
@@ -22,7 +23,8 @@ class ExactField:
     """Q(letters): conversion from and to sympy expressions.
 
     Attributes:
-        letters: what each generator stands for: a symbol, an angle, or an opaque constant.
+        letters: what each generator stands for: a "symbol", the cosine of an "angle" (the
+            generator is then the tangent of half the angle), or an "opaque" constant.
     """
 
     def __init__(self, constants: Iterable[sympy.Expr]) -> None:
@@ -65,7 +67,7 @@ class ExactField:
     def _convert(self, value: sympy.Expr) -> Element:
         if value.is_Rational:
             return self._one * sympy.QQ(int(value.p), int(value.q))
-        if value in self._generator and self.letters[value] != "angle":
+        if self.letters.get(value) in ("symbol", "opaque"):
             return self._generator[value]
         if value.is_Add or value.is_Mul:
             total = self.element(value.args[0])
@@ -76,11 +78,9 @@ class ExactField:
         if value.is_Pow:
             base, n = self.element(value.base), int(value.exp)
             return base**n if n >= 0 else self._one / base**-n
-        t = self._generator[value.args[0]]
-        if value.func is sympy.cos:
-            return (1 - t**2) / (1 + t**2)
-        assert value.func is sympy.sin
-        return 2 * t / (1 + t**2)
+        assert value.func in (sympy.cos, sympy.sin)
+        t = self._generator[cosine_letter(value)]
+        return (1 - t**2 if value.func is sympy.cos else 2 * t) / (1 + t**2)
 
     def expression(self, element: Element) -> sympy.Expr:
         """The element as a sympy expression in the symbols, cosines and sines."""
@@ -89,7 +89,7 @@ class ExactField:
         return in_cosines(element.numer, element.denom, self.letters)
 
     def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
-        """The element modulo a prime, with residues for the letters (tan(a/2) for an angle a)."""
+        """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""
         if not self._generator:
             return int(element.numerator) * pow(int(element.denominator), -1, prime) % prime
         point = [values[letter] for letter in self.letters]
@@ -121,9 +121,14 @@ def _collect(value: sympy.Expr, letters: dict[sympy.Expr, str]) -> None:
         for arg in value.args:
             _collect(arg, letters)
     elif value.func in (sympy.cos, sympy.sin):
-        letters[value.args[0]] = "angle"
+        letters[cosine_letter(value)] = "angle"
     else:
         letters[value] = "opaque"
+
+
+def cosine_letter(value: sympy.Expr) -> sympy.Expr:
+    """cos(a) of a cos(a) or sin(a): the key of an angle among the letters."""
+    return sympy.cos(value.args[0], evaluate=False)
 
 
 def _residue(part: Any, point: list[int], prime: int) -> int:

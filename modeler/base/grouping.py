@@ -12,9 +12,8 @@ from modeler.base.result import BaseParameter, Term
 from modeler.base.shafts import friction_relations
 from modeler.base.transfer import joint_constant, placement, transferred
 from modeler.base.tree import INERTIA, OFFSET, group_tree
-from modeler.effects import EnergyBlock
 from modeler.robot import INERTIAL
-from modeler.symbolic import StandardColumn, SymbolicModel
+from modeler.symbolic import Geometry, StandardColumn, SymbolicModel
 
 
 @dataclass(frozen=True)
@@ -32,9 +31,9 @@ class Relations:
     kept: tuple[int, ...]
 
 
-def column_relations(model: SymbolicModel, K: ExactField) -> Relations:
+def column_relations(model: SymbolicModel, geometry: Geometry, K: ExactField) -> Relations:
     """The reduced relations of a serial or tree robot, first-come by the priority order."""
-    rows = _link_relations(model, K) + [
+    rows = _link_relations(model, geometry, K) + [
         {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
         for relation in friction_relations(model.columns)
     ]
@@ -44,8 +43,9 @@ def column_relations(model: SymbolicModel, K: ExactField) -> Relations:
     return Relations(tuple(reduced), tuple(dropped), tuple(kept))
 
 
-def _link_relations(model: SymbolicModel, K: ExactField) -> list[dict[int, Element]]:
-    geometry = model.geometry
+def _link_relations(
+    model: SymbolicModel, geometry: Geometry, K: ExactField
+) -> list[dict[int, Element]]:
     places = _places(model.columns)
     relations = []
     for k, grouping in enumerate(group_tree(geometry, K, places.keys())):
@@ -53,7 +53,7 @@ def _link_relations(model: SymbolicModel, K: ExactField) -> list[dict[int, Eleme
             continue
         for hidden, moved in zip(grouping.hidden, grouping.moved, strict=True):
             relation = {places[k, i]: x for i, x in enumerate(hidden) if x}
-            parent, moved = _carrying(model, K, k, moved)
+            parent, moved = _carrying(geometry, K, k, moved)
             if parent is not None:
                 for i, x in enumerate(moved):
                     if x:
@@ -63,10 +63,10 @@ def _link_relations(model: SymbolicModel, K: ExactField) -> list[dict[int, Eleme
 
 
 def _carrying(
-    model: SymbolicModel, K: ExactField, k: int, moved: list[Element]
+    geometry: Geometry, K: ExactField, k: int, moved: list[Element]
 ) -> tuple[int | None, list[Element]]:
     """The link that takes over, below any fixed frames; None for the base."""
-    rows = model.geometry.rows
+    rows = geometry.rows
     parent = rows[k].parent
     while parent is not None and rows[parent].index is None:
         for step in (joint_constant(rows[parent], K), placement(rows[parent], K)):
@@ -111,11 +111,3 @@ def base_from_relations(
         for b, found in terms.items()
     ]
     return tuple(parameters), tuple(unidentifiable)
-
-
-def has_unproved_columns(columns: Sequence[StandardColumn]) -> bool:
-    """True if a rotor turns with several joints: its column is only counted modulo the prime."""
-    return any(
-        c.column is not None and c.column.block is EnergyBlock.KINETIC and c.effect not in _OWN
-        for c in columns
-    )

@@ -10,6 +10,10 @@ from modeler.symbolic import SymbolicModel
 TOLERANCE = 1e-9
 """Relative to the largest singular value of the scaled matrix; see `NumericRank.gap`."""
 
+ZERO = 1e-13
+"""Columns below this share of the largest one are rounding errors of a zero column: they are left
+out, never scaled up."""
+
 States = tuple[np.ndarray, np.ndarray, np.ndarray]
 """q, qd, qdd of shape (samples, joints)."""
 
@@ -59,8 +63,8 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
 def numeric_rank(phi: np.ndarray, columns: Sequence[int]) -> NumericRank:
     """Rank of the stacked regressor (samples, joints, columns), of the columns given."""
     W = phi.reshape(-1, phi.shape[2])[:, list(columns)]
-    # Columns that are structurally zero are exactly zero; nothing small is ever normalised.
-    W = W[:, np.any(W != 0.0, axis=0)]
+    lengths = np.linalg.norm(W, axis=0)
+    W = W[:, lengths > ZERO * lengths.max(initial=0.0)]
     if W.shape[1] == 0:
         return NumericRank(0, (0.0, 0.0), TOLERANCE, "no column has an effect")
     singular = np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
@@ -68,5 +72,5 @@ def numeric_rank(phi: np.ndarray, columns: Sequence[int]) -> NumericRank:
     dropped = float(singular[rank]) if rank < len(singular) else 0.0
     return NumericRank(
         rank, (float(singular[rank - 1]), dropped), TOLERANCE,
-        f"{W.shape[0]} rows, {W.shape[1]} columns (not structurally zero), scaled to length 1",
+        f"{W.shape[0]} rows, {W.shape[1]} columns (the others are 0), scaled to length 1",
     )  # fmt: skip

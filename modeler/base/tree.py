@@ -153,10 +153,12 @@ class _Step:
             own, momentum, pull = _speed_terms(L, self.row.joint.angular, K.zero)
             here = K.one if m == 0 and with_joint_columns else K.zero
             rows.append([*own, here, K.zero])
+            # The offset's power is tau qd, the links' speed along z is rate * qd.
+            offset = here * self.row.rate
             rows += self._pad(product(self.before.twist, momentum, K.zero))
             rows += product(
                 self.before.gravity,
-                [[*line, K.zero, K.zero] for line in pull] + [[K.zero] * 11 + [here]],
+                [[*line, K.zero, K.zero] for line in pull] + [[K.zero] * 11 + [offset]],
                 K.zero,
             )
         return [line for line in rows if any(line)]

@@ -41,7 +41,7 @@ class _Target:
             self.slots.append(len(self.names))
             if kind == "angle":
                 self.angles.append(len(self.names))
-                self.names += [sympy.cos(letter), sympy.sin(letter)]
+                self.names += [letter.doit(), sympy.sin(letter.args[0])]
             else:
                 self.names.append(letter)
         self.ring, *self.generators = ring([f"x{i}" for i in range(len(self.names))], QQ)

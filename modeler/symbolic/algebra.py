@@ -9,7 +9,10 @@ from typing import Any, Protocol
 
 import sympy
 
-from modeler.symbolic.geometry import Geometry, Row, cos_sin
+from modeler.core.errors import DerivationError
+from modeler.core.expression import FUNCTIONS
+from modeler.symbolic.angles import cos_sin
+from modeler.symbolic.geometry import Geometry, Row
 from modeler.symbolic.graph import Expr, Graph
 
 Scalar = Any
@@ -44,10 +47,14 @@ class GraphAlgebra:
         """A geometric constant as a static expression."""
         if value.is_Rational:
             return self.graph.constant(_fraction(value))
+        if value.is_Float:
+            return self.graph.constant(Fraction(repr(float(value))))
         if value.is_Symbol:
             return self.graph.symbol(value.name, static=True)
         if value is sympy.pi:
             return self.graph.pi()
+        if value is sympy.E:
+            return self.graph.call("exp", self.graph.constant(1))
         args = [self.static(arg) for arg in value.args]
         if value.is_Add or value.is_Mul:
             total = args[0]
@@ -57,17 +64,19 @@ class GraphAlgebra:
         if value.is_Pow:
             return self._power(value, args[0])
         name = value.func.__name__.lower()
+        if name not in FUNCTIONS:
+            raise DerivationError(f"{value}: {name} has no C form; expected {', '.join(FUNCTIONS)}")
         return self.graph.call(name, args[0])
 
     def _power(self, value: sympy.Expr, base: Expr) -> Expr:
-        exponent = value.exp
-        if exponent.is_Integer:
-            return base ** int(exponent)
-        if exponent == sympy.Rational(1, 2):
-            return self.graph.call("sqrt", base)
-        if exponent == sympy.Rational(-1, 2):
-            return 1 / self.graph.call("sqrt", base)
-        raise ValueError(f"power {value} has no C form")
+        halves = 2 * value.exp
+        if not halves.is_Integer:
+            raise DerivationError(
+                f"{value}: only whole powers and square roots have a C form; give the number"
+            )
+        whole, half = divmod(int(halves), 2)
+        power = base**whole
+        return power * self.graph.call("sqrt", base) if half else power
 
     def variable(self, row: Row) -> Expr:
         """rate * q + offset of a prismatic joint."""

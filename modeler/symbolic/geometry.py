@@ -1,5 +1,6 @@
 """The table with exact entries: every cell a sympy expression, every right angle exact."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -10,10 +11,12 @@ from modeler.core.expression import Expression
 from modeler.robot import Joint, Robot
 
 _FUNCTIONS = {
-    "sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt,
+    "sin": sympy.sin, "cos": sympy.cos, "sqrt": sympy.sqrt,
+    "tan": lambda x: sympy.sin(x) / sympy.cos(x),
     "exp": sympy.exp, "abs": sympy.Abs, "sign": sympy.sign, "tanh": sympy.tanh,
 }  # fmt: skip
 _RIGHT_ANGLE_TOLERANCE = 1e-9
+_QUARTER = math.pi / 2
 
 
 def geometric_symbol(name: str) -> sympy.Symbol:
@@ -78,32 +81,23 @@ class Geometry:
         return chain
 
 
-def cos_sin(angle: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """Cosine and sine of a constant angle: exact 0 and +-1 at right angles, else left standing.
-
-    They are not turned into radicals: cos(pi/3) and sin(pi/3) stay a point of the unit circle,
-    which is all that grouping has to know of them.
-    """
-    quarters = angle / (sympy.pi / 2)
-    if quarters.is_Integer:
-        return sympy.cos(angle), sympy.sin(angle)
-    if angle.is_number and angle.is_negative:
-        c, s = cos_sin(-angle)
-        return c, -s
-    if angle.is_number:
-        return sympy.cos(angle, evaluate=False), sympy.sin(angle, evaluate=False)
-    return sympy.cos(angle), sympy.sin(angle)
-
-
-def exact_geometry(robot: Robot) -> Geometry:
+def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     """The table of `robot` with exact entries.
 
+    Args:
+        robot: as read.
+        at_nominal: True to put the value of every symbol, as the decimal fraction that was written,
+            in its place.
+
     A symbol keeps its letter unless its value decides the structure: a symbol worth 0 is 0, one
-    given by an expression is that expression, an angle within 1e-9 of a multiple of pi/2 is that
-    multiple.
+    within 1e-9 of a multiple of pi/2 is that multiple, one given by an expression is that
+    expression.
+
+    Raises:
+        DerivationError: an entry is not finite, or a joint variable does not stand alone.
     """
     numbers = robot.symbol_values()
-    symbols = _symbols(robot, numbers)
+    symbols = _symbols(robot, numbers, at_nominal)
     rows: list[Row] = []
     places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
     index = 0
@@ -134,28 +128,30 @@ def exact_geometry(robot: Robot) -> Geometry:
     )  # fmt: skip
 
 
-def _symbols(robot: Robot, numbers: Mapping[str, float]) -> dict[str, sympy.Expr]:
+def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> dict[str, sympy.Expr]:
     found: dict[str, sympy.Expr] = {}
     for name, expression in robot.symbols.items():
+        quarters = round(numbers[name] / _QUARTER)
         if numbers[name] == 0.0:
             found[name] = sympy.Integer(0)
-        elif _is_plain_number(expression):
-            found[name] = geometric_symbol(name)
-        else:
+        elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
+            found[name] = quarters * sympy.pi / 2
+        elif expression.names or "pi" in expression.text or at_nominal:
             found[name] = _fold(expression, found)
+        else:
+            found[name] = geometric_symbol(name)
     return found
 
 
-def _is_plain_number(expression: Expression) -> bool:
-    return not expression.names and "pi" not in expression.text
-
-
 def _fold(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
-    return sympy.sympify(
+    folded = sympy.sympify(
         expression.fold(
             values, _FUNCTIONS, sympy.pi, lambda x: sympy.Rational(x.numerator, x.denominator)
         )
     )
+    if folded.has(sympy.zoo, sympy.oo, sympy.nan):
+        raise DerivationError(f'"{expression.text}" is not finite; expected a finite number')
+    return sympy.expand_trig(folded) if folded.has(sympy.cos, sympy.sin) else folded
 
 
 @dataclass(frozen=True)

@@ -86,12 +86,13 @@ class Graph:
         ref = self._index.get(key)
         if ref is None:
             residue = self._modular(op, args)
-            ref = self._known(residue)
+            # Numbers are compared as numbers: two of them may well agree modulo the prime.
+            ref = None if op == "num" else self._known(residue)
             if ref is None:
                 ref = len(self.nodes)
                 self.nodes.append(Node(op, args, static))
                 self._residue.append(residue)
-                self._by_residue[residue] = ref
+                self._by_residue.setdefault(residue, ref)
             self._index[key] = ref
         return ref
 
@@ -104,7 +105,10 @@ class Graph:
     def _modular(self, op: str, args: tuple[Any, ...]) -> int:
         """Value of an operation modulo the prime, at the graph's random point."""
         if op == "num":
-            return args[0].numerator * pow(args[0].denominator, -1, PRIME) % PRIME
+            number = args[0]
+            if number.numerator % PRIME == 0 or number.denominator % PRIME == 0:
+                return _random_residue(f"num {number}")
+            return number.numerator * pow(number.denominator, -1, PRIME) % PRIME
         if op in ("sym", "pi"):
             return _random_residue(f"{op} {args}")
         values = [self._residue[arg] if arg > 0 else -self._residue[-arg] for arg in args]

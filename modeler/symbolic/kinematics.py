@@ -11,7 +11,8 @@ from typing import Any
 import sympy
 
 from modeler.symbolic.algebra import Algebra, Scalar, Vector
-from modeler.symbolic.geometry import Geometry, Row, cos_sin
+from modeler.symbolic.angles import cos_sin
+from modeler.symbolic.geometry import Geometry, Row
 
 
 def cross(a: Vector, b: Vector) -> Vector:

@@ -202,7 +202,7 @@ def test_random_trees(seed):
     """The exact relations against the rank in floating point, on tables nobody thought of."""
     text = random_table(np.random.default_rng(seed))
     base = derive(robot_from_text(text, "random.toml"))
-    assert base.proof.kind == "exact", text
+    assert base.proof.kind.startswith("exact"), text
     assert base.proof.agreement < 1e-12, text
 
 

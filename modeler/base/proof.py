@@ -1,0 +1,91 @@
+"""The proof of a grouping: modulo a prime, and in floating point."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.base.certificate import PRIME, ModularState, modular_rank
+from modeler.base.field import ExactField
+from modeler.base.grouping import Relations
+from modeler.base.shafts import friction_relations
+from modeler.effects import EnergyBlock
+from modeler.symbolic import Geometry, StandardColumn
+
+_CHECKS = 3
+
+
+class NotProved(Exception):
+    """The certificate contradicts the relations; says how."""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was checked modulo the prime.
+
+    Attributes:
+        rank: of the energy rows of the kept columns.
+        points: random states, over all checks.
+    """
+
+    rank: int
+    points: int
+
+
+def certificate(
+    geometry: Geometry,
+    columns: tuple[StandardColumn, ...],
+    K: ExactField,
+    relations: Relations,
+    seed: int,
+) -> Certificate:
+    """The relations hold at random states and geometries, and the kept columns are independent.
+
+    Raises:
+        NotProved: a relation does not hold, or the kept columns are dependent.
+    """
+    # Without gravity only the kinetic row of each point counts.
+    points = len(relations.kept) + 8
+    for check in range(_CHECKS):
+        try:
+            state = ModularState(geometry, K, points, seed + check)
+            _check_relations(columns, K, relations, state)
+        except ValueError as error:  # a constant whose denominator is a multiple of the prime
+            raise NotProved(f"a constant has no value modulo {PRIME} ({error})") from None
+    rank = _modular_rank(columns, relations, state)
+    if rank != len(relations.kept):
+        raise NotProved(f"of {len(relations.kept)} columns kept only {rank} are independent")
+    return Certificate(rank, _CHECKS * points)
+
+
+def _check_relations(
+    columns: tuple[StandardColumn, ...],
+    K: ExactField,
+    relations: Relations,
+    state: ModularState,
+) -> None:
+    rows = np.vstack([state.energy_rows(columns), state.rayleigh_rows(columns)])
+    dry = {
+        place
+        for place, column in enumerate(columns)
+        if column.column is not None and column.column.block is EnergyBlock.COULOMB
+    }
+    for relation, dropped in zip(relations.rows, relations.dropped, strict=True):
+        total = np.zeros(rows.shape[0], dtype=np.int64)
+        for place, coefficient in relation.items():
+            total = (total + rows[:, place] * K.residue(coefficient, state.residues, PRIME)) % PRIME
+        if np.any(total) and dropped not in dry:
+            raise NotProved(f"the relation of {columns[dropped].name} does not hold")
+
+
+def _modular_rank(
+    columns: tuple[StandardColumn, ...], relations: Relations, state: ModularState
+) -> int:
+    kept = list(relations.kept)
+    energy = modular_rank(state.energy_rows(columns)[:, kept])
+    rayleigh = modular_rank(state.rayleigh_rows(columns)[:, kept])
+    dry = [
+        c for c in (columns[i] for i in kept)
+        if c.column is not None and c.column.block is EnergyBlock.COULOMB
+    ]  # fmt: skip
+    # Columns |v| of pairwise non-proportional speeds are independent: see `modeler.base.shafts`.
+    return energy + rayleigh + len(dry) - len(friction_relations(dry))
