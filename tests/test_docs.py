@@ -28,7 +28,8 @@ PAGES = sorted(
 )
 
 TOLERANCE = 0.05  # of a shown number: other processors round simulated motions differently
-_FLOAT = re.compile(r"(?<![\w.*])-?\d+\.\d+(?:e[-+]?\d+)?(?![\w.]*\w)")
+# Decimal numbers, and counts of three digits and more (rows that survive a mask, say).
+_FLOAT = re.compile(r"(?<![\w.*])-?(?:\d+\.\d+(?:e[-+]?\d+)?|\d{3,})(?![\w.]*\w)")
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ def blocks(text: str) -> Iterator[Block]:
 
 
 def same(shown: str, printed: str) -> bool:
-    """True if two lines agree: texts and whole numbers exactly, decimal numbers nearly."""
+    """True if two lines agree: texts and small counts exactly, other numbers nearly."""
     if _words(shown) != _words(printed):
         return False
     pairs = zip(_FLOAT.findall(shown), _FLOAT.findall(printed), strict=True)

@@ -1,11 +1,14 @@
 """Grouping relations as people and programs read them: text, LaTeX, Markdown, JSON."""
 
 import re
+import textwrap
 from typing import Any
 
 import sympy
 
 from modeler.base.result import BaseParameter, BaseParameters, Proof, Term
+
+_WIDTH = 96
 
 
 def relation_text(parameter: BaseParameter) -> str:
@@ -89,16 +92,19 @@ def _certificate(proof: Proof) -> dict[str, Any]:
 
 def proof_text(proof: Proof) -> str:
     """The proof in a few lines."""
-    return "\n".join(
-        [
-            f"proof: {proof.kind}. {proof.statement}",
+    paragraphs = [f"proof: {proof.kind}. {proof.statement}"]
+    if proof.points:
+        paragraphs.append(
             f"rank {proof.exact_rank} modulo {proof.prime} ({proof.points} random points, seed "
-            f"{proof.seed}); {proof.numeric_rank} in floating point at the nominal geometry:",
-            f"singular values {proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first "
-            f"dropped), tolerance {proof.tolerance:g} of the largest; {proof.scale}",
-            f"base torque against standard torque: {proof.agreement:.1e} of the largest",
-        ]
-    )
+            f"{proof.seed})"
+        )
+    paragraphs += [
+        f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
+        f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
+        f"{proof.tolerance:g} of the largest; {proof.scale}",
+        f"base torque against standard torque: {proof.agreement:.1e} of the largest",
+    ]
+    return "\n".join(textwrap.fill(text, _WIDTH) for text in paragraphs)
 
 
 def _sum(terms: list[str]) -> str:

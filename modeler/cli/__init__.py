@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from modeler import __version__
+from modeler.cli.console import run_command
 from modeler.core.errors import ModelerError
 
 _Commands = argparse._SubParsersAction
@@ -80,7 +81,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if argv is None else list(argv)
     args = parser(words[0] if words else None).parse_args(words)
     try:
-        args.run(args)
+        run_command(args)
     except ModelerError as error:
         print(f"modeler: {error}", file=sys.stderr)
         return 1

@@ -1,9 +1,11 @@
 """What every command shares: results on stdout, JSON for machines, progress on stderr."""
 
+import argparse
+import io
 import json
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
 from typing import Any
 
@@ -12,21 +14,29 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from modeler.core.files import write_atomically
 
+Json = Any
+"""What a command returns for `--json`: dicts, lists, texts, numbers."""
+
 
 def say(text: str = "") -> None:
     """One result, on stdout."""
     print(text)
 
 
-def write_json(target: str | None, content: Any) -> None:
-    """`content` to the file that `--json` names; "-" is stdout."""
-    if target is None:
+def run_command(args: argparse.Namespace) -> None:
+    """Run the command of `args`, and write what it returns to the file that `--json` names.
+
+    "-" is stdout, which then carries the JSON alone.
+    """
+    with redirect_stdout(io.StringIO()) if args.json == "-" else nullcontext():
+        content = args.run(args)
+    if args.json is None:
         return
     text = json.dumps(content, indent=1, allow_nan=False) + "\n"
-    if target == "-":
+    if args.json == "-":
         sys.stdout.write(text)
     else:
-        write_atomically(Path(target), text)
+        write_atomically(Path(args.json), text)
 
 
 @contextmanager

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.api import Derivation, compile_model, derive, fit, generate, load, observe
 from modeler.base import grouping_matrix
 from modeler.base.render import as_text
-from modeler.cli.console import progress, say, working, write_json
+from modeler.cli.console import Json, progress, say, working
 from modeler.cli.fit import judged
 from modeler.cli.options import add_number
 from modeler.compare import verdict, write_pictures, write_report
@@ -36,7 +36,7 @@ def add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") ->
     parser.set_defaults(run=run_demo)
 
 
-def run_demo(args: argparse.Namespace) -> None:
+def run_demo(args: argparse.Namespace) -> Json:
     """Runs the chain and says what was found, step by step."""
     out = Path(args.out)
     robot = load(_ROBOT)
@@ -63,8 +63,8 @@ def run_demo(args: argparse.Namespace) -> None:
         say(sentence)
     page = write_report(out / "compare.html", comparison, lines)
     write_pictures(out / "pictures", comparison)
-    write_json(args.json, comparison.as_dict())
     say(f"\nopen {page} in a browser; pictures are in {out / 'pictures'}")
+    return comparison.as_dict()
 
 
 def _simulated(robot: Robot, out: Path, name: str, seed: int, duration: float) -> SimulatedLog:

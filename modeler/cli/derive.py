@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
-from modeler.cli.console import say, working, write_json
+from modeler.cli.console import Json, say, working
 from modeler.cli.robots import add_robot, robot_of
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation, derive, generate
@@ -66,7 +66,7 @@ def add_derive(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser.set_defaults(run=run_derive)
 
 
-def run_derive(args: argparse.Namespace) -> None:
+def run_derive(args: argparse.Namespace) -> Json:
     """Prints relations, proof, and for small robots the coefficients."""
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
@@ -74,9 +74,6 @@ def run_derive(args: argparse.Namespace) -> None:
         opinion = second_opinion(derivation)
     base = derivation.base
     result = as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
-    write_json(args.json, result)
-    if args.json == "-":
-        return
     counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
     say(f"{robot.name}: {robot.title}")
     say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
@@ -86,6 +83,7 @@ def run_derive(args: argparse.Namespace) -> None:
     say(proof_text(base.proof))
     say(f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque")
     _closed_forms(args, derivation)
+    return result
 
 
 def second_opinion(derivation: Derivation, samples: int = 50) -> float:
@@ -156,15 +154,12 @@ def add_generate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
     parser.set_defaults(run=run_generate)
 
 
-def run_generate(args: argparse.Namespace) -> None:
+def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation, args.out)
-    write_json(args.json, {"robot": robot.name, "folder": args.out, "files": sorted(emitted.files)})
-    if args.json == "-":
-        return
     say(f"{robot.name}: {derivation.base.rank} base parameters, written to {args.out}:")
     for name in sorted(emitted.files):
         say(f"  {name}")
@@ -173,3 +168,4 @@ def run_generate(args: argparse.Namespace) -> None:
             f"  {function.name}: {function.equation} ({function.additions} additions, "
             f"{function.multiplications} multiplications)"
         )
+    return {"robot": robot.name, "folder": args.out, "files": sorted(emitted.files)}

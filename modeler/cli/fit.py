@@ -1,11 +1,10 @@
 """`modeler fit ROBOT LOG... --out MODEL` and `modeler compare MODEL LOG...`."""
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
-from modeler.cli.console import say, working, write_json
+from modeler.cli.console import Json, say, working
 from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
@@ -74,6 +73,11 @@ def _add_processing(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--keep-saturated", action="store_true", help="use rows whose torque is stuck at its limit"
     )
+    group.add_argument(
+        "--keep-contradicted",
+        action="store_true",
+        help="use rows whose logged derivatives contradict the signals below them",
+    )
 
 
 def _add_load(parser: argparse.ArgumentParser) -> None:
@@ -99,39 +103,41 @@ def _processing(args: argparse.Namespace) -> Processing:
         derivatives=args.derivatives,
         low_speed=args.low_speed,
         keep_saturated=args.keep_saturated,
+        keep_contradicted=args.keep_contradicted,
     )
 
 
-def run_fit(args: argparse.Namespace) -> None:
+def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
+    _check_logs(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
     with working("building the observation matrix"):
-        _check_once(args.logs, args.payload_log)
         logs = read_logs(compiled, args.logs)
         loaded = read_logs(compiled, args.payload_log)
         observation = observe(compiled, [*logs, *loaded], _processing(args))
-    if args.payload_mass is not None and not loaded:
-        raise DataError("--payload-mass: no loaded log; name it with --payload-log LOG")
     if loaded:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
         result = identify(observation, args.method)
     save_model(args.out, identified(derivation, emitted, observation, result))
-    write_json(args.json, result.to_json())
-    if args.json == "-":
-        return
     for line in (*observation.report.summary(), "", *result.summary()):
         say(line)
     say(f"written: {args.out}")
+    return result.to_json()
 
 
-def _check_once(logs: Sequence[str], loaded: Sequence[str]) -> None:
-    """Refuse a log given twice, and a loaded log with the file name of a bare one."""
+def _check_logs(args: argparse.Namespace) -> None:
+    """Refuse a log given twice, a loaded log named like a bare one, a load without a log."""
+    logs, loaded = args.logs, args.payload_log
+    for option in ("payload_mass", "payload_link"):
+        if getattr(args, option) is not None and not loaded:
+            flag = "--" + option.replace("_", "-")
+            raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
     given = [*logs, *loaded]
     for place in given:
         if given.count(place) > 1:
@@ -170,27 +176,26 @@ def add_compare(commands: "argparse._SubParsersAction[argparse.ArgumentParser]")
     parser.set_defaults(run=run_compare)
 
 
-def run_compare(args: argparse.Namespace) -> None:
+def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
     model = load_model(args.model)
     with working("predicting"):
         compiled = model.compile() if args.run_embedded_c else recompile(model)
         comparison, lines = judged(model, args.logs, compiled)
-    write_json(args.json, comparison.as_dict())
-    if args.json != "-":
-        say(comparison.summary())
-        say()
-        for sentence in verdict(comparison):
-            say(sentence)
-        for line in lines:
-            if line.startswith(_TRAINING):
-                say(line)
+    say(comparison.summary())
+    say()
+    for sentence in verdict(comparison):
+        say(sentence)
+    for line in lines:
+        if line.startswith(_TRAINING):
+            say(line)
     if args.report is not None:
         place = write_report(Path(args.report), comparison, lines)
-        _written(args, str(place))
+        say(f"written: {place}")
     if args.pictures is not None:
         written = write_pictures(Path(args.pictures), comparison)
-        _written(args, f"{len(written)} files in {args.pictures}")
+        say(f"written: {len(written)} files in {args.pictures}")
+    return comparison.as_dict()
 
 
 def judged(
@@ -207,8 +212,3 @@ def judged(
     if overlap:
         lines.append(f"{_TRAINING}the model was fitted on {', '.join(overlap)}")
     return compare(prediction), lines + observation.report.summary()
-
-
-def _written(args: argparse.Namespace, what: str) -> None:
-    if args.json != "-":
-        say(f"written: {what}")

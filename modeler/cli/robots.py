@@ -2,7 +2,7 @@
 
 import argparse
 
-from modeler.cli.console import say, write_json
+from modeler.cli.console import Json, say
 from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
@@ -49,30 +49,26 @@ def add_robots(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser.set_defaults(run=run_robots)
 
 
-def run_robots(args: argparse.Namespace) -> None:
+def run_robots(args: argparse.Namespace) -> Json:
     """Prints the table of built-in robots, or one robot's file."""
     if args.show is not None:
-        say(read_robot(args.show).text.rstrip())
-        return
+        text = read_robot(args.show).text
+        say(text.rstrip())
+        return {"name": args.show, "text": text}
     robots = [read_robot(name) for name in builtin_names()]
-    write_json(
-        args.json,
-        [
-            {
-                "name": robot.name,
-                "title": robot.title,
-                "joints": [joint.name for joint in robot.moving],
-                "effects": [use.effect for use in robot.effects],
-            }
-            for robot in robots
-        ],
-    )
-    if args.json == "-":
-        return
     width = max(len(robot.name) for robot in robots)
     for robot in robots:
         effects = ", ".join(use.effect for use in robot.effects) or "rigid links only"
         say(f"{robot.name:<{width}}  {len(robot.moving)} joints  {robot.title} ({effects})")
+    return [
+        {
+            "name": robot.name,
+            "title": robot.title,
+            "joints": [joint.name for joint in robot.moving],
+            "effects": [use.effect for use in robot.effects],
+        }
+        for robot in robots
+    ]
 
 
 def add_effects(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -88,19 +84,17 @@ def add_effects(commands: "argparse._SubParsersAction[argparse.ArgumentParser]")
     parser.set_defaults(run=run_effects)
 
 
-def run_effects(args: argparse.Namespace) -> None:
+def run_effects(args: argparse.Namespace) -> Json:
     """Prints the catalogue, or one page of it."""
     chosen = CATALOGUE if args.effect is None else (_effect(args.effect),)
     facts = [_facts(effect) for effect in chosen]
-    write_json(args.json, facts)
-    if args.json == "-":
-        return
     for fact in facts:
         say(f"{fact['id']:<17} {fact['equation']:<36} {fact['title']}")
         if args.effect is not None:
             for name, value in fact.items():
                 if name not in ("id", "equation", "title"):
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
+    return facts
 
 
 def _effect(name: str) -> Effect:

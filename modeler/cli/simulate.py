@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from modeler.cli.console import progress, say, write_json
+from modeler.cli.console import Json, progress, say
 from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.simulate import (
@@ -50,7 +50,7 @@ def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
     parser.set_defaults(run=run_simulate)
 
 
-def run_simulate(args: argparse.Namespace) -> None:
+def run_simulate(args: argparse.Namespace) -> Json:
     """Simulates and writes the log."""
     check_suffix(Path(args.out))
     robot = robot_of(args)
@@ -67,15 +67,13 @@ def run_simulate(args: argparse.Namespace) -> None:
     write_log(Path(args.out), log)
     if args.truth is not None:
         write_truth(Path(args.truth), log)
-    facts = {
+    drawn = f", {len(log.truth.drawn)} parameters drawn" if log.truth.drawn else ""
+    say(f"{robot.name}: {len(log.time)} samples of {len(log.joints)} joints{drawn}")
+    say(f"written: {args.out}")
+    return {
         "robot": robot.name,
         "samples": len(log.time),
         "joints": list(log.joints),
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
     }
-    write_json(args.json, facts)
-    if args.json != "-":
-        drawn = f", {len(log.truth.drawn)} parameters drawn" if log.truth.drawn else ""
-        say(f"{robot.name}: {len(log.time)} samples of {len(log.joints)} joints{drawn}")
-        say(f"written: {args.out}")

@@ -200,8 +200,7 @@ def _joint(
     # The place of the variable last: a variable in the wrong column is told there, not as missing.
     order = sorted(_GEOMETRY, key=lambda column: column == _HOME.get(kind))
     cells = {
-        column: _cell(row, column, place.at(f"column {column}"), kinds, symbols)
-        for column in order
+        column: _cell(row, column, place.at(f"column {column}"), kinds, symbols) for column in order
     }
     return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
 

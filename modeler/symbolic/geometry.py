@@ -98,6 +98,18 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     """
     numbers = robot.symbol_values()
     symbols = _symbols(robot, numbers, at_nominal)
+    rows = _rows(robot, symbols, numbers)
+    gravity = tuple(_fold(entry, symbols) for entry in robot.gravity)
+    used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
+    return Geometry(
+        robot, tuple(rows), (gravity[0], gravity[1], gravity[2]),
+        {name: numbers[name] for name in numbers if name in used},
+    )  # fmt: skip
+
+
+def _rows(
+    robot: Robot, symbols: Mapping[str, sympy.Expr], numbers: Mapping[str, float]
+) -> list[Row]:
     rows: list[Row] = []
     places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
     index = 0
@@ -120,12 +132,7 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
             )
         )
         index += joint.moves
-    gravity = tuple(_fold(entry, symbols) for entry in robot.gravity)
-    used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
-    return Geometry(
-        robot, tuple(rows), (gravity[0], gravity[1], gravity[2]),
-        {name: numbers[name] for name in numbers if name in used},
-    )  # fmt: skip
+    return rows
 
 
 def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> dict[str, sympy.Expr]:
