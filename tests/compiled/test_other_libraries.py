@@ -1,0 +1,26 @@
+"""The compiled C against Pinocchio, without anything of ours in between."""
+
+import numpy as np
+import pytest
+
+from modeler.robot import read_robot
+from tests.modules import compiled
+
+ROBOTS = ("wrist", "puma560", "rx90", "panda", "scara", "sr400-tree")
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_standard_regressor_and_base_torque(name):
+    from tests.symbolic.oracles import pinocchio_regressor
+
+    robot, model = read_robot(name), compiled(name)
+    rng = np.random.default_rng(21)
+    q, qd, qdd = rng.uniform(-1.5, 1.5, (3, 20, len(robot.moving)))
+    theirs = pinocchio_regressor(robot, q, qd, qdd)
+    np.testing.assert_allclose(
+        model.regressor(q, qd, qdd), theirs, rtol=0, atol=1e-12 * np.abs(theirs).max()
+    )
+    chi = rng.normal(size=theirs.shape[2])
+    tau = model.inverse_dynamics(q, qd, qdd, model.base_parameters(chi))
+    expected = theirs @ chi
+    np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
