@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from modeler.effects import EnergyBlock
 from modeler.symbolic import StandardColumn
+from modeler.symbolic.model import exact
 
 Relation = dict[int, Fraction]
 """sum of coefficient * column = 0, by column."""
@@ -26,7 +27,7 @@ def _of_block(
     columns: Sequence[StandardColumn], block: EnergyBlock
 ) -> list[tuple[int, Mapping[int, Fraction]]]:
     return [
-        (place, {i: Fraction(repr(c)) for i, c in column.shaft.items()})
+        (place, {i: exact(c) for i, c in column.shaft.items()})
         for place, column in enumerate(columns)
         if column.column is not None and column.shaft and column.column.block is block
     ]

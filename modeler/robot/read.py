@@ -238,6 +238,12 @@ def _parameter_names(
                     f"{shown(names[parameter])}; choose another name"
                 )
             names[parameter] = name
+    for parameter, name in names.items():
+        if parameter.endswith("R") and parameter[:-1] in names:
+            raise place.at(f'[mdh] row "{name}"').error(
+                f"the name makes {parameter} a parameter, which is also how {parameter[:-1]} is "
+                "called when others group into it; choose a name that does not end in R"
+            )
     return tuple(names)
 
 

@@ -1,13 +1,12 @@
 """Tables on which a careless grouping is wrong and says that it is exact."""
 
-import numpy as np
 import pytest
 
 from modeler.base import base_parameters
-from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import relation_text
 from modeler.robot import robot_from_text
 from modeler.symbolic import derive_model
+from tests.base.ranks import seen
 
 SYMBOLS = "g = 9.81\nL = 0.4\nal = 0.3\nL1 = 0.1\nL2 = 0.2\nL3 = 0.3\n"
 
@@ -40,15 +39,6 @@ def P(j: int, a: object, **cells) -> dict:
 
 def F(j: str, a: object, **cells) -> dict:
     return {"j": j, "a": str(a), "sigma": 2} | cells
-
-
-def seen(model) -> int:
-    """Rank of the torques at random states: what any experiment could tell at most."""
-    states = random_states(model, 80, np.random.default_rng(11))
-    W = regressor_values(model, states).reshape(-1, len(model.columns))
-    W = W[:, np.linalg.norm(W, axis=0) > 1e-12 * np.linalg.norm(W)]
-    singular = np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
-    return int(np.sum(singular > 1e-9 * singular[0]))
 
 
 ALL = '[effects]\nrotor_inertia = "all"\nviscous = "all"\ncoulomb = "all"\noffset = "all"\n'
@@ -117,8 +107,11 @@ def test_numbers_stand_for_what_symbols_cannot_say():
 
 
 def test_general_twists_of_many_joints_end():
-    """Coefficients that would fill pages are given as numbers, in seconds."""
+    """Coefficients that would fill pages are given as numbers."""
     symbols = SYMBOLS + "".join(f"a{i} = {0.3 + 0.1 * i}\n" for i in range(1, 7))
     rows = [R(j, j - 1, alpha=f"a{j}", d="L", r="L1") for j in range(1, 7)]
-    base = base_parameters(model_of(rows, symbols=symbols))
+    model = model_of(rows, symbols=symbols)
+    base = base_parameters(model)
+    assert base.proof.kind == "numeric" and "more than" in base.proof.statement
+    assert base.rank == seen(model)
     assert base.proof.agreement < 1e-9

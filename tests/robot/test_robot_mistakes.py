@@ -346,3 +346,12 @@ def test_damaged_files_raise_nothing_but_robot_errors(seed):
         assert "\n" not in str(error)
     else:
         assert robot.moving
+
+
+def test_a_row_name_that_reads_like_a_grouped_parameter_is_refused():
+    text = (
+        'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "theta"]\n'
+        'rows = [["1", "q1"], ["1R", "q1R"]]'
+    )
+    with pytest.raises(RobotError, match=r'row "1R": the name makes XX1R a parameter, which is'):
+        robot_from_text(text, "rock.toml")
