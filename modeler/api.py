@@ -22,7 +22,7 @@ from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.contract import Emitted
-from modeler.core.errors import ManifestError
+from modeler.core.errors import DataError, ManifestError
 from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate
@@ -47,13 +47,18 @@ def read_logs(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list
 
 def _read(place: str | Path, compiled: CompiledModel) -> Log:
     path, at, times = str(place).rpartition("@")
-    start, colon, end = times.partition(":")
-    if not (at and colon) or Path(place).exists():
+    if not at or Path(place).exists():
         return read_log(place, compiled.spec)
+    start, colon, end = times.partition(":")
     try:
         span = tuple(float(side) if side else None for side in (start, end))
     except ValueError:
-        return read_log(place, compiled.spec)
+        span = ()
+    if not (colon and span):
+        raise DataError(
+            f"{place}: got @{times} after the file; expected @START:END in seconds, as in "
+            f"{path}@0:10, {path}@5: or {path}@:5"
+        )
     return window(read_log(path, compiled.spec), *span)
 
 

@@ -9,6 +9,7 @@ from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
 from modeler.cli.console import Json, say, working
 from modeler.cli.robots import add_robot, robot_of
+from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation, derive, generate
 from modeler.symbolic.lagrange import lagrange_model
@@ -106,15 +107,24 @@ def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
         say()
         say(_CLOSED_FORMS[args.format](closed_form(model, base)))
     if args.terms or (args.terms is None and small and args.format == "text"):
-        table = coefficient_table(model, base)
-        say()
-        say(_TABLES[args.format](table))
-        say()
-        for line in _facts(table):
+        # What was not asked for must not take away what was.
+        unasked = args.terms is None and args.report is None
+        try:
+            lines = _coefficients(derivation, args.format)
+        except ModelerError as error:
+            if not unasked:
+                raise
+            lines = ["", f"no coefficients: {error}"]
+        for line in lines:
             say(line)
     if args.report is not None:
         write_atomically(Path(args.report), terms_report(model, base))
         say(f"written: {args.report}")
+
+
+def _coefficients(derivation: Derivation, form: str) -> list[str]:
+    table = coefficient_table(derivation.model, derivation.base)
+    return ["", _TABLES[form](table), "", *_facts(table)]
 
 
 def _facts(table: CoefficientTable) -> list[str]:

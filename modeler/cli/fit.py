@@ -1,6 +1,7 @@
 """`modeler fit ROBOT LOG... --out MODEL` and `modeler compare MODEL LOG...`."""
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
@@ -19,11 +20,15 @@ from modeler.fit import (
     load_model,
     save_model,
 )
-from modeler.observation import Processing, observe
+from modeler.observation import Log, Processing, observe
+from modeler.observation.log import shared_rows
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
 _TRAINING = "training only: "
+
+Given = tuple[str, Log]
+"""A log and what the user typed for it."""
 
 
 def add_fit(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -109,7 +114,8 @@ def _processing(args: argparse.Namespace) -> Processing:
 
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
-    _check_logs(args)
+    _check_out(args)
+    _check_load(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
@@ -118,6 +124,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     with working("building the observation matrix"):
         logs = read_logs(compiled, args.logs)
         loaded = read_logs(compiled, args.payload_log)
+        _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
         observation = observe(compiled, [*logs, *loaded], _processing(args))
     if loaded:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
@@ -131,25 +138,43 @@ def run_fit(args: argparse.Namespace) -> Json:
     return result.to_json()
 
 
-def _check_logs(args: argparse.Namespace) -> None:
-    """Refuse a log given twice, a loaded log named like a bare one, a load without a log."""
-    logs, loaded = args.logs, args.payload_log
+def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
+    return list(zip(places, logs, strict=True))
+
+
+def _check_out(args: argparse.Namespace) -> None:
+    """A model never takes the place of a measurement."""
+    out = Path(args.out)
+    taken = {Path(place.rpartition("@")[0] or place).resolve() for place in args.logs}
+    if out.suffix.lower() in (".csv", ".parquet") or out.resolve() in taken:
+        raise DataError(
+            f"--out {args.out}: this is the name of a log; expected a model file, as in "
+            f"{out.with_suffix('.model.json').name}"
+        )
+
+
+def _check_load(args: argparse.Namespace) -> None:
     for option in ("payload_mass", "payload_link"):
-        if getattr(args, option) is not None and not loaded:
+        if getattr(args, option) is not None and not args.payload_log:
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
-    given = [*logs, *loaded]
-    for place in given:
-        if given.count(place) > 1:
+
+
+def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
+    """Refuse rows that are given twice, and a loaded log named like a bare one."""
+    given = [*bare, *loaded]
+    for index, (place, log) in enumerate(given):
+        for first, other in given[:index]:
+            if shared_rows(log, other.content, other.time[0], other.time[-1]):
+                raise DataError(
+                    f"{place}: got rows of {first} again; rows that repeat make every sigma too "
+                    "small; give each row once"
+                )
+    places = {log.name: place for place, log in bare}
+    for place, log in loaded:
+        if log.name in places:
             raise DataError(
-                f"{place}: got {given.count(place)} times; rows that repeat make every sigma too "
-                "small; give each log once"
-            )
-    bare = {Path(place).name: place for place in logs}
-    for place in loaded:
-        if Path(place).name in bare:
-            raise DataError(
-                f"{place}: carries the load, and {bare[Path(place).name]} has the same file name; "
+                f"{place}: carries the load, and {places[log.name]} has the same file name; "
                 "rename one, loads are assigned by name"
             )
 
@@ -202,13 +227,23 @@ def judged(
     model: IdentifiedModel, logs: list[str], compiled: CompiledModel
 ) -> tuple[Comparison, list[str]]:
     """The comparison on logs, and where everything came from, in lines."""
-    prediction, observation = predict(model, read_logs(compiled, logs), compiled)
+    read = read_logs(compiled, logs)
+    prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
     lines = [
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, {model.fit.method} least "
         f"squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
     ]
-    overlap = sorted({log.name for log in model.logs} & set(prediction.logs))
-    if overlap:
-        lines.append(f"{_TRAINING}the model was fitted on {', '.join(overlap)}")
-    return compare(prediction), lines + observation.report.summary()
+    return compare(prediction), lines + _training(model, read) + observation.report.summary()
+
+
+def _training(model: IdentifiedModel, logs: Sequence[Log]) -> list[str]:
+    """A line on the logs whose rows the model was fitted on, whatever the files are called."""
+    seen = []
+    for log in logs:
+        fitted = sorted({used.name for used in model.logs if used.shares_rows(log)})
+        if fitted == [log.name]:
+            seen.append(log.name)
+        elif fitted:
+            seen.append(f"{', '.join(fitted)}, which shares rows with {log.name}")
+    return [f"{_TRAINING}the model was fitted on {'; '.join(seen)}"] if seen else []

@@ -7,8 +7,9 @@ from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
 from modeler.robot.edit import with_effects
+from modeler.robot.place import near
 
-_KNOWN = ", ".join(effect.id for effect in CATALOGUE)
+_NAMES = tuple(effect.id for effect in CATALOGUE)
 
 
 def add_robot(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +32,10 @@ def robot_of(args: argparse.Namespace) -> Robot:
     wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
     unknown = [name for name in wanted if effect_named(name) is None]
     if unknown:
-        raise RobotError(f"--effects: got {unknown[0]}; expected some of {_KNOWN}")
+        raise RobotError(
+            f"--effects: got {unknown[0]}{near(unknown[0], _NAMES)}; expected some of "
+            f"{', '.join(_NAMES)}, with commas between"
+        )
     text = with_effects(robot.text, dict.fromkeys(wanted, "all"))
     return robot_from_text(text, f"{args.robot} with --effects")
 
@@ -100,7 +104,9 @@ def run_effects(args: argparse.Namespace) -> Json:
 def _effect(name: str) -> Effect:
     effect = effect_named(name)
     if effect is None:
-        raise RobotError(f"effects: got {name}; expected one of {_KNOWN}")
+        raise RobotError(
+            f"effects: got {name}{near(name, _NAMES)}; expected one of {', '.join(_NAMES)}"
+        )
     return effect
 
 

@@ -12,22 +12,38 @@ from modeler.core.contract import ModuleSpec, module_from_json
 from modeler.core.errors import ManifestError
 from modeler.core.files import write_atomically
 from modeler.fit.result import FitResult, fit_from_json
-from modeler.observation import DataReport, Processing
+from modeler.observation import DataReport, Log, Processing
+from modeler.observation.log import shared_rows
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
-FORMAT = 1
+FORMAT = 2
 KIND = "modeler model"
 
 
 @dataclass(frozen=True)
 class LogProvenance:
-    """A log the model was fitted on: its file name (no folder) and its rows."""
+    """A log the model was fitted on.
+
+    Attributes:
+        name: its file name, no folder.
+        rows: read.
+        samples: after decimation.
+        content: fingerprint of the whole file's measurements; it tells the file under any name.
+        start, end: s, first and last row that was used of it.
+    """
 
     name: str
     rows: int
     samples: int
+    content: str
+    start: float
+    end: float
+
+    def shares_rows(self, log: Log) -> bool:
+        """True if rows of `log` were fitted."""
+        return shared_rows(log, self.content, self.start, self.end)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +93,20 @@ class IdentifiedModel:
 
 def provenance(report: DataReport) -> tuple[LogProvenance, ...]:
     """Which logs went into an observation."""
-    return tuple(LogProvenance(log.name, log.rows, log.samples) for log in report.logs)
+    return tuple(
+        LogProvenance(log.name, log.rows, log.samples, log.content, *log.span)
+        for log in report.logs
+    )
+
+
+def _provenance_from_json(raw: Any) -> LogProvenance:
+    log = LogProvenance(**raw)
+    texts, numbers = (log.name, log.content), (log.rows, log.samples, log.start, log.end)
+    if not all(isinstance(value, str) for value in texts):
+        raise ValueError(f"log {log.name!r}: its name and content are texts")
+    if not all(isinstance(value, int | float) for value in numbers):
+        raise ValueError(f"log {log.name}: its rows, samples and times are numbers")
+    return log
 
 
 def save_model(path: str | Path, model: IdentifiedModel) -> None:
@@ -117,7 +146,7 @@ def load_model(path: str | Path) -> IdentifiedModel:
         )
     try:
         covariance = np.array(_entry(raw, "covariance", list, path), dtype=float)
-        logs = tuple(LogProvenance(**entry) for entry in _entry(raw, "logs", list, path))
+        logs = tuple(_provenance_from_json(entry) for entry in _entry(raw, "logs", list, path))
         fit = fit_from_json(_entry(raw, "fit", dict, path), covariance)
     except (TypeError, ValueError) as error:
         raise ManifestError(f"{path}: damaged ({error}); fit the model again") from None

@@ -1,5 +1,6 @@
 """A log: what one run of the robot left behind, before any processing."""
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -29,6 +30,8 @@ class Log:
         torque_source: where each joint's torque comes from, in words.
         missing: column -> rows without a finite value; only columns that have any.
         notes: doubtful but usable things seen while reading, one sentence each.
+        content: fingerprint of the whole file's measurements, whatever its name; a piece of the
+            log keeps it. Empty if the log came from no file.
     """
 
     name: str
@@ -44,6 +47,7 @@ class Log:
     torque_source: tuple[str, ...] = ()
     missing: Mapping[str, int] = field(default_factory=lambda: _NONE)
     notes: tuple[str, ...] = ()
+    content: str = ""
 
     @property
     def rows(self) -> int:
@@ -54,3 +58,24 @@ class Log:
     def step(self) -> float:
         """Median time step, s."""
         return float(np.median(np.diff(self.time)))
+
+
+def fingerprint(*measurements: np.ndarray) -> str:
+    """A text that equal arrays share and others do not: SHA-256 of their numbers, in hexadecimal.
+
+    The numbers and not the bytes of the file: a copy as CSV of a Parquet log is the same run.
+    """
+    content = hashlib.sha256()
+    for values in measurements:
+        # Adding 0 makes -0 into 0: writers differ there, and no fit does.
+        numbers = np.ascontiguousarray(values + 0.0, dtype="<f8")
+        numbers[np.isnan(numbers)] = np.nan
+        content.update(f"{numbers.shape}".encode())
+        content.update(numbers.tobytes())
+    return content.hexdigest()
+
+
+def shared_rows(log: Log, content: str, start: float, end: float) -> bool:
+    """True if `log` holds rows of the file with that fingerprint from `start` to `end`, s."""
+    same = log.content != "" and log.content == content
+    return same and bool(log.time[0] <= end and start <= log.time[-1])

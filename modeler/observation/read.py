@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.core.errors import DataError
-from modeler.observation.log import Log
+from modeler.observation.log import Log, fingerprint
 from modeler.observation.table import Table
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
@@ -49,6 +49,7 @@ def read_log(path: str | Path, spec: ModuleSpec) -> Log:
         torque_source=tuple(source for _, source in torques),
         missing=_missing(table, spec),
         notes=tuple(notes + _doubts(time, q, tau, spec)),
+        content=fingerprint(time, q, tau),
     )
     _check_measured(path, log, spec)
     return log

@@ -1,5 +1,6 @@
 """A Parquet or CSV file as named columns of floats, or a DataError that says what is wrong."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from modeler.core.errors import DataError
+from modeler.observation.csv_text import check_csv
 
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
@@ -20,7 +22,7 @@ class Table:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._table = _load(path)
-        self.names: tuple[str, ...] = tuple(name.strip() for name in self._table.column_names)
+        self.names: tuple[str, ...] = tuple(_bare(name) for name in self._table.column_names)
         self.rows: int = self._table.num_rows
         self._check()
 
@@ -30,11 +32,6 @@ class Table:
             raise DataError(
                 f"{self.path}: column {twice[0]} appears {self.names.count(twice[0])} times; "
                 "keep one of them"
-            )
-        if len(self.names) == 1 and any(mark in self.names[0] for mark in ";\t|"):
-            raise DataError(
-                f'{self.path}: the header "{self.names[0]}" is one column; expected columns '
-                "separated by commas; write the file again with commas"
             )
         if self.rows < LEAST_ROWS:
             raise DataError(
@@ -82,12 +79,25 @@ class Table:
                 except ValueError:
                     return (
                         f'{self.path}: column {name}, row {row}: got "{value}"; expected a '
-                        "number; correct it, or leave the entry empty if the measurement is missing"
+                        f"number{_with_point(value)}; correct it, or leave the entry empty if the "
+                        "measurement is missing"
                     )
         return (
             f"{self.path}: column {name} holds {column.type}; expected numbers; "
             "write the column as floating point"
         )
+
+
+def _with_point(value: str) -> str:
+    return " with a decimal point" if re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value) else ""
+
+
+def _bare(name: str) -> str:
+    """A column name without blanks and quotes around it: `"time", "q1"` leaves both."""
+    name = name.strip()
+    if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
+        name = name[1:-1].strip()
+    return name
 
 
 def _load(path: Path) -> pa.Table:
@@ -103,6 +113,7 @@ def _load(path: Path) -> pa.Table:
         raise DataError(f"{path}: the file is empty; record or copy it again")
     try:
         if suffix == ".csv":
+            check_csv(path)
             return pa.csv.read_csv(path)
         return pa.parquet.read_table(path)
     except (pa.ArrowException, OSError) as error:

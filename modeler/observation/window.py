@@ -12,10 +12,15 @@ def window(log: Log, start: float | None, end: float | None) -> Log:
     """The rows of `log` with start <= time < end, s; None leaves that side open.
 
     Raises:
-        DataError: no rows are left; says what times the log has.
+        DataError: the window ends before it starts, or no rows are left.
     """
     low = -np.inf if start is None else start
     high = np.inf if end is None else end
+    if high <= low:
+        raise DataError(
+            f"{log.name}: got the window {low:g}:{high:g}, which ends before it starts; expected "
+            "START:END in seconds, START first"
+        )
     rows = (log.time >= low) & (log.time < high)
     if not rows.any():
         raise DataError(

@@ -2,6 +2,7 @@
 
 import json
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -88,7 +89,7 @@ def test_effects_may_be_changed_for_a_run(capsys, tmp_path):
     counts = json.loads((tmp_path / "d.json").read_text())["counts"]
     assert counts == {"inertial": 36, "rotor_inertia": 0, "friction": 12, "offset": 0}
     status, _, err = run(capsys, "derive", "puma560", "--effects", "viscuous")
-    assert status == 1 and err.startswith("modeler: --effects: got viscuous; expected some of")
+    assert status == 1 and err.startswith("modeler: --effects: got viscuous (did you mean")
 
 
 def test_generate_writes_a_folder(capsys, tmp_path):
@@ -128,11 +129,42 @@ def test_fit_json_and_windows(capsys, arm):
     assert status == 0 and "a.parquet@4:" in out
 
 
+def training_lines(out: str) -> list[str]:
+    return [line for line in out.splitlines() if line.startswith("training only")]
+
+
 def test_comparing_with_the_training_log_is_told(capsys, arm, tmp_path):
     argv = ("compare", arm / "m.json", arm / "a.parquet", "--report", tmp_path / "p.html")
     _, out, _ = run(capsys, *argv)
-    assert "training only: the model was fitted on a.parquet\n" in out
+    assert training_lines(out) == ["training only: the model was fitted on a.parquet"]
     assert "training only: the model was fitted on a.parquet" in (tmp_path / "p.html").read_text()
+
+
+def test_training_rows_are_known_by_what_they_hold(capsys, arm, tmp_path):
+    renamed = shutil.copy(arm / "a.parquet", tmp_path / "other.parquet")
+    for place, name in (
+        (f"{arm / 'a.parquet'}@0:3", "a.parquet@0:3"),
+        (renamed, "other.parquet"),
+        (f"{renamed}@5:", "other.parquet@5:"),
+    ):
+        _, out, _ = run(capsys, "compare", arm / "m.json", place)
+        told = f"training only: the model was fitted on a.parquet, which shares rows with {name}"
+        assert training_lines(out) == [told]
+
+
+def test_a_log_that_is_only_called_like_a_training_log_is_not_one(capsys, arm, tmp_path):
+    namesake = shutil.copy(arm / "held.parquet", tmp_path / "a.parquet")
+    status, out, _ = run(capsys, "compare", arm / "m.json", namesake)
+    assert status == 0 and training_lines(out) == []
+
+
+def test_only_the_window_that_was_fitted_is_training(capsys, arm, tmp_path):
+    log = arm / "a.parquet"
+    assert run(capsys, "fit", "demo-arm", f"{log}@0:5", "--out", tmp_path / "m.json")[0] == 0
+    _, out, _ = run(capsys, "compare", tmp_path / "m.json", f"{log}@5:")
+    assert training_lines(out) == []
+    _, out, _ = run(capsys, "compare", tmp_path / "m.json", f"{log}@4:")
+    assert len(training_lines(out)) == 1
 
 
 def test_robots_and_effects(capsys):
@@ -178,19 +210,64 @@ def test_wrong_logs_are_told(capsys, arm, tmp_path):
     assert status == 1 and "--payload-mass: no loaded log" in err
 
 
-def test_a_log_counts_once(capsys, arm, tmp_path):
-    bare, again = arm / "a.parquet", tmp_path / "a.parquet"
-    status, _, err = run(capsys, "fit", "demo-arm", bare, bare, "--out", tmp_path / "m")
-    assert status == 1 and "a.parquet: got 2 times; rows that repeat" in err
-    argv = ("fit", "demo-arm", bare, arm / "b.parquet", "--payload-log", again)
+def test_a_row_counts_once(capsys, arm, tmp_path, monkeypatch):
+    monkeypatch.chdir(arm)
+    copy = shutil.copy("a.parquet", tmp_path / "copy.parquet")
+    for first, again in (
+        ("a.parquet", "a.parquet"),
+        ("a.parquet", "./a.parquet"),
+        ("a.parquet", "a.parquet@0:3"),
+        ("a.parquet@0:4", "a.parquet@3:"),
+        ("a.parquet", str(copy)),
+    ):
+        argv = ("fit", "demo-arm", "b.parquet", first, again, "--out", tmp_path / "m")
+        status, _, err = run(capsys, *argv)
+        assert status == 1 and f"{again}: got rows of {first} again; rows that repeat" in err
+    argv = ("fit", "demo-arm", "a.parquet", "--payload-log", "./a.parquet")
     status, _, err = run(capsys, *argv, "--out", tmp_path / "m")
-    assert status == 1 and "has the same file name; rename one" in err
+    assert status == 1 and "./a.parquet: got rows of a.parquet again" in err
+
+
+def test_bare_and_loaded_logs_have_names_of_their_own(capsys, arm, tmp_path):
+    loaded = shutil.copy(arm / "b.parquet", tmp_path / "a.parquet")
+    argv = ("fit", "demo-arm", arm / "a.parquet", "--payload-log", loaded)
+    status, _, err = run(capsys, *argv, "--out", tmp_path / "m")
+    assert status == 1 and f"{loaded}: carries the load, and {arm / 'a.parquet'} has" in err
 
 
 def test_effects_can_be_left_out_of_a_robot_with_values_for_them(capsys):
     status, out, err = run(capsys, "derive", "demo-arm", "--effects", "viscous", "--no-terms")
     assert (status, err) == (0, "")
     assert "Fv3" in out and "Fs3" not in out and "Off3" not in out and "Ia3" not in out
+
+
+NO_CLOSED_FORM = """\
+name = "arm"
+title = "second joint at a length that is no polynomial"
+gravity = ["-g", 0, 0]
+[symbols]
+g = 9.81
+L = 0.40
+[mdh]
+columns = ["j", "a", "sigma", "d", "theta"]
+rows = [
+          ["1", "0",  0,       0,  "q1"],
+          ["2", "1",  0, "sqrt(L)", "q2"],
+]
+"""
+
+
+def test_coefficients_that_nobody_asked_for_are_no_error(capsys, tmp_path):
+    path = tmp_path / "arm.toml"
+    path.write_text(NO_CLOSED_FORM)
+    status, out, err = run(capsys, "derive", path, "--json", tmp_path / "d.json")
+    assert (status, err) == (0, "")
+    assert "ZZ1R = " in out and "no coefficients: got sqrt(L) in the table; closed forms" in out
+    assert json.loads((tmp_path / "d.json").read_text())["robot"] == "arm"
+    for asked in (("--terms",), ("--report", tmp_path / "page.md")):
+        status, _, err = run(capsys, "derive", path, *asked)
+        assert status == 1 and err.startswith("modeler: got sqrt(L) in the table")
+    assert not (tmp_path / "page.md").exists()
 
 
 def test_the_c_in_a_model_file_runs_only_when_asked(capsys, arm, tmp_path):
@@ -217,6 +294,35 @@ def test_a_reader_that_stops_is_no_error():
     command = f"{shlex.quote(sys.executable)} -m modeler.cli derive wrist | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert done.stdout.startswith("wrist: ") and done.stderr == ""
+
+
+def test_a_measurement_is_never_overwritten(capsys, arm, tmp_path):
+    log = arm / "a.parquet"
+    before = log.read_bytes()
+    for out in (log, tmp_path / "model.csv"):
+        status, _, err = run(capsys, "fit", "demo-arm", log, "--out", out)
+        assert status == 1 and "this is the name of a log; expected a model file" in err
+    assert log.read_bytes() == before and not (tmp_path / "model.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("window", "piece"),
+    [
+        ("@5", "got @5 after the file; expected @START:END in seconds"),
+        ("@a:b", "got @a:b after the file"),
+        ("@5:2", "got the window 5:2, which ends before it starts"),
+    ],
+)
+def test_windows_that_are_none(capsys, arm, window, piece):
+    status, _, err = run(capsys, "compare", arm / "m.json", f"{arm / 'a.parquet'}{window}")
+    assert status == 1 and piece in err
+
+
+def test_misspelt_effects_are_guessed(capsys):
+    status, _, err = run(capsys, "derive", "scara", "--effects", "viscus")
+    assert status == 1 and 'did you mean "viscous"?' in err
+    status, _, err = run(capsys, "effects", "coulom")
+    assert status == 1 and 'did you mean "coulomb"?' in err
 
 
 def test_every_command_is_listed():
