@@ -229,6 +229,15 @@ void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *
  */
 void orthoglide_leg_tree_base_parameters(const double *chi, double *beta);
 
+/* Pose of the frame of every joint, as in the robot's table.
+ *
+ * x0 = R x + p with T = [R | p], for a point x of the frame
+ *
+ * q      6         joint positions [m or rad]
+ * T      6 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
+ */
+void orthoglide_leg_tree_forward_kinematics(const double *q, double *T);
+
 /* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
  *
  * q qd qdd  samples x 6

@@ -9,18 +9,18 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_g=9.81 */
-#ifndef ORTHOGLIDE_LEG_TREE_g
-#define ORTHOGLIDE_LEG_TREE_g 9.81
+/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81 */
+#ifndef ORTHOGLIDE_LEG_TREE_GEO_g
+#define ORTHOGLIDE_LEG_TREE_GEO_g 9.81
 #endif
-#ifndef ORTHOGLIDE_LEG_TREE_D4
-#define ORTHOGLIDE_LEG_TREE_D4 0.31
+#ifndef ORTHOGLIDE_LEG_TREE_GEO_D4
+#define ORTHOGLIDE_LEG_TREE_GEO_D4 0.31
 #endif
-#ifndef ORTHOGLIDE_LEG_TREE_b3
-#define ORTHOGLIDE_LEG_TREE_b3 (-0.04)
+#ifndef ORTHOGLIDE_LEG_TREE_GEO_b3
+#define ORTHOGLIDE_LEG_TREE_GEO_b3 (-0.04)
 #endif
-#ifndef ORTHOGLIDE_LEG_TREE_b7
-#define ORTHOGLIDE_LEG_TREE_b7 0.04
+#ifndef ORTHOGLIDE_LEG_TREE_GEO_b7
+#define ORTHOGLIDE_LEG_TREE_GEO_b7 0.04
 #endif
 
 /* Regressor of the base parameters.
@@ -142,8 +142,8 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[44] = t32*t75 + t37*t76;
     phi[45] = t76*(t1 - t23) - t28*t75;
     phi[46] = -(t75*(t1 - t34) + t33*t76);
-    const double t77 = t73 + ORTHOGLIDE_LEG_TREE_D4*t13;
-    const double t78 = ORTHOGLIDE_LEG_TREE_D4*c2;
+    const double t77 = t73 + ORTHOGLIDE_LEG_TREE_GEO_D4*t13;
+    const double t78 = ORTHOGLIDE_LEG_TREE_GEO_D4*c2;
     phi[48] = t32*t78 - t77*t76;
     phi[49] = t77*t75 - t37*t78;
     const double t79 = c4*t75;
@@ -159,10 +159,10 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t86 = t48 - t49;
     phi[53] = t86*t76 - (t79*t85 - t51*t80);
     phi[54] = t81 - t54*t79 + t43*t76;
-    const double t87 = ORTHOGLIDE_LEG_TREE_g*c2 + s2*t74;
-    const double t88 = t87 + ORTHOGLIDE_LEG_TREE_D4*t8;
-    const double t89 = c2*t74 - ORTHOGLIDE_LEG_TREE_g*s2;
-    const double t90 = t89 + ORTHOGLIDE_LEG_TREE_D4*t4;
+    const double t87 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t74;
+    const double t88 = t87 + ORTHOGLIDE_LEG_TREE_GEO_D4*t8;
+    const double t89 = c2*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
+    const double t90 = t89 + ORTHOGLIDE_LEG_TREE_GEO_D4*t4;
     const double t91 = c3*t88 + s3*t90;
     const double t92 = c3*t90 - s3*t88;
     const double t93 = c4*t77 - s4*t92;
@@ -192,8 +192,8 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t99 = t30 + t31;
     phi[78] = -t99;
     phi[79] = t25;
-    const double t100 = ORTHOGLIDE_LEG_TREE_D4*s3;
-    const double t101 = ORTHOGLIDE_LEG_TREE_D4*c3;
+    const double t100 = ORTHOGLIDE_LEG_TREE_GEO_D4*s3;
+    const double t101 = ORTHOGLIDE_LEG_TREE_GEO_D4*c3;
     phi[80] = t28*t101 - t23*t100 + t91;
     phi[81] = t92 - (t33*t100 + t34*t101);
     const double t102 = c4*t49;
@@ -239,8 +239,8 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[187] = -t70;
     phi[188] = -t65;
     phi[189] = qdd[5];
-    phi[190] = ORTHOGLIDE_LEG_TREE_g*c5 + s5*t74;
-    phi[191] = c5*t74 - ORTHOGLIDE_LEG_TREE_g*s5;
+    phi[190] = ORTHOGLIDE_LEG_TREE_GEO_g*c5 + s5*t74;
+    phi[191] = c5*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s5;
 }
 
 /* The entries of the base regressor that are not always 0.
@@ -359,8 +359,8 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     values[21] = t32*t75 + t37*t76;
     values[22] = t76*(t1 - t23) - t28*t75;
     values[23] = -(t75*(t1 - t34) + t33*t76);
-    const double t77 = t73 + ORTHOGLIDE_LEG_TREE_D4*t13;
-    const double t78 = ORTHOGLIDE_LEG_TREE_D4*c2;
+    const double t77 = t73 + ORTHOGLIDE_LEG_TREE_GEO_D4*t13;
+    const double t78 = ORTHOGLIDE_LEG_TREE_GEO_D4*c2;
     values[24] = t32*t78 - t77*t76;
     values[25] = t77*t75 - t37*t78;
     const double t79 = c4*t75;
@@ -376,10 +376,10 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     const double t86 = t48 - t49;
     values[29] = t86*t76 - (t79*t85 - t51*t80);
     values[30] = t81 - t54*t79 + t43*t76;
-    const double t87 = ORTHOGLIDE_LEG_TREE_g*c2 + s2*t74;
-    const double t88 = t87 + ORTHOGLIDE_LEG_TREE_D4*t8;
-    const double t89 = c2*t74 - ORTHOGLIDE_LEG_TREE_g*s2;
-    const double t90 = t89 + ORTHOGLIDE_LEG_TREE_D4*t4;
+    const double t87 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t74;
+    const double t88 = t87 + ORTHOGLIDE_LEG_TREE_GEO_D4*t8;
+    const double t89 = c2*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
+    const double t90 = t89 + ORTHOGLIDE_LEG_TREE_GEO_D4*t4;
     const double t91 = c3*t88 + s3*t90;
     const double t92 = c3*t90 - s3*t88;
     const double t93 = c4*t77 - s4*t92;
@@ -409,8 +409,8 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     const double t99 = t30 + t31;
     values[49] = -t99;
     values[50] = t25;
-    const double t100 = ORTHOGLIDE_LEG_TREE_D4*s3;
-    const double t101 = ORTHOGLIDE_LEG_TREE_D4*c3;
+    const double t100 = ORTHOGLIDE_LEG_TREE_GEO_D4*s3;
+    const double t101 = ORTHOGLIDE_LEG_TREE_GEO_D4*c3;
     values[51] = t28*t101 - t23*t100 + t91;
     values[52] = t92 - (t33*t100 + t34*t101);
     const double t102 = c4*t49;
@@ -456,6 +456,6 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     values[83] = -t70;
     values[84] = -t65;
     values[85] = qdd[5];
-    values[86] = ORTHOGLIDE_LEG_TREE_g*c5 + s5*t74;
-    values[87] = c5*t74 - ORTHOGLIDE_LEG_TREE_g*s5;
+    values[86] = ORTHOGLIDE_LEG_TREE_GEO_g*c5 + s5*t74;
+    values[87] = c5*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s5;
 }

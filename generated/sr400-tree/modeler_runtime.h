@@ -13,6 +13,7 @@ extern "C" {
 #endif
 
 /* An emitted function with so many inputs. */
+typedef void (*modeler_function_1)(const double *, double *);
 typedef void (*modeler_function_2)(const double *, const double *, double *);
 typedef void (*modeler_function_3)(const double *, const double *, const double *, double *);
 typedef void (*modeler_function_4)(const double *, const double *, const double *, const double *,
@@ -27,6 +28,8 @@ typedef struct {
 
 /* Call `function` once per sample; inputs in its order. The result of sample i is written at
  * out + i*out_step. */
+void modeler_batch_1(modeler_function_1 function, size_t samples, const modeler_input inputs[1],
+                     double *out, size_t out_step);
 void modeler_batch_2(modeler_function_2 function, size_t samples, const modeler_input inputs[2],
                      double *out, size_t out_step);
 void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_input inputs[3],

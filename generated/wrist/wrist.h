@@ -181,6 +181,15 @@ void wrist_friction(const double *qd, const double *beta, double *tau);
  */
 void wrist_base_parameters(const double *chi, double *beta);
 
+/* Pose of the frame of every joint, as in the robot's table.
+ *
+ * x0 = R x + p with T = [R | p], for a point x of the frame
+ *
+ * q      3         joint positions [rad]
+ * T      3 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
+ */
+void wrist_forward_kinematics(const double *q, double *T);
+
 /* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
  *
  * q qd qdd  samples x 3

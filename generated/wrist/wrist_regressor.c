@@ -9,15 +9,15 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DWRIST_g=9.81 */
-#ifndef WRIST_g
-#define WRIST_g 9.81
+/* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81 */
+#ifndef WRIST_GEO_g
+#define WRIST_GEO_g 9.81
 #endif
-#ifndef WRIST_al1
-#define WRIST_al1 0.2
+#ifndef WRIST_GEO_al1
+#define WRIST_GEO_al1 0.2
 #endif
-#ifndef WRIST_bl1
-#define WRIST_bl1 0.1
+#ifndef WRIST_GEO_bl1
+#define WRIST_GEO_bl1 0.1
 #endif
 
 /* Regressor of the standard parameters.
@@ -35,9 +35,9 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     modeler_sincos(q[2], &s2, &c2);
 
     phi[5] = qdd[0];
-    const double t1 = WRIST_g*s0;
+    const double t1 = WRIST_GEO_g*s0;
     phi[6] = -t1;
-    const double t2 = WRIST_g*c0;
+    const double t2 = WRIST_GEO_g*c0;
     phi[7] = -t2;
     const double t3 = qdd[0]*s1;
     const double t4 = qd[0]*c1;
@@ -96,13 +96,13 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[24] = t21*t42 - t43*t25 - c1*t44;
     phi[25] = t26 - t41 + c1*t37;
     const double t45 = s1*t2;
-    const double t46 = t45 + WRIST_bl1*t17;
-    const double t47 = t1 + WRIST_bl1*t12;
+    const double t46 = t45 + WRIST_GEO_bl1*t17;
+    const double t47 = t1 + WRIST_GEO_bl1*t12;
     const double t48 = c1*t2;
-    const double t49 = WRIST_bl1*t18;
+    const double t49 = WRIST_GEO_bl1*t18;
     const double t50 = t48 - t49;
     const double t51 = c2*t47 + s2*t50;
-    const double t52 = WRIST_bl1*s1;
+    const double t52 = WRIST_GEO_bl1*s1;
     const double t53 = s2*t52;
     const double t54 = c2*t52;
     phi[26] = t34*t53 - t38*t54 - (t46*t25 + c1*t51);
@@ -126,8 +126,8 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[53] = c2*t29 - t57;
     phi[54] = -(s2*t42 + c2*t43);
     phi[55] = t56 + t57;
-    const double t58 = WRIST_bl1*c2;
-    const double t59 = WRIST_bl1*s2;
+    const double t58 = WRIST_GEO_bl1*c2;
+    const double t59 = WRIST_GEO_bl1*s2;
     phi[56] = t34*t58 + t38*t59 - c2*t46;
     phi[57] = t43*t58 - t35*t59 + s2*t46;
     phi[58] = t49 - t50;

@@ -26,6 +26,7 @@ from modeler.core.errors import EmitError
 from modeler.symbolic import Expr, Graph
 
 _LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
+_LEAVES = ("num", "pi", "sym")  # nodes without arguments of their own
 _PAIR = {"sin": "s", "cos": "c"}
 _HOISTED = (*_PAIR, "tan", "exp", "tanh")
 
@@ -56,7 +57,7 @@ def make_block(outputs: Sequence[tuple[str, Expr]], places: Mapping[str, str]) -
 
     Args:
         outputs: (C place, value), e.g. ("phi[3]", ...); at least one, all of one graph.
-        places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_D4"}.
+        places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_GEO_D4"}.
 
     Raises:
         EmitError: a function or a symbol has no C form.
@@ -88,7 +89,7 @@ def _uses(graph: Graph, reachable: Sequence[int], values: Sequence[Expr]) -> dic
     uses = dict.fromkeys(reachable, 0)
     for index in reachable:
         node = graph.nodes[index]
-        if node.op not in ("num", "sym"):
+        if node.op not in _LEAVES:
             for arg in node.args:
                 uses[abs(arg)] += 1
     for value in values:
@@ -104,13 +105,13 @@ def _multiple(
     named = {i for i in reachable if uses[i] > 1}
     for index in reachable:
         node = graph.nodes[index]
-        if node.op in ("num", "sym"):
+        if node.op in _LEAVES:
             continue
         if not node.static:
             named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
         if node.op == "sign":
             named |= {abs(arg) for arg in node.args}
-    return {i for i in named if graph.nodes[i].op not in ("num", "sym")}
+    return {i for i in named if graph.nodes[i].op not in _LEAVES}
 
 
 @dataclass
@@ -158,7 +159,7 @@ class _Writer:
             if index in self.texts or index == 0:
                 continue
             node = self.graph.nodes[index]
-            if ready or node.op in ("num", "sym"):
+            if ready or node.op in _LEAVES:
                 self._write(index)
             else:
                 stack.append((index, True))
@@ -193,6 +194,8 @@ class _Writer:
 
     def _text(self, index: int) -> Text:
         text = self._combine(index)
+        if self.graph.nodes[index].op in _LEAVES:
+            return text  # nothing in it could get a name of its own
         while len(text.text) > _LONGEST:
             args = [abs(a) for a in self.graph.nodes[index].args]
             args = [a for a in args if self.texts[a].level != ATOM]
@@ -206,6 +209,8 @@ class _Writer:
         node = self.graph.nodes[index]
         if node.op == "num":
             return number_text(node.args[0])
+        if node.op == "pi":
+            return Text(PI, ATOM)
         if node.op == "sym":
             return Text(self._place(node.args[0]), ATOM)
         args = [self.texts[abs(arg)] for arg in node.args]
@@ -222,8 +227,6 @@ class _Writer:
         return call_text(node.op, argument)
 
     def _place(self, symbol: str) -> str:
-        if symbol == "pi":
-            return PI
         if symbol not in self.places:
             raise EmitError(f"symbol {symbol} has no place in the emitted function")
         return self.places[symbol]

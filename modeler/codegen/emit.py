@@ -10,6 +10,7 @@ from modeler.codegen.functions import Function, module_functions
 from modeler.codegen.manifest import module_spec
 from modeler.codegen.names import graph_places, module_prefix, symbol_macros
 from modeler.codegen.render import render
+from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.core.contract import MANIFEST, RUNTIME, Emitted, ModuleSpec
 from modeler.core.errors import EmitError
 from modeler.core.resources import resource_dir
@@ -45,13 +46,14 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
     prefix = module_prefix(model.robot.name)
-    macros = symbol_macros(prefix, model.geometry.values)
+    macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
     places = graph_places(model.geometry.joints, macros, parameters)
     blocks = [(f, _block(f, places)) for f in module_functions(model, base)]
     spec = module_spec(model, base, blocks)
-    values = _values(spec, macros, [_written(prefix, f, block) for f, block in blocks])
+    symbols = symbol_lines(model, base, macros)
+    values = _values(spec, symbols, [_written(prefix, f, block) for f, block in blocks])
     files = {
         f"{prefix}.h": render("module.h", **values),
         **{
@@ -91,14 +93,14 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     )
 
 
-def _values(spec: ModuleSpec, macros: dict[str, str], functions: list[_Written]) -> dict[str, Any]:
+def _values(spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written]) -> dict[str, Any]:
     standard, base = layout.parameter_lines(spec)
     return {
         "spec": spec,
         "prefix": spec.prefix,
         "macro": spec.prefix.upper(),
         "title": layout.comment_text(spec.title or spec.robot),
-        "symbols": layout.symbol_lines(spec, macros),
+        "symbols": symbols,
         "standard": standard,
         "base": base,
         "joints": ", ".join(joint.name for joint in spec.joints),

@@ -54,6 +54,7 @@ def module_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Functi
         *_regressors(model, base, given),
         *_dynamics(model, beta, given),
         _grouping(model, base, given),
+        _kinematics(model, given),
     )
 
 
@@ -160,6 +161,17 @@ def _grouping(model: SymbolicModel, base: BaseParameters, given: _Arguments) -> 
     return Function(
         "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
         "beta = K chi", (given.chi,), given.beta, _entries(values),
+    )  # fmt: skip
+
+
+def _kinematics(model: SymbolicModel, given: _Arguments) -> Function:
+    poses = model.forward_kinematics()
+    meaning = "poses [R | p] of the links' frames in frame 0"
+    return Function(
+        "", "forward_kinematics", "Pose of the frame of every joint, as in the robot's table.",
+        "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
+        ArgumentSpec("T", (len(poses), 3, 4), "1 | m", meaning),
+        _entries([value for pose in poses for row in pose for value in row]),
     )  # fmt: skip
 
 

@@ -5,7 +5,6 @@ from collections.abc import Iterable, Sequence
 
 from modeler.codegen.block import Block
 from modeler.codegen.functions import Function
-from modeler.codegen.printer import float_text
 from modeler.core.contract import ArgumentSpec, BaseSpec, ModuleSpec
 
 _WIDTH = 100
@@ -43,11 +42,6 @@ def comment_text(text: str) -> str:
     return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 
-def symbol_lines(spec: ModuleSpec, macros: dict[str, str]) -> list[tuple[str, str]]:
-    """(macro, value) of every geometric symbol."""
-    return [(macros[symbol.name], float_text(symbol.value)) for symbol in spec.symbols]
-
-
 def parameter_lines(spec: ModuleSpec) -> tuple[list[str], list[str]]:
     """Comment lines that say which column is which parameter: (standard, base)."""
     standard = [
@@ -74,11 +68,14 @@ def comment_line(text: str) -> str:
 
 def argument_lines(function: Function) -> list[str]:
     """Comment lines that say of every argument its length, order and unit."""
+    given = (*function.inputs, function.output)
+    lengths = [" x ".join(str(size) for size in argument.shape) for argument in given]
+    width = max(9, *(len(length) + 1 for length in lengths))
     lines = []
-    for argument in (*function.inputs, function.output):
-        length = " x ".join(str(size) for size in argument.shape)
+    for argument, length in zip(given, lengths, strict=True):
         order = ", row-major" if len(argument.shape) > 1 else ""
-        lines.append(f"{argument.name:<7}{length:<9}{argument.meaning}{order} [{argument.unit}]")
+        text = f"{argument.meaning}{order} [{argument.unit}]"
+        lines.append(f"{argument.name:<7}{length:<{width}}{text}")
     return lines
 
 
@@ -136,13 +133,11 @@ def output_size(argument: ArgumentSpec) -> int:
 
 
 def _unread(function: Function, block: Block | None) -> Iterable[str]:
+    """Names of the inputs of which no entry is read."""
     read = block.symbols if block else frozenset()
     for argument in function.inputs:
-        name = argument.name
-        if not any(s == f"{name}{i}" or s == f"{name}[{i}]"
-                   for i in range(argument.shape[0]) for s in (f"{name}{i}", f"{name}[{i}]")
-                   if s in read):  # fmt: skip
-            yield name
+        if read.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
+            yield argument.name
 
 
 def number_lines(numbers: Sequence[int]) -> list[str]:

@@ -85,10 +85,7 @@ def _base(model: SymbolicModel, parameter: BaseParameter) -> BaseSpec:
 
 
 def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
-    return float(model.graph.evaluate([model.algebra.static(coefficient)], {"pi": PI, **values})[0])
-
-
-PI = float(sympy.pi)
+    return float(model.graph.evaluate([model.algebra.static(coefficient)], values)[0])
 
 
 def _function(prefix: str, function: Function, block: Block | None) -> FunctionSpec:

@@ -5,26 +5,35 @@ from collections.abc import Iterable
 
 from modeler.core.errors import EmitError
 
-# Macros of the header, and its include guard.
-_TAKEN = {"JOINTS", "STANDARD_PARAMETERS", "BASE_PARAMETERS", "NONZEROS", "H"}
+# Headers of C99: a file of that name beside the code would stand in their place.
+_HEADERS = (
+    "assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits",
+    "locale", "math", "setjmp", "signal", "stdarg", "stdbool", "stddef", "stdint", "stdio",
+    "stdlib", "string", "tgmath", "time", "wchar", "wctype",
+)  # fmt: skip
 
 
 def module_prefix(robot: str) -> str:
     """Start of all C names of a robot: `sr400-tree` -> `sr400_tree`, `3rrr` -> `robot_3rrr`.
 
     Raises:
-        EmitError: the name would clash with the runtime's.
+        EmitError: the name would clash with the runtime's, or with a header of C.
     """
     prefix = re.sub(r"[^A-Za-z0-9_]+", "_", robot).strip("_").lower() or "robot"
     if prefix[0].isdigit():
         prefix = f"robot_{prefix}"
     if prefix == "modeler" or prefix.startswith("modeler_"):
         raise EmitError(f'name "{robot}": names that start with modeler_ are taken; choose another')
+    if prefix in _HEADERS:
+        raise EmitError(f'name "{robot}": {prefix}.h is a header of C; choose another')
     return prefix
 
 
 def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
-    """{geometric symbol: macro}, spelled as in the table: D4 -> PUMA560_D4, al1 -> WRIST_al1.
+    """{geometric symbol: macro}, spelled as in the table: D4 -> PUMA560_GEO_D4.
+
+    The `GEO` keeps them apart from macros of the header (PUMA560_JOINTS) and of <math.h>: robot
+    `fp` with a symbol `NAN` would define FP_NAN.
 
     Raises:
         EmitError: a symbol is not a C name.
@@ -35,9 +44,7 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
             raise EmitError(
                 f"symbol {symbol} has letters that C names cannot have; use a-z, A-Z, 0-9 and _"
             )
-        macros[symbol] = f"{prefix.upper()}_{symbol}" + ("_" if symbol in _TAKEN else "")
-    if len(set(macros.values())) < len(macros):
-        raise EmitError(f"symbols {', '.join(macros)} do not get different names in C; rename one")
+        macros[symbol] = f"{prefix.upper()}_GEO_{symbol}"
     return macros
 
 

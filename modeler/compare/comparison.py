@@ -48,7 +48,7 @@ class Comparison:
 
     prediction: Prediction
     samples: int  # rows that count for at least one joint
-    relative_error: float  # over all joints, rows stacked as they are (N m and N together)
+    relative_error: float  # over all joints, rows stacked (N m and N together); NaN: no torque
     joints: tuple[JointComparison, ...]
     unjudged: tuple[tuple[str, str], ...]  # joint name, why
 
@@ -58,7 +58,7 @@ class Comparison:
             "robot": self.prediction.robot,
             "logs": list(self.prediction.logs),
             "samples": self.samples,
-            "relative_error": self.relative_error,
+            "relative_error": _defined(self.relative_error),
             "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
             "unjudged": dict(self.unjudged),
         }
@@ -79,10 +79,12 @@ class Comparison:
             lines.append(
                 f"{item.joint.name:<6}{item.relative_error:>7.1%} "
                 f"{item.rms:>8.3g} {unit:<4}{item.largest.value:>8.3g} {unit:<4}  {moment:<28}"
-                f"{item.r2:>6.3f} {item.bias:>8.2g} {unit}"
+                f"{_or_dash(item.r2, '.3f'):>6} {item.bias:>8.2g} {unit}"
             )
         lines += [f"{name:<6}not judged: {reason}" for name, reason in self.unjudged]
-        lines.append(f"{'all':<6}{self.relative_error:>7.1%}  of {self.samples} samples")
+        lines.append(
+            f"{'all':<6}{_or_dash(self.relative_error, '.1%'):>7}  of {self.samples} samples"
+        )
         return "\n".join(line.rstrip() for line in lines)
 
 
@@ -146,13 +148,21 @@ def _compare_joint(prediction: Prediction, index: int, e: np.ndarray) -> JointCo
     )
 
 
+def _defined(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _or_dash(value: float, form: str) -> str:
+    return format(value, form) if math.isfinite(value) else "-"
+
+
 def _joint_dict(item: JointComparison) -> dict[str, Any]:
     found, colour = item.structure, item.spectrum
     return {
         "relative_error": item.relative_error,
         "rms": item.rms,
         "max": item.largest.value,
-        "r2": None if math.isnan(item.r2) else item.r2,
+        "r2": _defined(item.r2),
         "max_at": {"log": item.largest.log, "time": item.largest.time},
         "unit": item.joint.effort_unit,
         "samples": item.samples,
@@ -170,7 +180,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
         if colour is None
         else {
             "memory": colour.memory,
-            "lag_one": float(colour.correlation[1]),
+            "lag_one": _defined(float(colour.correlation[1])),
             "peak": colour.peak,
             "peak_share": colour.peak_share,
         },

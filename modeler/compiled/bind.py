@@ -14,11 +14,13 @@ from modeler.core.errors import BuildError, ManifestError
 FUNCTIONS = {
     "regressor": 3, "base_regressor": 3, "base_regressor_nonzeros": 3, "inverse_dynamics": 4,
     "inertia_matrix": 2, "gravity": 2, "coriolis": 3, "friction": 2, "base_parameters": 1,
+    "forward_kinematics": 1,
 }  # fmt: skip
 """Functions that every module has, and how many inputs they read."""
 
 _RUNTIME = """
 typedef struct { const double *data; size_t step; } modeler_input;
+void modeler_batch_1(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_2(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_3(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_4(void *, size_t, const modeler_input *, double *, size_t);
@@ -40,7 +42,6 @@ class Library:
             ManifestError: it was emitted with another manifest.
         """
         self.spec = spec
-        _check_names(spec)
         self._ffi = cffi.FFI()
         self._ffi.cdef(_RUNTIME + _declarations(spec))
         try:
@@ -73,11 +74,11 @@ class Library:
         """Call `function` for every sample.
 
         Args:
-            function: of the manifest, with 2, 3 or 4 inputs.
+            function: of the manifest, with 1 to 4 inputs.
             inputs: C-contiguous float64; (n, length) per sample, or (length,) the same for all.
             out: C-contiguous float64, (n, ...).
         """
-        assert len(inputs) == len(function.inputs) and len(inputs) in (2, 3, 4)
+        assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4)
         given = self._ffi.new("modeler_input[]", len(inputs))
         for place, array in zip(given, inputs, strict=True):
             assert array.flags.c_contiguous and array.dtype == np.float64
@@ -103,8 +104,14 @@ class Library:
         return self._ffi.cast("double *", array.ctypes.data)
 
 
-def _check_names(spec: ModuleSpec) -> None:
-    """Refuse manifests whose functions could not be declared, or that lack one."""
+def check_names(spec: ModuleSpec) -> None:
+    """Refuse manifests whose functions could not be declared, or that lack one.
+
+    Files are named after the prefix, so this comes before any is read or written.
+
+    Raises:
+        ManifestError: a name is no C name, or a function is missing.
+    """
     inputs = {function.name: len(function.inputs) for function in spec.functions}
     for name in (spec.prefix, *inputs):
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.compiled.bind import Library
+from modeler.compiled.bind import Library, check_names
 from modeler.compiled.build import build_library
 from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
@@ -76,6 +76,13 @@ class CompiledModel:
         """f(qd), (n, joints): all effects but rotor inertias, offsets included."""
         return self._evaluate("friction", {"qd": qd}, beta)
 
+    def forward_kinematics(self, q: Any) -> np.ndarray:
+        """[R | p] of the frame of every joint in frame 0, (n, joints, 3, 4); p in m.
+
+        Columns of R are the frame's axes: a point x of frame j stands at R x + p.
+        """
+        return self._evaluate("forward_kinematics", {"q": q})
+
     def base_parameters(self, chi: Any) -> np.ndarray:
         """Beta, (c,), from chi, (p,), by the grouping relations."""
         function = self._functions["base_parameters"]
@@ -108,9 +115,11 @@ def load(spec: ModuleSpec, files: Mapping[str, str]) -> CompiledModel:
         files: {file name: text} with at least `spec.sources`; others are not looked at.
 
     Raises:
-        ManifestError: a file is missing, or the code belongs to another manifest.
+        ManifestError: a file is missing, a name of the manifest is no C name, or the code belongs
+            to another manifest.
         BuildError: no compiler, or it refused.
     """
+    check_names(spec)
     missing = [name for name in spec.sources if name not in files]
     if missing:
         raise ManifestError(
@@ -134,6 +143,7 @@ def load_folder(folder: Path | str) -> CompiledModel:
             f"{folder}: no {MANIFEST}; expected a folder that `modeler generate` wrote"
         )
     spec = module_from_json(manifest.read_text("utf-8"), str(manifest))
+    check_names(spec)
     files = {
         name: (folder / name).read_text("utf-8")
         for name in spec.sources

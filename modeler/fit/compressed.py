@@ -16,11 +16,13 @@ class Compressed:
         names: (c,) columns.
         triangles: (n, c + 1, c + 1).
         rows: (n,) rows of each joint.
+        free: (n,) True for joints without a motor, whose torque is 0 by definition.
     """
 
     names: tuple[str, ...]
     triangles: np.ndarray
     rows: np.ndarray
+    free: np.ndarray
 
     def residual_norms(self, beta: np.ndarray) -> np.ndarray:
         """(n,) ||y_j - W_j beta||, N m or N."""
@@ -42,6 +44,7 @@ class Compressed:
             tuple(self.names[i] for i in kept),
             self.triangles[:, :, [*kept, len(self.names)]],
             self.rows,
+            self.free,
         )
 
 
@@ -51,7 +54,12 @@ def triangle(matrix: np.ndarray) -> np.ndarray:
 
 
 def compress(
-    W: np.ndarray, y: np.ndarray, joint: np.ndarray, joints: int, names: Sequence[str]
+    W: np.ndarray,
+    y: np.ndarray,
+    joint: np.ndarray,
+    joints: int,
+    names: Sequence[str],
+    free: Sequence[int] = (),
 ) -> Compressed:
     """Compress y = W beta.
 
@@ -61,6 +69,7 @@ def compress(
         joint: (rows,) index of the joint of each row.
         joints: number of joints.
         names: (c,).
+        free: indices of the joints without a motor.
     """
     size = W.shape[1] + 1
     assert W.shape == (len(y), len(names)) and np.isfinite(W).all() and np.isfinite(y).all()
@@ -70,4 +79,5 @@ def compress(
         if own.any():
             own_triangle = triangle(np.column_stack([W[own], y[own]]))
             triangles[j, : len(own_triangle)] = own_triangle
-    return Compressed(tuple(names), triangles, np.bincount(joint, minlength=joints))
+    rows = np.bincount(joint, minlength=joints)
+    return Compressed(tuple(names), triangles, rows, np.isin(np.arange(joints), free))

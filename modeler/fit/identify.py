@@ -1,10 +1,12 @@
 """From an observation to a fitted model."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.fit.coloured import coloured
 from modeler.fit.compressed import Compressed, compress
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.least_squares import MAX_ITERATIONS, Estimate, Method, least_squares
@@ -41,7 +43,7 @@ def identify(observation: Observation, method: Method = "weighted") -> FitResult
         method: "weighted" (per joint, iterated) or "ordinary".
 
     Raises:
-        DataError: fewer rows than parameters.
+        DataError: fewer rows than parameters, or no torque at all.
     """
     return fit_equations(observation, base_equations(observation), method)
 
@@ -60,35 +62,78 @@ def fit_equations(observation: Observation, equations: Equations, method: Method
         method: as for `identify`.
 
     Raises:
-        DataError: fewer rows than parameters.
+        DataError: fewer rows than parameters, or no torque at all.
     """
-    _check_enough_rows(observation, equations)
-    joints, count = len(observation.joints), len(observation.names)
-    data = compress(equations.W, equations.y, observation.row_joint, joints, equations.names)
+    dead = dead_joints(observation)
+    alive = ~np.isin(observation.row_joint, dead)
+    _check_enough_rows(observation, equations, int(alive.sum()))
+    data = _compressed(observation, equations, alive)
+    count = len(observation.names)
     estimate = least_squares(data, method)
     essential = essential_parameters(data, estimate, method)
-    every = _parameters(estimate, essential, equations)
+    colour = coloured(observation, equations.W, equations.y, alive, estimate)
+    covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
+    every = _parameters(estimate, essential, equations, np.sqrt(np.diag(covariance)))
     return FitResult(
         robot=observation.robot,
         method=method,
         status=_status(estimate),
         samples=len(observation.time),
-        rows=len(equations.y),
+        rows=int(alive.sum()),
         condition_number=estimate.condition_number,
         condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before,
         essential_error=essential.error_after,
         joints=_joints(observation, data, estimate),
         parameters=every[:count],
-        covariance=estimate.covariance[:count, :count],
+        covariance=covariance[:count, :count],
         loads=every[count:],
-        sentences=(*equations.sentences, *_sentences(estimate, essential)),
+        sentences=(*equations.sentences, *_dead_sentences(observation, dead),
+                   *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
+    )  # fmt: skip
+
+
+def _compressed(observation: Observation, equations: Equations, alive: np.ndarray) -> Compressed:
+    return compress(
+        equations.W[alive],
+        equations.y[alive],
+        observation.row_joint[alive],
+        len(observation.joints),
+        equations.names,
+        [j for j, joint in enumerate(observation.joints) if not joint.actuated],
     )
 
 
-def _check_enough_rows(observation: Observation, equations: Equations) -> None:
-    rows, columns = equations.W.shape
+def dead_joints(observation: Observation) -> list[int]:
+    """Indices of the joints that have a motor and a torque of 0 in all their rows.
+
+    0 = W_j beta from a channel that is not connected would pull all of beta to 0.
+
+    Raises:
+        DataError: no joint has a torque.
+    """
+    driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    seen = [j for j in driven if observation.used[:, j].any()]
+    dead = [j for j in seen if not observation.torque[observation.used[:, j], j].any()]
+    if len(dead) == len(seen):
+        raise DataError(
+            f"{', '.join(observation.logs)}: the torque of every joint with a motor is 0 in all "
+            "rows that are used; expected joint torques; check the recording, or take another part"
+        )
+    return dead
+
+
+def _dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+    return [
+        f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
+        "used; is it connected? if it has no motor, mark it passive in the robot file (mu = 0)"
+        for j in dead
+    ]
+
+
+def _check_enough_rows(observation: Observation, equations: Equations, rows: int) -> None:
+    columns = equations.W.shape[1]
     if rows < columns:
         raise DataError(
             f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
@@ -97,10 +142,9 @@ def _check_enough_rows(observation: Observation, equations: Equations) -> None:
 
 
 def _parameters(
-    estimate: Estimate, essential: Essential, equations: Equations
+    estimate: Estimate, essential: Essential, equations: Equations, sigma: np.ndarray
 ) -> tuple[ParameterEstimate, ...]:
     kept, needed = set(estimate.rank.kept), set(essential.names)
-    sigma = np.sqrt(np.diag(estimate.covariance))
     return tuple(
         ParameterEstimate(
             name=name,

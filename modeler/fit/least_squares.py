@@ -53,27 +53,31 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
     sigma_j^2 = ||r_j||^2 / (rows_j - h_j), h_j the parameters that joint j's rows determine
     (trace of its part of the hat matrix; the h_j sum to the number of parameters).
 
+    Rows 0 = W_j beta of a joint without a motor would be satisfied by beta = 0 and by their own
+    weight drive the iteration there. Their sigma is at least as large, beside the torques that
+    cancel in them, as the others' beside the torques that are measured.
+
     Args:
         data: compressed rows.
         method: which weights.
     """
-    scale = _floor(data)
-    rank = independent_columns(data.whole(np.maximum(_rms(data), scale))[:, :-1], data.names)
+    sigma = np.ones(len(data.rows))  # what rows tell apart does not depend on their torques
+    rank = independent_columns(data.whole(sigma)[:, :-1], data.names)
     kept = np.asarray(rank.kept, dtype=int)
     degrees = max(1, int(data.rows.sum()) - len(kept))
-    sigma = np.ones(len(data.rows))
     beta, covariance = _solve(data, kept, sigma)
     common = np.sqrt(np.sum(data.residual_norms(beta) ** 2) / degrees)
     iterations, settled = 0, True
     if method == "ordinary":
-        sigma = np.full(len(data.rows), max(common, scale.max()))
+        sigma = np.full(len(data.rows), max(common, _floor(data).max()))
         covariance = covariance * sigma[0] ** 2
     else:
-        sigma = np.maximum(_spread(data, beta, covariance, sigma), scale)
+        cancelling = _cancelling(data, beta)
+        sigma = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
         settled = False
         while not settled and iterations < MAX_ITERATIONS:
             beta, covariance = _solve(data, kept, sigma)
-            updated = np.maximum(_spread(data, beta, covariance, sigma), scale)
+            updated = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
             settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
             sigma, iterations = updated, iterations + 1
     raw, scaled = _conditions(data, kept)
@@ -101,6 +105,23 @@ def _floor(data: Compressed) -> np.ndarray:
     """Smallest sigma: exact data would otherwise divide by zero."""
     rms = _rms(data)
     return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
+
+
+def _cancelling(data: Compressed, beta: np.ndarray) -> np.ndarray:
+    """(n,) rms size of the terms of W_j beta, sqrt(sum_c ||W_jc beta_c||^2 / rows_j)."""
+    terms = np.linalg.norm(data.triangles[:, :, :-1] * beta, axis=(1, 2))
+    return np.asarray(terms / np.sqrt(np.maximum(data.rows, 1)))
+
+
+def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np.ndarray:
+    """(n,) sigma from the spread of the residuals, kept away from 0."""
+    sigma = np.maximum(spread, _floor(data))
+    rms = _rms(data)
+    driven = ~data.free & (rms > 0.0)
+    if driven.any():
+        error = float(np.sqrt(np.mean((sigma[driven] / rms[driven]) ** 2)))
+        sigma = np.where(data.free, np.maximum(sigma, error * cancelling), sigma)
+    return sigma
 
 
 def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

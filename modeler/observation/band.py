@@ -8,6 +8,7 @@ import numpy as np
 from modeler.observation.motion import HIGHEST
 from modeler.observation.processing import Processing
 from modeler.observation.segments import Piece
+from modeler.observation.weighted_median import weighted_median
 
 SHARE = 0.99
 """The motion band holds this share of the energy of the velocity."""
@@ -58,7 +59,7 @@ def choose_cutoffs(
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
     bands = np.array([motion_band(piece) for piece in pieces])
-    band = _weighted_median(bands, lengths)
+    band = weighted_median(bands, lengths)
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
     said = [f"motion band {band:.3g} Hz (99 % of the velocity's energy), sampled at {rate:.4g} Hz"]
     position = processing.position_cutoff
@@ -87,12 +88,6 @@ def choose_cutoffs(
         )
     chosen = dataclasses.replace(processing, position_cutoff=position, parallel_cutoff=parallel)
     return chosen, tuple(said)
-
-
-def _weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
-    order = np.argsort(values)
-    total = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(total, 0.5 * total[-1])])
 
 
 def _two_digits(value: float) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.observation.log import Log
 from modeler.observation.segments import Piece
+from modeler.observation.weighted_median import weighted_median
 
 SCATTERS = 8.0
 """A disagreement counts above this many robust standard deviations of all disagreements ..."""
@@ -178,7 +179,7 @@ def _delay(pieces: Sequence[Piece], column: Column, lower: str, cutoff: float) -
         there = slope != 0.0
         if not there.any():
             return 0.0
-        delay += _weighted_median(-error[there] / slope[there], np.abs(slope[there]))
+        delay += weighted_median(-error[there] / slope[there], np.abs(slope[there]))
     after = float(np.sum(np.abs(error)))
     told = abs(delay) >= _TOLD * pieces[0].step and after <= 0.5 * before
     return delay if told else 0.0
@@ -276,7 +277,7 @@ def _misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
 
 def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
     there = quotient != 0.0
-    return _weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
+    return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
 
 
 def _size(values: np.ndarray) -> np.ndarray:
@@ -296,12 +297,6 @@ def _resolution(values: np.ndarray) -> float:
     gaps = np.diff(levels)
     gaps = gaps[gaps > 1e-9 * np.max(np.abs(levels))]
     return float(gaps.min()) if gaps.size else 0.0
-
-
-def _weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
-    order = np.argsort(values)
-    total = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(total, 0.5 * total[-1])])
 
 
 def _delay_sentence(column: str, lower: str, delay: float, step: float) -> str:

@@ -7,14 +7,23 @@ import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 from modeler.observation.processing import Processing
-from modeler.observation.segments import Piece
+from modeler.observation.segments import SHORT, Piece, longer_runs
 
 HIGHEST = 0.4
 """A cut-off is at most this share of the sampling rate: above, Butterworth has no room to fall."""
 
+_SHORT_PERIODS = 0.4  # of the cut-off: a shorter bridge follows the motion that passes the filter
+
 # The slowest poles fade as exp(-2.4 t cutoff): after 2.5 periods, 0.5 % of the kink in the
 # acceleration that the extension beyond the ends makes is left (1.5 periods: 3 %).
 _EDGE_PERIODS = 2.5
+
+
+EDGE = "lie within the start-up of the position filter at the ends of a piece"
+MISSING = "have no measured position or torque"
+BRIDGES = "lie beside missing positions, as near as the position filter reaches"
+CONTRADICTED = "have impossible derivatives, or lie as near to them as the position filter reaches"
+SATURATED = "have a torque at its limit"
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +39,7 @@ class Segment:
         extra: further columns of the log, (n,).
         whole: (n,) False within the edge of the position filter.
         valid: (n, joints) True where the torque is a measurement that counts.
+        lost: why the others do not count, samples (joints,) by cause; the first cause that applies.
     """
 
     run: int
@@ -42,6 +52,7 @@ class Segment:
     extra: Mapping[str, np.ndarray]
     whole: np.ndarray
     valid: np.ndarray
+    lost: Mapping[str, np.ndarray]
 
     @property
     def samples(self) -> int:
@@ -80,15 +91,41 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     whole = np.ones(len(piece.time), dtype=bool)
     if edge:
         whole[:edge] = whole[-edge:] = False
-    valid = piece.valid if processing.keep_saturated else piece.valid & ~piece.clipped
-    if edge and piece.bridged.any():
-        # The bend of a bridge reaches as far as the start-up of the filter.
-        near = np.convolve(piece.bridged, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5
-        valid = valid & ~near[:, None]
+    valid, lost = _counted(piece, whole, edge, cutoff, processing.keep_saturated)
     return Segment(
-        piece.run, piece.time, piece.step, q, qd, qdd, piece.tau, piece.extra, whole,
-        valid & whole[:, None],
-    )  # fmt: skip
+        piece.run, piece.time, piece.step, q, qd, qdd, piece.tau, piece.extra, whole, valid, lost
+    )
+
+
+def _counted(
+    piece: Piece, whole: np.ndarray, edge: int, cutoff: float, keep_saturated: bool
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """(n, joints) samples that count, and how many do not for which cause.
+
+    The bend of a bridge, or of a wrong velocity, reaches as far as the start-up of the filter; a
+    few missing samples that take less than 0.4 periods of the cut-off leave no bend.
+    """
+    few = min(SHORT, int(_SHORT_PERIODS / (cutoff * piece.step)) - 1) if cutoff else 0
+    bent = longer_runs(piece.bridged, few) if few > 0 else piece.bridged
+    causes = {
+        EDGE: ~whole[:, None],
+        MISSING: piece.bridged[:, None] | ~piece.valid,
+        BRIDGES: _near(bent, edge)[:, None],
+        CONTRADICTED: _near(piece.contradicted, edge)[:, None],
+        SATURATED: piece.clipped & (not keep_saturated),
+    }
+    valid = np.ones(piece.valid.shape, dtype=bool)
+    lost = {}
+    for cause, flags in causes.items():
+        lost[cause] = np.sum(valid & flags, axis=0)
+        valid = valid & ~flags
+    return valid, lost
+
+
+def _near(flags: np.ndarray, edge: int) -> np.ndarray:
+    if not edge or not flags.any():
+        return flags
+    return np.asarray(np.convolve(flags, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5)
 
 
 def _edge(step: float, cutoff: float, seconds: float | None) -> int:

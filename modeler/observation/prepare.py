@@ -4,6 +4,8 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.band import choose_cutoffs
@@ -12,6 +14,9 @@ from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.processing import Processing
 from modeler.observation.segments import Piece, SplitReport, split
+
+LARGEST = 1e12
+"""Positions, velocities, accelerations and torques above are damage, not measurements."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +48,8 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
     """Split, resample, choose the cut-offs, filter and differentiate.
 
     Raises:
-        DataError: no logs, a log of another robot, nothing long enough to differentiate, or a
-            logged derivative that is none.
+        DataError: no logs, a log of another robot, a value that cannot be, nothing long enough to
+            differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
@@ -103,7 +108,7 @@ def _believed(pieces: tuple[Piece, ...], check: Consistency | None) -> tuple[Pie
     if check is None:
         return pieces
     return tuple(
-        dataclasses.replace(piece, valid=piece.valid & ~bad[:, None], bridged=piece.bridged | bad)
+        dataclasses.replace(piece, contradicted=bad)
         for piece, bad in zip(pieces, check.bad, strict=True)
     )
 
@@ -118,10 +123,26 @@ def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Non
                 f"{log.name}: joints {', '.join(log.joints)}; {spec.robot} has "
                 f"{', '.join(names)}; read the log with this robot"
             )
+        _check_size(log, spec)
         if processing.derivatives == "log" and log.qd is None:
             raise DataError(
                 f"{log.name}: no logged velocities qd{names[0]} ... for derivatives = "
                 '"log"; use "auto" or "position"'
+            )
+
+
+def _check_size(log: Log, spec: ModuleSpec) -> None:
+    """No robot has such values, and their squares overflow."""
+    for label in ("q", "qd", "qdd", "tau"):
+        values = getattr(log, label)
+        if values is None:
+            continue
+        row, j = np.unravel_index(int(np.nanargmax(np.abs(values))), values.shape)
+        if abs(values[row, j]) > LARGEST:
+            raise DataError(
+                f"{log.name}: {label} of joint {spec.joints[j].name} is {values[row, j]:.3g} at "
+                f"{log.time[row]:.6g} s; expected at most {LARGEST:g} in SI units; repair the log, "
+                "or leave the entry empty"
             )
 
 

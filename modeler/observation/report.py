@@ -1,7 +1,7 @@
 """What happened to the rows of the logs, in numbers and in words."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.processing import Processing
@@ -29,6 +29,8 @@ class LogReport:
         notes: sentences.
         contradictions: logged derivatives that cannot be, by column.
         contradicted: samples that any of them makes unusable.
+        content: fingerprint of the file's measurements.
+        span: first and last time, s.
     """
 
     name: str
@@ -48,6 +50,8 @@ class LogReport:
     notes: tuple[str, ...]
     contradictions: tuple[Contradiction, ...] = ()
     contradicted: int = 0
+    content: str = ""
+    span: tuple[float, float] = (0.0, 0.0)
 
     def lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""
@@ -86,6 +90,8 @@ class JointReport:
         speed_floor: below it, rad/s or m/s; infinite if the joint never moves, None if it has no
             dry friction.
         unit: of the speed.
+        samples: before decimation, of all pieces.
+        lost: why samples do not count, low speed apart -> how many.
     """
 
     name: str
@@ -93,22 +99,34 @@ class JointReport:
     slow: float
     speed_floor: float | None
     unit: str
+    samples: int = 0
+    lost: Mapping[str, int] = field(default_factory=dict)
 
     def line(self) -> str:
         """Text."""
+        if self.used == 0:
+            return f"joint {self.name}: {self._why_none()}"
         if self.speed_floor is None:
             return f"joint {self.name}: {self.used} rows"
-        if self.speed_floor == float("inf"):
-            return (
-                f"joint {self.name}: never moves, so its friction cannot be told and none of its "
-                "rows is used"
-            )
-        hint = "; it hardly moves" if self.used == 0 else ""
         return (
             f"joint {self.name}: {self.used} rows; {100.0 * self.slow:.3g} % of the samples masked "
             f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
-            f"doubtful{hint}"
+            "doubtful"
         )
+
+    def _why_none(self) -> str:
+        """The cause that most samples share, when no row is left."""
+        slow = round(self.slow * (self.samples - sum(self.lost.values())))
+        cause = max(self.lost, key=lambda name: self.lost[name], default="")
+        if slow >= self.lost.get(cause, 0):
+            if self.speed_floor in (None, float("inf")):
+                return "never moves, so its friction cannot be told and none of its rows is used"
+            return (
+                f"0 rows; {100.0 * self.slow:.3g} % of the samples masked below "
+                f"{self.speed_floor:.3g} {self.unit}: it hardly moves, or the time column is not "
+                "in seconds"
+            )
+        return f"0 rows; {100.0 * self.lost[cause] / self.samples:.3g} % of its samples {cause}"
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from modeler.observation.log import Log
 from modeler.observation.saturation import saturated
@@ -16,6 +16,9 @@ JITTER = 0.01
 """Time stamps off the uniform grid by more than this share of a step are resampled."""
 
 _NEAR = 0.75  # of a step: a grid point farther than this from any measured row is a bridge
+SHORT = 3
+"""A bridge of up to so many samples is a cubic, as smooth as the motion beside it."""
+
 _LEAST = 4  # samples; the second difference and its neighbours
 
 
@@ -31,7 +34,8 @@ class Piece:
         qd, qdd: (n, joints) as logged, or None.
         extra: further columns, (n,).
         valid: (n, joints) False where torque or motion was missing and is bridged.
-        bridged: (n,) True where the motion was missing, or is not to be differentiated.
+        bridged: (n,) True where the motion was missing.
+        contradicted: (n,) True where a logged derivative cannot be.
         clipped: (n, joints) True where the torque was at the drive's limit.
         resampled: True if the rows were moved to the grid.
     """
@@ -46,6 +50,7 @@ class Piece:
     extra: Mapping[str, np.ndarray]
     valid: np.ndarray
     bridged: np.ndarray
+    contradicted: np.ndarray
     clipped: np.ndarray
     resampled: bool
 
@@ -73,6 +78,7 @@ def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], S
     Cut where `segment` changes and where a step exceeds 5 median steps; rows without a position
     (or, where used, a logged velocity) are gaps too, bridged when shorter than that. Irregular
     time stamps are resampled: motion by monotone cubics, which do not overshoot; torque linearly.
+    Bridges of up to 3 samples are cubic splines: a monotone cubic flattens the tops of a motion.
 
     Args:
         log: one log.
@@ -108,30 +114,47 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     step = float(time[1] - time[0])
     uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
 
-    def smooth(values: np.ndarray | None) -> np.ndarray | None:
-        if values is None or not logged_motion:
-            return None
-        return values[rows] if uniform else PchipInterpolator(measured, values[rows])(time)
-
-    position = log.q[rows] if uniform else PchipInterpolator(measured, log.q[rows])(time)
     near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
     near = near - (time - measured[near - 1] < measured[near] - time)
     bridged = np.abs(time - measured[near]) > _NEAR * step
+    short = bridged & ~longer_runs(bridged, SHORT)
+
+    def on_grid(values: np.ndarray) -> np.ndarray:
+        if uniform:
+            return values[rows]
+        moved = PchipInterpolator(measured, values[rows])(time)
+        if short.any():
+            moved[short] = CubicSpline(measured, values[rows])(time[short])
+        return np.asarray(moved)
+
+    def smooth(values: np.ndarray | None) -> np.ndarray | None:
+        return on_grid(values) if values is not None and logged_motion else None
+
     tau, valid = _bridge(time, measured, log.tau[rows], step)
     return Piece(
         run=run,
         time=time,
         step=step,
-        q=position,
+        q=on_grid(log.q),
         tau=tau,
         qd=smooth(log.qd),
         qdd=smooth(log.qdd),
         extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
         valid=valid & ~bridged[:, None],
         bridged=bridged,
+        contradicted=np.zeros(samples, dtype=bool),
         clipped=clipped[rows][near],
         resampled=not uniform,
     )
+
+
+def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:
+    """The flags (n,) that stand in runs of more than `length`."""
+    edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0))
+    kept = np.zeros(len(flags), dtype=bool)
+    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+        kept[start:stop] = stop - start > length
+    return kept
 
 
 def _bridge(

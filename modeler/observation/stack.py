@@ -52,7 +52,10 @@ def observe(
     if not any(part.used.any() for part in stretches):
         raise DataError(
             f"{', '.join(log.name for log in logs)}: no usable row is left: "
-            + "; ".join(joint.line() for joint in report.joints)
+            + "; ".join(
+                [joint.line() for joint in report.joints]
+                + [f"{log.name}: {note}" for log in logs for note in log.notes]
+            )
         )
     return _stack(model, logs, stretches, report)
 
@@ -133,6 +136,8 @@ def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stre
         notes=log.notes + (check.notes if check else ()),
         contradictions=check.contradictions if check else (),
         contradicted=sum(int(bad.sum()) for bad in check.bad) if check else 0,
+        content=log.content,
+        span=(float(log.time[0]), float(log.time[-1])),
     )
 
 
@@ -145,6 +150,11 @@ def _joint_reports(
     valid = sum(np.sum(part.segment.valid, axis=0) for part in stretches)
     usable = sum(np.sum(part.usable, axis=0) for part in stretches)
     used = sum(np.sum(part.used, axis=0) for part in stretches)
+    samples = sum(part.segment.samples for part in stretches)
+    causes = stretches[0].segment.lost
+    lost = {
+        cause: np.sum([part.segment.lost[cause] for part in stretches], axis=0) for cause in causes
+    }
     reports = []
     for j, joint in enumerate(model.spec.joints):
         own = [floors[part.name] for part in parts if j in part.joints]
@@ -155,6 +165,8 @@ def _joint_reports(
                 slow=float(1.0 - usable[j] / max(1, valid[j])),
                 speed_floor=max(own) if own else None,
                 unit=f"{joint.unit}/s",
+                samples=samples,
+                lost={cause: int(count[j]) for cause, count in lost.items() if count[j]},
             )
         )
     return tuple(reports)

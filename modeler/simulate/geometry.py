@@ -21,10 +21,13 @@ class Frame:
     Attributes:
         rotation: (3, 3), columns are the axes of frame j; a joint moves about or along column 2.
         position: (3, 1) origin of frame j, m.
+        axis: (3, 1) turn or shift per unit of the joint variable: column 2, or its opposite where
+            the table says -q; zeros where nothing moves.
     """
 
     rotation: ca.SX
     position: ca.SX
+    axis: ca.SX
 
 
 BASE = "0"
@@ -42,7 +45,7 @@ def world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
     """
     symbols = robot.symbol_values()
     variables = {joint.name: q[i] for i, joint in enumerate(robot.moving)}
-    frames = {BASE: Frame(ca.SX(np.eye(3)), ca.SX(np.zeros((3, 1))))}
+    frames = {BASE: Frame(ca.SX(np.eye(3)), ca.SX(np.zeros((3, 1))), ca.SX.zeros(3))}
     for joint in robot.joints:
         frames[joint.name] = _placed(
             frames[joint.antecedent], joint, symbols, variables.get(joint.name)
@@ -67,14 +70,16 @@ def _placed(
 
     swing = antecedent.rotation @ _rotation_z(cell(joint.gamma))
     tilt = swing @ _rotation_x(cell(joint.alpha))
-    rotation = tilt @ _rotation_z(cell(joint.theta))
+    theta, r = cell(joint.theta), cell(joint.r)
+    rotation = tilt @ _rotation_z(theta)
     position = (
         antecedent.position
         + swing[:, 2] * cell(joint.b)
         + tilt[:, 0] * cell(joint.d)
-        + rotation[:, 2] * cell(joint.r)
+        + rotation[:, 2] * r
     )
-    return Frame(rotation, position)
+    rate = ca.SX(0) if variable is None else ca.jacobian(ca.SX(theta + r), variable)
+    return Frame(rotation, position, rotation[:, 2] * rate)
 
 
 def _rotation_z(angle: ca.SX | float) -> ca.SX:

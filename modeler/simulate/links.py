@@ -1,21 +1,13 @@
 """The links of a simulated robot: as stated in the robot file, the rest drawn plausibly."""
 
-from collections.abc import Mapping
-
 import casadi as ca
 import numpy as np
-from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import RobotError
 from modeler.robot import INERTIAL, Robot
-from modeler.simulate.body import (
-    Body,
-    is_physical,
-    pseudo_inertia,
-    standard_from_body,
-    standard_from_pseudo_inertia,
-)
+from modeler.simulate.body import Body, standard_from_body
+from modeler.simulate.completion import completed
 from modeler.simulate.geometry import BASE, world_frames
 
 _DENSITY = 30.0  # kg per squared metre of reach: an arm of 1 m weighs 30 kg
@@ -53,58 +45,31 @@ def link_parameters(
     density stands for each link, so that the ten parameters are those of a real body.
 
     Raises:
-        RobotError: stated numbers that no distribution of mass has; names the link.
+        RobotError: stated numbers that no distribution of mass has, or that none was found for;
+            names the link.
     """
     drawn = _drawn_bodies(robot, pose, rng)
     links, names = {}, []
     for joint in robot.moving:
         stated = stated_inertia(robot, joint.name)
-        values = _completed(stated, standard_from_body(drawn[joint.name]))
-        if not is_physical(values):
+        completion = completed(stated, standard_from_body(drawn[joint.name]))
+        values = completion.values
+        if values is None:
             numbers = ", ".join(f"{prefix}{joint.name} = {v:g}" for prefix, v in stated.items())
+            where = f"robot {robot.name}, link {joint.name}"
+            if completion.impossible:
+                raise RobotError(
+                    f"{where}: no rigid body has the stated {numbers}; expected a mass above 0 "
+                    "and inertias that some distribution of that mass can have; correct them, or "
+                    "leave out what you do not know"
+                )
             raise RobotError(
-                f"robot {robot.name}, link {joint.name}: no rigid body has the stated {numbers}; "
-                "expected a mass above 0 and inertias that some distribution of that mass can "
-                "have; correct them, or leave out what you do not know"
+                f"{where}: found no rigid body with the stated {numbers}, nor a proof that there "
+                "is none; state all ten parameters of the link, or fewer"
             )
         links[joint.name] = {prefix: values[prefix] for prefix in INERTIAL}
         names += [f"{prefix}{joint.name}" for prefix in INERTIAL if prefix not in stated]
     return links, tuple(names)
-
-
-def _completed(stated: Mapping[str, float], drawn: Mapping[str, float]) -> dict[str, float]:
-    """The stated values, and for the others those of a possible body, near the drawn one.
-
-    The pseudo-inertia is written as L L' with positive diagonal, so that each step of the search
-    is a possible body.
-    """
-    if not stated or len(stated) == len(INERTIAL):
-        return {**drawn, **stated}
-    mass = stated.get("M", drawn["M"])
-    length = np.sqrt(max(drawn["XX"], drawn["YY"], drawn["ZZ"]) / drawn["M"])
-    unit = {prefix: abs(mass) * length**2 or 1.0 for prefix in INERTIAL}
-    unit |= dict.fromkeys(("MX", "MY", "MZ"), abs(mass) * length or 1.0)
-    unit["M"] = abs(mass) or 1.0
-    start = _logarithms(np.linalg.cholesky(pseudo_inertia(drawn)))
-
-    def mismatch(unknown: np.ndarray) -> np.ndarray:
-        factor = _factor(unknown)
-        values = standard_from_pseudo_inertia(factor @ factor.T)
-        off = [(values[p] - value) / unit[p] for p, value in stated.items()]
-        return np.concatenate([1e5 * np.array(off), (unknown - start) * 1e-1])
-
-    found = _factor(least_squares(mismatch, start, method="trf", max_nfev=400).x)
-    return {**standard_from_pseudo_inertia(found @ found.T), **stated}
-
-
-def _logarithms(factor: np.ndarray) -> np.ndarray:
-    return np.concatenate([np.log(np.diag(factor)), factor[np.tril_indices(4, -1)]])
-
-
-def _factor(unknown: np.ndarray) -> np.ndarray:
-    factor = np.diag(np.exp(np.clip(unknown[:4], -40, 20)))
-    factor[np.tril_indices(4, -1)] = unknown[4:]
-    return factor
 
 
 def _drawn_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> dict[str, Body]:

@@ -82,7 +82,7 @@ def _motions(
             before.acceleration + ca.cross(spin_rate, arm) + ca.cross(spin, ca.cross(spin, arm))
         )
         if joint.moves:
-            axis, i = frame.rotation[:, 2], index[joint.name]
+            axis, i = frame.axis, index[joint.name]
             if joint.angular:
                 spin_rate = spin_rate + axis * qdd[i] + ca.cross(spin, axis * qd[i])
                 spin = spin + axis * qd[i]
@@ -119,7 +119,7 @@ def _joint_torques(
             force[name] += push
             moment[name] += turn + ca.cross(arm, push)
             carried = moment[name] if joint.angular else force[name]
-            torques[name] = ca.dot(frame.rotation[:, 2], carried)
+            torques[name] = ca.dot(frame.axis, carried)
         lever = frame.position - frames[joint.antecedent].position
         force[joint.antecedent] += force[name]
         moment[joint.antecedent] += moment[name] + ca.cross(lever, force[name])

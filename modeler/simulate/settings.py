@@ -9,6 +9,7 @@ from modeler.core.errors import DataError
 from modeler.robot import Limits
 
 _EMPTY: Mapping = MappingProxyType({})
+_MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,12 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
         value = getattr(settings, name)
         if not (math.isfinite(value) and value > 0):
             raise DataError(f"simulation, {name}: got {value}; expected a number above 0")
+    if settings.duration * settings.rate > _MOST_SAMPLES:
+        raise DataError(
+            f"simulation, duration: got {settings.duration:g} s at {settings.rate:g} samples per "
+            f"second, {settings.duration * settings.rate:.3g} samples; expected at most "
+            f"{_MOST_SAMPLES:.0e}; simulate a shorter motion or lower the rate"
+        )
     for name in ("seed", "parameter_seed", "encoder_counts", "linear_resolution", "torque_noise"):
         value = getattr(settings, name)
         if not (math.isfinite(value) and value >= 0):

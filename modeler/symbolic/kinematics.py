@@ -6,7 +6,6 @@ rotations, so that right angles cost nothing and general ones eight multiplicati
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import sympy
 
@@ -147,12 +146,29 @@ def gravity_in_frames(geometry: Geometry, frames: Sequence[Pose], algebra: Algeb
     return found
 
 
-def base_pose(geometry: Geometry, frames: Sequence[Pose], k: int) -> tuple[list[Vector], Vector]:
-    """Axes x, y, z of frame k and its origin, in frame 0: the forward kinematics."""
-    one: Any = 1
-    axes = [[one, 0 * one, 0 * one], [0 * one, one, 0 * one], [0 * one, 0 * one, one]]
-    origin: Vector = [0 * one, 0 * one, 0 * one]
-    for i in geometry.ancestors(k):
-        axes = [frames[i].to_antecedent(axis) for axis in axes]
-        origin = plus(frames[i].p, frames[i].to_antecedent(origin))
-    return axes, origin
+def base_poses(
+    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
+) -> list[tuple[list[Vector], Vector]]:
+    """Axes x, y, z of every frame and its origin, in frame 0: the forward kinematics.
+
+    From the base outwards, R_j = R_a Rz(gamma) Rx(alpha) Rz(theta): each plane rotation turns two
+    axes, and what one frame costs serves all that follow.
+    """
+    zero, one = algebra.static(sympy.Integer(0)), algebra.static(sympy.Integer(1))
+    base = [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
+    found: list[tuple[list[Vector], Vector]] = []
+    for row, frame in zip(geometry.rows, frames, strict=True):
+        (x, y, z), origin = (base, [zero] * 3) if row.parent is None else found[row.parent]
+        for axis, length in zip((x, y, z), frame.p, strict=True):
+            origin = plus(origin, times(length, axis))
+        x, y = _turned(frame.gamma, x, y)
+        y, z = _turned(frame.alpha, y, z)
+        x, y = _turned(frame.theta, x, y)
+        found.append(([x, y, z], origin))
+    return found
+
+
+def _turned(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:
+    """Two axes turned in their plane, a towards b."""
+    c, s = angle
+    return plus(times(c, a), times(s, b)), plus(times(c, b), times(-s, a))

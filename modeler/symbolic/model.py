@@ -11,7 +11,7 @@ from modeler.symbolic.columns import StandardColumn, standard_columns
 from modeler.symbolic.geometry import Geometry, exact_geometry
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.inertia_matrix import inertia_matrix
-from modeler.symbolic.kinematics import Pose, base_pose, poses, screws
+from modeler.symbolic.kinematics import Pose, base_poses, poses, screws
 from modeler.symbolic.newton_euler import (
     Motion,
     State,
@@ -161,11 +161,16 @@ class SymbolicModel:
                         matrix[i][j] = matrix[i][j] + value * (exact(ci) * exact(cj))
         return matrix
 
-    def forward_kinematics(self, k: int) -> tuple[list[list[Expr]], list[Expr]]:
-        """Axes x, y, z of frame k and its origin, in frame 0."""
-        axes, origin = base_pose(self.geometry, self.frames, k)
-        return [[self.graph.lift(x) for x in axis] for axis in axes], [
-            self.graph.lift(x) for x in origin
+    def forward_kinematics(self) -> list[list[list[Expr]]]:
+        """[R | p], 3 x 4, of every frame that a joint moves, in frame 0, in the order of q.
+
+        The columns of R are the frame's axes x, y, z in frame 0; p is its origin, m.
+        """
+        found = base_poses(self.geometry, self.frames, self.algebra)
+        return [
+            [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]
+            for row, (axes, origin) in zip(self.geometry.rows, found, strict=True)
+            if row.index is not None
         ]
 
 

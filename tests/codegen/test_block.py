@@ -6,7 +6,7 @@ from modeler.codegen.block import make_block
 from modeler.symbolic import Graph
 from tests.modules import module
 
-PLACES = {"q0": "q[0]", "q1": "q[1]", "D4": "ARM_D4", "g": "ARM_g"}
+PLACES = {"q0": "q[0]", "q1": "q[1]", "D4": "ARM_GEO_D4", "g": "ARM_GEO_g"}
 
 
 def test_a_value_used_once_is_written_where_it_is_used():
@@ -27,7 +27,7 @@ def test_constants_of_the_geometry_stand_first_and_are_not_counted():
     graph = Graph()
     D4, q = graph.symbol("D4", static=True), graph.symbol("q0")
     block = make_block([("phi[0]", D4 * D4 * q), ("phi[1]", D4 * D4 + q)], PLACES)
-    assert block.constants == ("const double k1 = ARM_D4*ARM_D4;",)
+    assert block.constants == ("const double k1 = ARM_GEO_D4*ARM_GEO_D4;",)
     assert (block.additions, block.multiplications) == (1, 1)
 
 
@@ -65,6 +65,24 @@ def test_a_very_long_sum_is_cut_into_readable_lines():
     block = make_block([("beta[0]", total)], places)
     assert max(len(line) for line in block.body) <= 100
     assert sum(line.count(" + ") for line in block.body) == 299
+
+
+def test_a_symbol_with_a_very_long_name_is_written_out():
+    graph = Graph()
+    name = "length_of_the_" + "very_" * 20 + "long_link"
+    place = f"ARM_GEO_{name}"
+    long, q = graph.symbol(name, static=True), graph.symbol("q0")
+    block = make_block([("phi[0]", long * q), ("phi[1]", long)], {**PLACES, name: place})
+    assert block.body == (f"phi[0] = {place}*q[0];", f"phi[1] = {place};")
+
+
+def test_pi_is_written_as_a_number():
+    graph = Graph()
+    angle = graph.symbol("q0") + graph.pi() / 7
+    block = make_block([("phi[0]", graph.call("sin", angle)), ("phi[1]", graph.pi())], PLACES)
+    assert block.constants == ("const double k1 = 3.14159265358979323846*(1.0/7.0);",)
+    assert block.calls[1] == "modeler_sincos(q[0] + k1, &sa1, &ca1);"
+    assert block.body == ("phi[0] = sa1;", "phi[1] = 3.14159265358979323846;")
 
 
 def test_each_temporary_is_defined_once_and_before_its_use():

@@ -1,18 +1,24 @@
 """What is emitted: every function of every built-in robot against the model and against laws."""
 
 import dataclasses
+import platform
 import re
 import subprocess
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy
 
+import modeler
 from modeler.base import grouping_matrix
 from modeler.codegen import emit, write_emitted
 from modeler.codegen.names import module_prefix, symbol_macros
 from modeler.core.contract import module_from_json
 from modeler.core.errors import EmitError, ModelerError
 from tests.modules import STRICT, compiled, compiler, module, states
+from tests.repository import ROOT
 from tests.robots import ROBOTS
 
 SAMPLES = 40
@@ -172,27 +178,6 @@ def test_the_header_stands_alone_also_in_cpp(language, cc, tmp_path):
     assert 'extern "C"' in (tmp_path / "wrist.h").read_text()
 
 
-def test_a_length_can_be_replaced_at_compile_time(tmp_path):
-    """-DWRIST_bl1=... gives the model of a robot file with that length."""
-    from modeler.compiled import load
-    from modeler.robot import builtin_text
-    from modeler.robot.read import robot_from_text
-    from modeler.symbolic import derive_model
-
-    emitted = module("wrist").emitted
-    files = dict(emitted.files)
-    for name in emitted.spec.sources:
-        if name.endswith(".c"):
-            files[name] = f"#define WRIST_bl1 0.37\n{files[name]}"
-    text = re.sub(r"(?m)^bl1\s*=\s*[0-9.]+", "bl1 = 0.37", builtin_text("wrist"))
-    model = derive_model(robot_from_text(text, "wrist with a longer link"))
-    other = emit(model, module("wrist").base)
-    q, qd, qdd = states(3, 5)
-    got = load(emitted.spec, files).base_regressor(q, qd, qdd)
-    np.testing.assert_allclose(got, load(other.spec, other.files).base_regressor(q, qd, qdd))
-    assert not np.allclose(got, compiled("wrist").base_regressor(q, qd, qdd))
-
-
 @pytest.mark.parametrize("name", ROBOTS)
 def test_the_manifest_survives_its_file_and_describes_the_module(name):
     made = module(name)
@@ -213,8 +198,12 @@ def test_the_text_is_the_same_each_time_and_names_no_place_of_this_machine(name)
     from modeler.symbolic import derive_model
 
     emitted = module(name).emitted
+    here = [str(ROOT), str(Path.home()), tempfile.gettempdir(), platform.node()]
+    versions = [modeler.__version__, platform.python_version(), sympy.__version__, np.__version__]
     for file, text in emitted.files.items():
-        assert "/home" not in text and "/tmp" not in text, file
+        for word in (*here, *versions):
+            assert not re.search(rf"(?<![\w.]){re.escape(word)}(?![\w.])", text), (file, word)
+        assert not re.search(r"\b(19|20)\d\d-\d\d?-\d\d?\b|\b\d\d:\d\d\b", text), file
         assert "\r" not in text and text.endswith("\n"), file
         if file.endswith((".c", ".h")):
             text.encode("ascii")
@@ -273,12 +262,17 @@ def test_names_that_would_clash_are_refused():
         module_prefix("modeler-batch")
     with pytest.raises(EmitError, match="symbol é has letters"):
         symbol_macros("arm", ["é"])
-    with pytest.raises(EmitError, match="do not get different names"):
-        symbol_macros("arm", ["H", "H_"])
+    with pytest.raises(EmitError, match=r"math\.h is a header of C; choose another"):
+        module_prefix("Math")
 
 
-def test_a_symbol_named_like_a_macro_of_the_header_gets_another_macro():
-    assert symbol_macros("arm", ["JOINTS", "D4"]) == {"JOINTS": "ARM_JOINTS_", "D4": "ARM_D4"}
+def test_macros_of_symbols_are_apart_from_all_others():
+    """The header's own (ARM_JOINTS), and those of <math.h>: FP_NAN, HUGE_VAL, M_PI."""
+    assert symbol_macros("arm", ["JOINTS", "D4"]) == {
+        "JOINTS": "ARM_GEO_JOINTS", "D4": "ARM_GEO_D4"
+    }  # fmt: skip
+    for robot, symbol in (("fp", "NAN"), ("huge", "VAL"), ("m", "PI")):
+        assert symbol_macros(robot, [symbol]) == {symbol: f"{robot.upper()}_GEO_{symbol}"}
 
 
 def test_a_robot_without_base_parameters_is_refused():

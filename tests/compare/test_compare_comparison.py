@@ -106,6 +106,16 @@ def test_joints_that_cannot_be_judged_are_named() -> None:
     assert "measured torque is zero" in found.summary()
 
 
+def test_without_any_torque_the_error_is_undefined_not_nan() -> None:
+    p = by_hand()
+    found = compare(dataclasses.replace(p, measured=np.zeros((4, 1))))
+    assert json.loads(found.to_json())["relative_error"] is None
+    assert "nan" not in found.summary() and found.summary().splitlines()[-1].split()[1] == "-"
+    constant = compare(dataclasses.replace(p, measured=np.ones((4, 1))))
+    assert json.loads(constant.to_json())["joints"]["1"]["r2"] is None
+    assert "nan" not in constant.summary()
+
+
 def test_a_burst_is_found_where_it_is() -> None:
     # 0.2 s wide, around 41 s, in the second log
     found = compare(prediction(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))

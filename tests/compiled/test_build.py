@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import modeler.compiled.build as build
+import modeler.compiled.model as compiled_model
 from modeler.codegen import write_emitted
 from modeler.compiled import load, load_folder
 from modeler.compiled.toolchain import find_toolchain
@@ -182,6 +183,24 @@ def test_a_manifest_with_names_that_are_no_c_names_is_refused(cache, emps):
     spec = dataclasses.replace(emps.spec, functions=(first, *emps.spec.functions))
     with pytest.raises(ManifestError, match="expected a C name"):
         load(spec, emps.files)
+
+
+@pytest.mark.parametrize("prefix", ["../emps", "emps/../../emps", ""])
+def test_a_prefix_that_leads_elsewhere_is_refused_before_anything_is_touched(
+    cache, emps, tmp_path, prefix, monkeypatch
+):
+    spec = dataclasses.replace(emps.spec, prefix=prefix)
+    files = {name.replace("emps", prefix): text for name, text in emps.files.items()}
+    monkeypatch.setattr(compiled_model, "build_library", lambda _: pytest.fail("built"))
+    with pytest.raises(ManifestError, match="expected a C name"):
+        load(spec, files)
+    folder = tmp_path / "module"
+    folder.mkdir()
+    (folder / "manifest.json").write_text(spec.to_json())
+    (tmp_path / "emps.c").mkdir()
+    with pytest.raises(ManifestError, match="expected a C name"):
+        load_folder(folder)
+    assert not cache.exists()
 
 
 def test_missing_files_are_named(emps, tmp_path):

@@ -27,6 +27,7 @@ def test_results_have_the_shapes_that_are_promised(wrist):
     for torque in (wrist.gravity(q, beta), wrist.coriolis(q, qd, beta), wrist.friction(qd, beta)):
         assert torque.shape == (7, 3)
     assert wrist.base_parameters(np.ones(p)).shape == (c,)
+    assert wrist.forward_kinematics(q).shape == (7, 3, 3, 4)
 
 
 def test_rows_of_one_sample_stand_together_in_w(wrist):

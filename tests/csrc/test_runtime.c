@@ -14,6 +14,12 @@ static int failures = 0;
         }                                                             \
     } while (0)
 
+static void one(const double *a, double *out)
+{
+    out[0] = a[1] - a[0];
+    out[1] = 3*a[0];
+}
+
 /* Two values per sample, so that steps of one would be noticed. */
 static void two(const double *a, const double *b, double *out)
 {
@@ -51,6 +57,13 @@ int main(void)
     const size_t samples = 5;
     double *a = numbers(2*samples, 0), *b = numbers(samples, 100), *shared = numbers(1, 7);
     double *out = numbers(2*samples, -1);
+
+    const modeler_input single[1] = {{a, 2}};
+    modeler_batch_1(one, samples, single, out, 2);
+    for (size_t i = 0; i < samples; i++) {
+        CHECK(out[2*i] == 1);
+        CHECK(out[2*i + 1] == 6*(double)i);
+    }
 
     const modeler_input pair[2] = {{a, 2}, {b, 1}};
     modeler_batch_2(two, samples, pair, out, 2);

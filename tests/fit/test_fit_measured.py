@@ -1,14 +1,27 @@
-"""Fits of measured logs with automatic processing, against published and earlier figures."""
+"""Measured logs through the whole chain: robot file, emitted C, fit, held-out errors.
 
-import dataclasses
+The limits are the held-out residuals that the README of each data folder says a plain script
+reached (a numpy regressor, one Butterworth filter, weights per joint). Joints where we are above
+them stand in EXCEPTIONS.
+"""
+
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 import pytest
-from stand_in import Row, StandIn, rotor, slider
 
-from modeler.fit import identify
-from modeler.observation import observe, read_log
+from modeler.api import (
+    Comparison,
+    IdentifiedModel,
+    compare,
+    compile_model,
+    derive,
+    fit,
+    generate,
+    load,
+    observe,
+)
+from modeler.robot import Robot, robot_from_text
 
 DATA = next(
     (p / "shared" / "data" for p in Path(__file__).resolve().parents
@@ -19,92 +32,141 @@ pytestmark = [
     pytest.mark.measured,
     pytest.mark.skipif(DATA is None, reason="no measured logs: shared/data is not beside us"),
 ]
-QUARTER = np.pi / 2
 
 
-def held_out_errors(model, training, held_out):
-    """(n,) relative error per joint and overall, %, on logs that were not used; and the fit."""
-    seen = observe(model, training)
-    fit = identify(seen)
-    held = observe(model, held_out, fit.processing)
-    residual = np.where(held.used, held.torque - held.predicted(fit.beta), 0.0)
-    torque = np.where(held.used, held.torque, 0.0)
-    joints = 100 * np.linalg.norm(residual, axis=0) / np.linalg.norm(torque, axis=0)
-    return joints, 100 * np.linalg.norm(residual) / np.linalg.norm(torque), fit
+@dataclass(frozen=True)
+class Run:
+    """A built-in robot, its logs, and the README's held-out residual per joint, %."""
+
+    robot: str
+    folder: str
+    training: tuple[str, ...]
+    held_out: tuple[str, ...]
+    readme: tuple[float, ...]
 
 
-def logs(model, folder, *names):
-    return [read_log(DATA / folder / f"{name}.parquet", model.spec) for name in names]
+RUNS = {
+    run.robot: run
+    for run in (
+        Run("emps", "emps", ("train.parquet",), ("pulses.parquet",), (5.63,)),
+        Run(
+            "odrive", "odrive_cogging",
+            ("slow2__nocomp_0.parquet", "slow2__nocomp_1.parquet"),
+            ("slow2__nocomp_2.parquet",), (93.5,),
+        ),
+        Run(
+            "tx40", "tx40", ("log_joint.parquet@0:4.6",), ("log_joint.parquet@4.6:7.45",),
+            (7.3, 6.6, 12.9, 11.5, 22.1, 16.3),
+        ),
+        Run(
+            "ur10e", "ur10e",
+            ("ur-20_02_19_14harm50sec.parquet", "ur-20_02_12-50sec_12harm.parquet",
+             "ur-20_02_05-20sec_8harm.parquet"),
+            ("ur-20_02_19_15harm50sec.parquet", "ur-20_01_17-ptp_10_points.parquet"),
+            (10.4, 3.3, 3.4, 7.2, 11.3, 18.3),
+        ),
+        Run(
+            "kinova_gen3", "kinova_gen3",
+            ("traj_1.parquet", "traj_3.parquet", "traj_5.parquet"),
+            ("traj_2.parquet", "traj_4.parquet"),
+            (28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9),
+        ),
+    )
+}  # fmt: skip
+
+EXCEPTIONS = {("kinova_gen3", 3): 15.7, ("kinova_gen3", 4): 11.7}
+"""(robot, joint) -> %, above the README.
+
+Why the README's script does better on these two joints is not known. It is not their torque
+offsets (with them 16.4 and 11.3 %). No cut-off, decimation or mask that was tried brings joint 4
+below 11 %; a parallel filter of 2 Hz brings joint 3 to 14.8 % and joint 4 to 14 %. Joints 1, 2 and
+5 to 7 are below the README.
+"""
 
 
-def test_emps_published_values():
-    """Janot, Gautier, Brunot 2019: M 95.1, Fv 203.5, Fc 20.4, offset -3.16; errors 4.08, 5.98 %."""
-    axis = slider()
-    _, error, fit = held_out_errors(axis, logs(axis, "emps", "train"), logs(axis, "emps", "pulses"))
-    values = {parameter.name[:-1]: parameter for parameter in fit.parameters}
-    assert values["M"].value == pytest.approx(95.1, rel=0.005)
-    assert values["Fv"].value == pytest.approx(203.5, rel=0.01)
-    assert values["Fs"].value == pytest.approx(20.4, rel=0.01)
-    assert values["Off"].value == pytest.approx(-3.16, rel=0.02)
-    assert all(parameter.essential for parameter in fit.parameters)
-    assert 100 * fit.relative_error < 3.96 and error < 5.63
-    assert fit.processing.position_cutoff == pytest.approx(100.0, rel=0.2)
-    assert fit.processing.parallel_cutoff == pytest.approx(16.0, rel=0.2)
+def places(run: Run, names: tuple[str, ...]) -> list[str]:
+    assert DATA is not None
+    return [str(DATA / run.folder / name) for name in names]
 
 
-def test_odrive_irregular_stamps():
-    motor = rotor(gain=1.0)
-    training = logs(motor, "odrive_cogging", "slow2__nocomp_0", "slow2__nocomp_1")
-    _, error, _ = held_out_errors(motor, training, logs(motor, "odrive_cogging", "slow2__nocomp_2"))
-    assert error < 93.5
+def chain(run: Run, robot: Robot | None = None) -> tuple[IdentifiedModel, Comparison]:
+    """Fit and comparison; `robot` stands in for the built-in one."""
+    derivation = derive(robot or load(run.robot))
+    emitted = generate(derivation)
+    observation = observe(compile_model(emitted), places(run, run.training))
+    model = fit(derivation, emitted, observation)
+    return model, compare(model, places(run, run.held_out))
 
 
-def test_tx40_coupled_wrist():
-    rows = [Row(), Row(-QUARTER), Row(0, 0.225, 0, 0.035), Row(QUARTER, 0, 0, 0.225),
-            Row(-QUARTER), Row(QUARTER, 0, np.pi)]  # fmt: skip
-    arm = StandIn(rows, coupling={5: (0, 0, 0, 0, 1, 1)})
-    (log,) = logs(arm, "tx40", "log_joint")
+@pytest.fixture(scope="module")
+def results():
+    """Robot -> (model, comparison), each made once."""
+    made = {}
 
-    def part(start, stop):
-        rows = (log.time >= start) & (log.time < stop)
-        return [dataclasses.replace(log, time=log.time[rows], q=log.q[rows], tau=log.tau[rows])]
+    def result(robot: str) -> tuple[IdentifiedModel, Comparison]:
+        if robot not in made:
+            made[robot] = chain(RUNS[robot])
+        return made[robot]
 
-    joints, _, fit = held_out_errors(arm, part(0, 4.6), part(4.6, 7.45))
-    assert np.all(joints < [7.3, 6.6, 12.9, 11.5, 22.1, 16.3])
-    values = {parameter.name: parameter.value for parameter in fit.parameters}
-    assert values["Fv1"] == pytest.approx(8.1, abs=0.2)
-    assert values["Ia3"] == pytest.approx(0.0988, rel=0.1)
+    return result
 
 
-def test_ur10e_jitter_and_currents():
-    rows = [Row(r=0.181), Row(QUARTER), Row(d=-0.613), Row(d=-0.571, r=0.174),
-            Row(QUARTER, r=0.12), Row(-QUARTER, r=0.117)]  # fmt: skip
-    arm = StandIn(rows, gains=(14.87, 13.26, 11.13, 10.62, 11.03, 11.47))
-    training = logs(arm, "ur10e", "ur-20_02_19_14harm50sec", "ur-20_02_12-50sec_12harm",
-                    "ur-20_02_05-20sec_8harm")  # fmt: skip
-    held = logs(arm, "ur10e", "ur-20_02_19_15harm50sec", "ur-20_01_17-ptp_10_points")
-    joints, _, _ = held_out_errors(arm, training, held)
-    assert np.all(joints < [10.4, 3.3, 3.4, 7.2, 11.3, 18.3])
+@pytest.mark.parametrize("robot", RUNS)
+def test_held_out_errors_are_below_the_published_ones(results, robot):
+    _, comparison = results(robot)
+    found = {item.joint.name: 100 * item.relative_error for item in comparison.joints}
+    limits = {str(j): limit for j, limit in enumerate(RUNS[robot].readme, start=1)}
+    limits |= {str(j): limit for (name, j), limit in EXCEPTIONS.items() if name == robot}
+    assert found.keys() == limits.keys()
+    assert {joint: error for joint, error in found.items() if error >= limits[joint]} == {}
 
 
-def kinova_errors(offsets):
-    """% per joint on runs 2 and 4 of a fit on 1, 3 and 5, and overall."""
-    alpha = [np.pi, QUARTER, -QUARTER, QUARTER, -QUARTER, QUARTER, -QUARTER]
-    r = [-0.28481, -0.01175, -0.42076, -0.01275, -0.31436, -0.00035, -0.10593]
-    arm = StandIn([Row(a, r=x) for a, x in zip(alpha, r, strict=True)], offsets=offsets)
-    training = logs(arm, "kinova_gen3", "traj_1", "traj_3", "traj_5")
-    held = logs(arm, "kinova_gen3", "traj_2", "traj_4")
-    return held_out_errors(arm, training, held)[:2]
+def test_every_exception_is_still_needed(results):
+    for (robot, joint), limit in EXCEPTIONS.items():
+        found = 100 * results(robot)[1].joints[joint - 1].relative_error
+        assert RUNS[robot].readme[joint - 1] < found < limit
 
 
-def test_kinova_short_segments():
-    """Earlier plain script, offsets everywhere: 28.8 16.0 15.0 9.2 12.5 15.7 6.9 %."""
-    joints, error = kinova_errors(offsets=(6,))
-    assert np.all(joints < [15.0, 11.2, 15.8, 11.8, 9.4, 16.0, 6.2])
-    assert error < 12.4
+def values(model: IdentifiedModel) -> dict[str, float]:
+    return {parameter.name: parameter.value for parameter in model.fit.parameters}
 
 
-def test_kinova_offset_of_joint_1_does_not_carry_over():
-    with_it, _ = kinova_errors(offsets=(0, 6))
-    without, _ = kinova_errors(offsets=(6,))
-    assert with_it[0] > 1.5 * without[0]
+def test_emps_published_values(results):
+    """Janot, Gautier, Brunot 2019: M 95.1, Fv 203.5, Fc 20.4, offset -3.16, error 4.08 %.
+
+    They filter at 100 Hz and decimate to 40 Hz, a parallel cut-off of 16 Hz.
+    """
+    model, _ = results("emps")
+    found = values(model)
+    assert found["M1"] == pytest.approx(95.1089, rel=0.005)
+    assert found["Fv1"] == pytest.approx(203.5034, rel=0.01)
+    assert found["Fs1"] == pytest.approx(20.3935, rel=0.01)
+    assert found["Off1"] == pytest.approx(-3.1648, rel=0.02)
+    assert all(parameter.essential for parameter in model.fit.parameters)
+    assert 100 * model.fit.relative_error < 3.96
+    assert model.fit.processing.position_cutoff == pytest.approx(100.0, rel=0.2)
+    assert model.fit.processing.parallel_cutoff == pytest.approx(16.0, rel=0.2)
+
+
+def test_tx40_published_values(results):
+    """Janot, Vandanjon, Gautier 2014, of the same robot and log: the columns that are excited."""
+    found = values(results("tx40")[0])
+    published = {
+        "Fv1": 8.05, "Fv2": 5.53, "Fv3": 1.97, "Fv4": 1.11, "Fs1": 7.14, "Fs2": 8.26, "Fs3": 6.34,
+        "Fs4": 2.48, "Ia3": 0.0988, "Ia4": 0.0313, "ZZ1R": 1.248, "ZZ2R": 1.080, "MX2R": 2.241,
+        "Iam6": 0.00964, "Fvm6": 0.616, "Fsm6": 1.95,
+    }  # fmt: skip
+    for name, value in published.items():
+        assert found[name] == pytest.approx(value, rel=0.1), name
+
+
+def test_the_readme_offsets_of_kinova_do_not_carry_over(results):
+    """With the README's offsets on all joints, joint 1 is as bad as there: 28.8 % in the README."""
+    run = RUNS["kinova_gen3"]
+    text = load(run.robot).text
+    everywhere = text.replace('offset = ["7"]', 'offset = "all"')
+    assert everywhere != text
+    _, with_offsets = chain(run, robot_from_text(everywhere, "kinova with offsets"))
+    _, without = results(run.robot)
+    assert with_offsets.joints[0].relative_error == pytest.approx(0.288, rel=0.05)
+    assert with_offsets.joints[0].relative_error > 1.5 * without.joints[0].relative_error

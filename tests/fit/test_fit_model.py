@@ -61,6 +61,19 @@ def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
         assert joint.relative_error == pytest.approx(expected)
 
 
+def test_the_sigmas_of_a_simulated_arm_cover_the_truth(arm):
+    """30 runs of 13 parameters: 95.4 % of a normal distribution lie within two sigmas."""
+    beta, errors = some_beta(arm), []
+    for seed in range(30):
+        log = noisy(exact_log(arm, beta, seed=seed, seconds=10), 0.2, 300 + seed)
+        fit = identify(observe(arm, [log]))
+        sigma = np.array([parameter.sigma for parameter in fit.parameters])
+        errors.append((fit.beta - beta) / sigma)
+    covered = np.mean(np.abs(errors) < 2.0)
+    assert 0.88 < covered < 0.995 and np.max(np.abs(errors)) < 6.0
+    assert np.all(np.abs(np.mean(errors, axis=0)) < 4.5 / np.sqrt(30))
+
+
 def test_the_json_is_the_contracts(fitted):
     _, seen, fit = fitted
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
@@ -201,7 +214,7 @@ def damaged(raw, *keys, value=None):
 DAMAGE = {
     "foreign": (lambda r: {"hello": 1}, "JSON, but not a model file"),
     "list": (lambda r: [1], "JSON, but not a model file"),
-    "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 1"),
+    "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 2"),
     "manifest": (lambda r: damaged(r, "manifest"), "damaged, manifest is missing"),
     "sources": (lambda r: damaged(r, "sources", value=3), "damaged, sources is not as saved"),
     "edited": (
@@ -212,6 +225,8 @@ DAMAGE = {
     "covariance": (lambda r: damaged(r, "covariance", value=[[1.0]]), "values are not those"),
     "ragged": (lambda r: damaged(r, "covariance", value=[[1.0], [1, 2]]), "damaged"),
     "logs": (lambda r: damaged(r, "logs", value=[{"path": "x"}]), "damaged"),
+    "log content": (lambda r: damaged(r, "logs", 0, "content", value=3), "content are texts"),
+    "log times": (lambda r: damaged(r, "logs", 1, "end", value="x"), "times are numbers"),
     "fit": (lambda r: damaged(r, "fit", "parameters"), "the fit is damaged"),
     "processing": (
         lambda r: damaged(r, "fit", "processing", "low_speed", value=7.0),

@@ -1,5 +1,7 @@
 """Logs from files: what is read, and what is said of a wrong one."""
 
+import dataclasses
+
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -8,6 +10,8 @@ from stand_in import planar_arm, slider
 
 from modeler.core.errors import DataError
 from modeler.observation import read_log
+from modeler.observation.log import shared_rows
+from modeler.observation.window import window
 
 
 def columns(n=50, joints=2):
@@ -148,9 +152,6 @@ def test_wrong_files(tmp_path, spec):
     (tmp_path / "ragged.csv").write_text("time,q1\n1,2\n1,2,3\n")
     with pytest.raises(DataError, match="cannot be read as CSV"):
         read_log(tmp_path / "ragged.csv", spec)
-    (tmp_path / "semi.csv").write_text("time;q1;tau1\n" + "1;2;3\n" * 20)
-    with pytest.raises(DataError, match="separated by commas"):
-        read_log(tmp_path / "semi.csv", spec)
     (tmp_path / "twice.csv").write_text("time,q1,q1\n" + "1,2,3\n" * 20)
     with pytest.raises(DataError, match="column q1 appears 2 times"):
         read_log(tmp_path / "twice.csv", spec)
@@ -161,3 +162,86 @@ def test_a_column_of_another_kind_is_named_with_its_kind(tmp_path, spec):
     table["q1"] = np.array(["2020-01-01"] * 50, dtype="datetime64[D]")
     with pytest.raises(DataError, match="column q1 holds date32"):
         read_log(write(tmp_path / "a.parquet", table), spec)
+
+
+FOREIGN = {
+    "semicolons": (b"time;q1;tau1\n" + b"1;2;3\n" * 20, r"by semicolons; .* again with commas$"),
+    "decimal commas": (
+        b"time;q1;tau1\n" + b"0,1;2,5;3\n" * 20,
+        r"by semicolons; .* with commas, and decimal points for the decimal commas$",
+    ),
+    "tabs": (b"time\tq1\ttau1\n" + b"1\t2\t3\n" * 20, r"separated by tabs; expected"),
+    "commas for both": (
+        b"time,q1,tau1\n" + b"0,1,2,5,3,5\n" * 20,
+        r"row 1: got 6 entries for 3 columns; .* decimal points",
+    ),
+    "quoted decimal commas": (
+        b"time,q1,tau1\n" + b'"0,1","2,5","3,5"\n' * 20,
+        r'column time, row 1: got "0,1"; expected a number with a decimal point',
+    ),
+    "comment": (b"# robot 4\ntime,q1,tau1\n" + b"1,2,3\n" * 20, 'with a comment, "# robot 4"'),
+    "commented header": (b"# time,q1,tau1\n" + b"1,2,3\n" * 20, r'a "#" in front of them'),
+    "Latin-1": (
+        "time,q1,tau1,\u03b8\n".encode("iso-8859-7") + b"1,2,3,4\n" * 20,
+        r'not UTF-8: byte 0xe8 after "time,q1,tau1,"; save the file as UTF-8',
+    ),
+    "UTF-16": (("time,q1,tau1\n" + "1,2,3\n" * 20).encode("utf-16"), "the header is not UTF-8"),
+}
+
+
+@pytest.mark.parametrize("case", FOREIGN)
+def test_csv_of_other_habits_says_what_to_change(tmp_path, spec, case):
+    content, words = FOREIGN[case]
+    path = tmp_path / "foreign.csv"
+    path.write_bytes(content)
+    with pytest.raises(DataError, match=words) as error:
+        read_log(path, spec)
+    assert str(error.value).startswith(f"{path}: ")
+
+
+def csv_lines(table, comma=",", quote=""):
+    """Header and rows; as many spreadsheets and loggers write them."""
+    rows = [comma.join(str(v) for v in row) for row in zip(*table.values(), strict=True)]
+    return [comma.join(f"{quote}{name}{quote}" for name in table), *rows]
+
+
+@pytest.mark.parametrize(
+    ("comma", "quote", "before"), [(", ", '"', ""), (",", '"', "\n\n"), (" , ", "'", "\ufeff")]
+)
+def test_quotes_and_blanks_around_names_and_blank_lines_do_not_matter(
+    tmp_path, spec, comma, quote, before
+):
+    table = columns()
+    path = tmp_path / "a.csv"
+    path.write_text(before + "\n".join(csv_lines(table, comma, quote)), encoding="utf-8")
+    log = read_log(path, spec)
+    np.testing.assert_array_equal(log.q, np.column_stack([table["q1"], table["q2"]]))
+    assert not log.extra
+
+
+def test_a_text_column_in_another_encoding_is_left_out(tmp_path, spec):
+    head, *rows = csv_lines(columns())
+    text = "\n".join([f"{head},note", *(f"{row},gr\u00fcn" for row in rows)])
+    (tmp_path / "a.csv").write_bytes(text.encode("latin-1"))
+    assert any("note not numeric" in note for note in read_log(tmp_path / "a.csv", spec).notes)
+
+
+def test_the_fingerprint_tells_measurements_and_not_files(tmp_path, spec):
+    table = columns() | {"temperature": np.linspace(20, 30, 50)}
+    table["q1"][3] = np.nan
+    first = read_log(write(tmp_path / "a.csv", table), spec)
+    copy = read_log(write(tmp_path / "b.parquet", table), spec)
+    assert copy.content == first.content and len(first.content) == 64
+    piece = window(copy, 0.1, 0.2)
+    assert piece.content == first.content
+    seen = {first.content}
+    for name in ("time", "q1", "q2", "tau1", "tau2"):
+        other = {column: values.copy() for column, values in table.items()}
+        other[name][-1] += 1e-9
+        seen.add(read_log(write(tmp_path / "c.parquet", other), spec).content)
+    assert len(seen) == 6
+    assert shared_rows(piece, first.content, 0.15, 0.16)
+    assert not shared_rows(piece, first.content, 0.2, 0.3)
+    assert not shared_rows(piece, "another", 0.15, 0.16)
+    nameless = dataclasses.replace(piece, content="")
+    assert not shared_rows(nameless, "", 0.15, 0.16)

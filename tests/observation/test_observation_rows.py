@@ -199,6 +199,56 @@ def test_what_cannot_be_observed_is_refused():
         observe(model, [torn])
 
 
+@pytest.mark.parametrize("column", ["q", "qd", "tau"])
+def test_values_that_no_robot_has_are_refused(column):
+    arm = planar_arm()
+    log = exact_log(arm, some_beta(arm))
+    values = getattr(log, column).copy()
+    values[50, 1] = -1e200
+    with pytest.raises(DataError, match=rf"run: {column} of joint 2 is -1e\+200 at 0.25 s"):
+        observe(arm, [dataclasses.replace(log, **{column: values})])
+
+
+def lossy(model, missing, rate=1000):
+    """A log whose q1 lacks the samples of `missing`, positions only, and its beta."""
+    beta = some_beta(model)
+    log = exact_log(model, beta, logged=False, rate=rate, seconds=10)
+    q = log.q.copy()
+    q[missing, 0] = np.nan
+    return dataclasses.replace(log, q=q), beta
+
+
+@pytest.mark.parametrize("run", [1, 3])
+def test_a_few_missing_positions_cost_only_themselves(run):
+    """One loss in 160 rows at 1 kHz: the filter follows the motion across it."""
+    arm = planar_arm()
+    missing = np.add.outer(np.arange(100, 9900, 160), np.arange(run)).ravel()
+    log, beta = lossy(arm, missing)
+    whole = observe(arm, [lossy(arm, [])[0]])
+    seen = observe(arm, [log])
+    assert seen.used.sum() > 0.98 * whole.used.sum()
+    error = np.abs(seen.y - seen.W @ beta)
+    assert error.max() < 3e-3 * np.abs(seen.y).max()
+
+
+def test_the_cause_of_no_rows_is_named():
+    arm = planar_arm()
+    tops = np.add.outer(np.arange(100, 9900, 100), np.arange(4)).ravel()
+    log, _ = lossy(arm, tops)
+    with pytest.raises(DataError, match=r"joint 2: 0 rows; .* % of its samples lie beside miss"):
+        observe(arm, [log])
+    exact = exact_log(arm, some_beta(arm))
+    relay = np.clip(100.0 * np.sin(12.7 * exact.time), -1.0, 1.0)
+    stuck = dataclasses.replace(exact, tau=np.column_stack([relay, relay]))
+    with pytest.raises(DataError, match=r"joint 1: 0 rows; 9.* % of its samples have a torque at"):
+        observe(arm, [stuck])
+    fitted = observe(arm, [exact]).report.processing
+    slow = dataclasses.replace(exact, time=1000.0 * exact.time, qd=None, notes=("is it ms?",))
+    words = r"masked below .* the time column is not in seconds.*run: is it ms"
+    with pytest.raises(DataError, match=words):
+        observe(arm, [dataclasses.replace(slow, qdd=None)], fitted)
+
+
 def test_report_tells_gaps_jitter_and_losses():
     model = slider()
     log = exact_log(model, some_beta(model), logged=False)

@@ -1,0 +1,129 @@
+"""Geometric symbols in C: which of them -D may replace, and why the others not."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import sympy
+
+from modeler.base.result import BaseParameters
+from modeler.codegen.printer import float_text
+from modeler.core.expression import Expression
+from modeler.robot import Robot
+from modeler.symbolic import Geometry, SymbolicModel
+from modeler.symbolic.geometry import geometric_symbol
+
+_SAME = 1e-12  # relative: a cell and its exact entry differ by rounding
+
+_SOME = "Their values decide which terms there are."
+_ALL = "The base parameters hold for these values only."
+
+
+@dataclass(frozen=True)
+class SymbolLines:
+    """Finished names and values of the geometric symbols.
+
+    Attributes:
+        free: (macro, value) of those that -D replaces.
+        fixed: (macro, value) of those that must stay; no value for those that no line reads.
+        why: why these must stay, one sentence.
+    """
+
+    free: tuple[tuple[str, str], ...]
+    fixed: tuple[tuple[str, str | None], ...]
+    why: str
+
+
+def symbol_lines(
+    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str]
+) -> SymbolLines:
+    """What is written of every declared symbol.
+
+    Relations proved for the letters hold for any value of them. Where they are not, or where a
+    value decides the structure (worth 0, a right angle), the code would be wrong for another one.
+
+    Args:
+        model: as derived.
+        base: the base parameters of the same model.
+        macros: of all declared symbols.
+    """
+    values = model.geometry.values
+    exact = base.proof.kind == "exact"
+    stay = deciding_symbols(model.geometry) if exact else frozenset(values)
+    texts = {name: float_text(value) for name, value in values.items()}
+    return SymbolLines(
+        tuple((macros[name], text) for name, text in texts.items() if name not in stay),
+        tuple(
+            (macros[name], texts.get(name))
+            for name in model.robot.symbols
+            if name in stay or name not in texts
+        ),
+        _SOME if exact else _ALL,
+    )
+
+
+def deciding_symbols(geometry: Geometry) -> frozenset[str]:
+    """Symbols left in the geometry that cannot change without changing its structure.
+
+    `d = "L1 + L2 - L3"` worth 0 is left out of the table, an angle `"a1 + a2"` worth pi/2 is that
+    right angle: with another L1 or a1 the entries would not be those of the table any more. So the
+    symbols are moved a little, and the entries compared with the cells as they were written.
+    """
+    robot = geometry.robot
+    moved = {
+        name: value * (1 + 1 / (97 + 12 * place))
+        for place, (name, value) in enumerate(geometry.values.items())
+    }
+    numbers = _numbers(robot, moved)
+    found: set[str] = set()
+    for cell, entry in _cells(geometry):
+        leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
+        found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
+        if leaves and not _same(cell, entry, numbers, leaves):
+            found |= leaves.keys()
+    return frozenset(found)
+
+
+def _numbers(robot: Robot, moved: Mapping[str, float]) -> dict[str, float]:
+    """Values of all symbols, and 0 for the joint variables, with some symbols moved."""
+    values: dict[str, float] = {}
+    for name, expression in robot.symbols.items():
+        try:
+            values[name] = moved[name] if name in moved else expression.number(values)
+        except (ArithmeticError, ValueError):
+            values[name] = math.nan  # equal to nothing
+    return values | {joint.variable: 0.0 for joint in robot.joints}
+
+
+def _cells(geometry: Geometry) -> Iterator[tuple[Expression, sympy.Expr]]:
+    """Every cell of the table and of gravity, as written and as an exact entry."""
+    for row in geometry.rows:
+        for column in ("gamma", "b", "alpha", "d", "theta", "r"):
+            yield getattr(row.joint, column), getattr(row, column)
+    yield from zip(geometry.robot.gravity, geometry.gravity, strict=True)
+
+
+def _leaves(robot: Robot, cell: Expression) -> set[str]:
+    """Declared symbols that the cell depends on, through those given by expressions too."""
+    found: set[str] = set()
+    waiting = [name for name in cell.names if name in robot.symbols]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += robot.symbols[name].names
+    return found
+
+
+def _same(
+    cell: Expression,
+    entry: sympy.Expr,
+    numbers: Mapping[str, float],
+    leaves: Mapping[str, float],
+) -> bool:
+    symbols = {geometric_symbol(name): value for name, value in leaves.items()}
+    try:
+        written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
+    except (ArithmeticError, ValueError, TypeError):
+        return False
+    return abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values()))

@@ -1,0 +1,123 @@
+"""Residuals that remember: what that does to the standard deviations."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.fit.least_squares import Estimate
+from modeler.observation import Observation
+
+_WORTH = 1.2  # a factor above it is said
+_LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter
+_SPREADS = 1.0  # standard deviations of the autocorrelation of white residuals
+_TOLD = 0.2  # autocorrelation that is told: filtering leaves 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Colour:
+    """What the memory of the residuals does.
+
+    Attributes:
+        factors: (c,) on the standard deviations, 1 and more.
+        memory: (joint, s) of the joints whose residuals are not white.
+    """
+
+    factors: np.ndarray
+    memory: tuple[tuple[str, float], ...]
+
+    def sentences(self) -> list[str]:
+        """One, if it matters."""
+        if not self.memory or self.factors.max(initial=1.0) < _WORTH:
+            return []
+        longest = max(self.memory, key=lambda entry: entry[1])
+        return [
+            f"the residuals are no white noise (joint {longest[0]} remembers {longest[1]:.2g} s): "
+            f"neighbouring rows repeat each other, and the sigmas are raised for it, by up to a "
+            f"factor {self.factors.max():.2g}"
+        ]
+
+
+def coloured(
+    observation: Observation, W: np.ndarray, y: np.ndarray, counted: np.ndarray, estimate: Estimate
+) -> Colour:
+    """By how much autocorrelated residuals raise the standard deviations.
+
+    The covariance C = (W^T S^-1 W)^-1 takes rows for independent. With residuals of joint j of
+    autocorrelation r_j(k), stationary, it is
+
+        C B C,  B = sum_j sum_k r_j(|k|) sum_t w_j(t) w_j(t+k)^T / sigma_j^2,
+
+    w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
+    sum over k ends with the first r_j below one standard deviation of that of white noise; the
+    first lag always counts, rows of one parallel filter correlate by 0.1).
+    Each standard deviation is multiplied by the square root of the ratio of the diagonals, never
+    by less than 1.
+
+    Args:
+        observation: says which row is which sample and joint.
+        W: (rows, c).
+        y: (rows,).
+        counted: (rows,) rows that were fitted.
+        estimate: of those rows; its covariance is for white residuals.
+    """
+    C = estimate.covariance
+    residual = y - W @ estimate.beta
+    extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
+    for j, joint in enumerate(observation.joints):
+        own = counted & (observation.row_joint == j)
+        if not own.any():
+            continue
+        sample = observation.row_sample[own]
+        r = autocorrelation(residual[own], sample, observation.segment)
+        rows = W[own] @ C / estimate.sigma[j]
+        extra += _repeated(rows, r, sample, observation.segment)
+        told = int(np.sum(r > _TOLD)) - 1
+        if told:
+            memory.append((joint.name, told * _spacing(observation)))
+    white = np.diag(C)
+    ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
+    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory))
+
+
+def _repeated(
+    rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
+) -> np.ndarray:
+    """(c,) 2 sum_k r(k) sum_t rows(t) rows(t + k)."""
+    total = np.zeros(rows.shape[1])
+    for lag in range(1, len(r)):
+        left, right = _pairs(sample, segment, lag)
+        total += 2.0 * r[lag] * np.einsum("tc,tc->c", rows[left], rows[right])
+    return total
+
+
+def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> np.ndarray:
+    """r(0) = 1, r(1), ... up to the first that does not stand out, at most 60, within segments.
+
+    Args:
+        e: (rows,) residual of one joint.
+        sample: (rows,) its samples, ascending.
+        segment: (samples,) number of the segment of each sample.
+    """
+    r = [1.0]
+    power = float(np.mean(e**2))
+    while len(r) <= _LAGS and power > 0.0:
+        left, right = _pairs(sample, segment, len(r))
+        if not left.size:
+            break
+        value = float(np.mean(e[left] * e[right])) / power
+        r.append(value)
+        if value < _SPREADS / np.sqrt(left.size):
+            break
+    return np.array(r)
+
+
+def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows that are `lag` samples apart within a segment."""
+    right = np.searchsorted(sample, sample + lag).clip(0, len(sample) - 1)
+    together = (sample[right] == sample + lag) & (segment[sample[right]] == segment[sample])
+    return np.flatnonzero(together), right[together]
+
+
+def _spacing(observation: Observation) -> float:
+    steps = np.diff(observation.time)[np.diff(observation.segment) == 0]
+    return float(np.median(steps)) if steps.size else 0.0

@@ -1,0 +1,168 @@
+"""Lengths and angles replaced at compile time: right, or refused; never wrong."""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+from modeler.base import base_parameters
+from modeler.codegen import emit, write_emitted
+from modeler.codegen.symbols import deciding_symbols
+from modeler.compiled import load
+from modeler.core.contract import Emitted
+from modeler.robot import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.symbolic import SymbolicModel, derive_model
+from tests.modules import compiler, module, states
+
+PLANAR = """
+name = "{name}"
+title = "Arm with symbols"
+gravity = {gravity}
+
+[symbols]
+g = 9.81
+{symbols}
+
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0, 0, "q1", 0],
+  ["2", "1", 0, "{alpha}", "{d}", "q2", "{r}"],
+]
+"""
+
+
+def arm(symbols, name="arm", gravity='[0, "-g", 0]', alpha="0", d="L", r="0") -> SymbolicModel:
+    text = PLANAR.format(name=name, gravity=gravity, symbols=symbols, alpha=alpha, d=d, r=r)
+    return derive_model(robot_from_text(text, name))
+
+
+def emitted_of(model: SymbolicModel) -> Emitted:
+    return emit(model, base_parameters(model))
+
+
+def compile_with(emitted, macro, folder) -> subprocess.CompletedProcess:
+    """All C files of a module, one of its macros replaced."""
+    write_emitted(emitted, folder)
+    units = [folder / name for name in emitted.spec.sources if name.endswith(".c")]
+    command = [compiler("gcc"), "-std=c99", "-fsyntax-only", f"-D{macro}=0.37", "-I", folder]
+    return subprocess.run([*command, *units], capture_output=True, text=True, check=False)
+
+
+def with_macro(emitted, macro, value) -> dict[str, str]:
+    """The files, as if compiled with -Dmacro=value."""
+    return {
+        name: f"#define {macro} {value}\n{text}" if name.endswith(".c") else text
+        for name, text in emitted.files.items()
+    }
+
+
+def test_a_length_can_be_replaced():
+    """-DWRIST_GEO_bl1=... gives the model of a robot file with that length."""
+    emitted = module("wrist").emitted
+    text = re.sub(r"(?m)^bl1\s*=\s*[0-9.]+", "bl1 = 0.37", builtin_text("wrist"))
+    other = emitted_of(derive_model(robot_from_text(text, "wrist with a longer link")))
+    q, qd, qdd = states(3, 5)
+    changed = load(emitted.spec, with_macro(emitted, "WRIST_GEO_bl1", 0.37))
+    derived, given = (load(m.spec, m.files) for m in (other, emitted))
+    np.testing.assert_allclose(
+        changed.base_regressor(q, qd, qdd), derived.base_regressor(q, qd, qdd)
+    )
+    chi = np.linspace(-1, 1, len(emitted.spec.standard))
+    np.testing.assert_allclose(changed.base_parameters(chi), derived.base_parameters(chi))
+    np.testing.assert_allclose(changed.forward_kinematics(q), derived.forward_kinematics(q))
+    assert not np.allclose(changed.base_regressor(q, qd, qdd), given.base_regressor(q, qd, qdd))
+
+
+@pytest.mark.parametrize(
+    "symbols",
+    [
+        "L = 0.5\nL1 = 0.2",
+        'L1 = 0.2\nL = "2*L1 + 0.1"',
+        'a = 0.5\nL = "sqrt(1 + a**2)"',
+    ],
+)
+def test_symbols_in_plain_cells_are_free(symbols):
+    assert deciding_symbols(arm(symbols).geometry) == set()
+
+
+@pytest.mark.parametrize(
+    ("symbols", "cells", "stay"),
+    [
+        # A symbol worth 0 through others: these others must keep their sum.
+        ('L = 0.5\nA = 0.2\nB = 0.2\ne = "A - B"', {"r": "e"}, {"A", "B"}),
+        # The other cell of these symbols stays as it is, but the structure does not.
+        ('L = 0.5\nB = 0.5\ne = "L - B"', {"r": "L + e"}, {"L", "B"}),
+        # Two angles that are a right one together.
+        (f"L = 0.5\na = 0.7\nb = {np.pi / 2 - 0.7!r}", {"alpha": "a + b"}, {"a", "b"}),
+        (f'L = 0.5\na = 0.7\nb = {np.pi / 2 - 0.7!r}\nc = "a + b"', {"alpha": "c"}, {"a", "b"}),
+        # A right angle but for a hair.
+        ("L = 0.5\ne = 1e-12", {"alpha": "pi/2 + e"}, {"e"}),
+    ],
+)
+def test_symbols_on_which_the_structure_rests_must_stay(symbols, cells, stay, tmp_path):
+    model = arm(symbols, **cells)
+    assert deciding_symbols(model.geometry) == stay
+    emitted = emitted_of(model)
+    for name in model.robot.symbols:
+        done = compile_with(emitted, f"ARM_GEO_{name}", tmp_path)
+        folded = name not in model.geometry.values
+        assert (done.returncode != 0) == (name in stay or folded), (name, done.stderr)
+        if done.returncode:
+            assert f"ARM_GEO_{name} cannot be replaced; change the robot file" in done.stderr
+            assert emitted.files["arm.c"].count(f"ARM_GEO_{name} cannot be replaced") == 1
+
+
+@pytest.mark.parametrize("value", ["0", repr(np.pi / 2), '"pi/6"', '"2*L"'])
+def test_a_symbol_folded_into_the_structure_cannot_be_replaced(value, tmp_path):
+    emitted = emitted_of(arm(f"L = 0.5\na = {value}", alpha="a"))
+    done = compile_with(emitted, "ARM_GEO_a", tmp_path)
+    assert "ARM_GEO_a cannot be replaced; change the robot file and generate again" in done.stderr
+    assert compile_with(emitted, "ARM_GEO_L", tmp_path).returncode == 0
+    assert "#define ARM_GEO_a" not in emitted.files["arm.c"]
+
+
+def test_an_angle_that_is_a_fraction_of_pi_is_that_angle():
+    q, qd, qdd = states(2, 6)
+    by_pi = emitted_of(arm('L = 0.5\na = "pi/7"', alpha="a + pi/5", r="a*L"))
+    number = emitted_of(arm(f"L = 0.5\na = {np.pi / 7!r}", alpha=f"a + {np.pi / 5!r}", r="a*L"))
+    got, expected = (load(m.spec, m.files).regressor(q, qd, qdd) for m in (by_pi, number))
+    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12)
+
+
+def test_relations_that_rest_on_given_values_let_no_symbol_be_replaced(tmp_path):
+    """d = L1 + L2 - L3 is 0 at the given values only, and then fewer parameters act."""
+    lengths = "L1 = 0.3\nL2 = 0.2\nL3 = 0.5"
+    model = arm(lengths, "zero", gravity='[0, 0, "-g"]', d="L1 + L2 - L3")
+    base = base_parameters(model)
+    assert base.proof.kind == "exact at the given values"
+    emitted = emit(model, base)
+    for name in ("L1", "L2", "L3", "g"):
+        done = compile_with(emitted, f"ZERO_GEO_{name}", tmp_path)
+        assert f"ZERO_GEO_{name} cannot be replaced" in done.stderr
+    for file in ("zero.c", "zero_regressor.c", "zero_base_regressor.c"):
+        assert "#ifndef" not in emitted.files[file]
+        assert "The base parameters hold for these values only." in emitted.files[file]
+    # Without -D it is the robot's model.
+    chi = np.linspace(-1, 1, len(emitted.spec.standard))
+    q, qd, qdd = states(2, 6)
+    library = load(emitted.spec, emitted.files)
+    tau = library.inverse_dynamics(q, qd, qdd, library.base_parameters(chi))
+    np.testing.assert_allclose(tau, library.regressor(q, qd, qdd) @ chi, rtol=0, atol=1e-10)
+
+
+def test_a_robot_and_a_symbol_may_be_called_like_a_macro_of_math_h(tmp_path):
+    """FP_NAN of robot fp would turn every isnan() of the program around."""
+    emitted = emitted_of(arm("L = 0.5\nNAN = 0.3", name="fp", r="NAN"))
+    write_emitted(emitted, tmp_path)
+    for name in emitted.spec.sources:
+        if name.endswith(".c"):
+            command = [compiler("gcc"), "-std=gnu99", "-Wall", "-Werror", "-fsyntax-only"]
+            subprocess.run([*command, "-I", tmp_path, tmp_path / name], check=True)
+    q, qd, qdd = states(2, 6)
+    same = emitted_of(arm("L = 0.5\nR = 0.3", name="other", r="R"))
+    got, expected = (load(m.spec, m.files).regressor(q, qd, qdd) for m in (emitted, same))
+    np.testing.assert_array_equal(got, expected)
+    np.testing.assert_array_equal(np.isfinite(got), True)

@@ -1,0 +1,92 @@
+"""Poses from the compiled C against elementary motions multiplied in numpy."""
+
+import re
+
+import numpy as np
+import pytest
+
+from modeler.base import base_parameters
+from modeler.codegen import emit
+from modeler.compiled import load
+from modeler.core.errors import ShapeError
+from modeler.robot import read_robot
+from modeler.robot.read import robot_from_text
+from modeler.symbolic import derive_model
+from tests.elementary_motions import frames
+from tests.modules import compiled, states
+from tests.robots import ROBOTS
+
+# Without gravity; a branch, a fixed frame between joints and one at the end, joints that count
+# backwards, oblique angles, a slide that is turned and offset.
+TREE = """
+name = "odd-tree"
+title = "Everything a row can hold"
+gravity = [0, 0, 0]
+
+[symbols]
+L = 0.4
+a = 0.7
+
+[mdh]
+columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, "a", "L", "pi/2 - a", 0.1, "0.3 - q1", "-L"],
+  ["F", "1", 2, 0.2, -0.1, "-a", "L/3", 1.1, 0.25],
+  ["2", "F", 1, 0, 0.05, "pi/2", "L", "a", "0.2 - q2"],
+  ["3", "2", 0, 0, 0, "pi", 0, "q3 - pi/2", 0],
+  ["4", "F", 0, "-pi/2", 0, 0.4, 0.3, "q4 + a", "2*L"],
+  ["E", "4", 2, 0, 0, 0, 0.5, 0, 0],
+]
+"""
+
+
+def expected(robot, q):
+    """(samples, joints, 3, 4)."""
+    moving = [joint.name for joint in robot.moving]
+    found = [frames(robot, sample) for sample in q]
+    return np.array([[poses[name][:3] for name in moving] for poses in found])
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_poses_are_the_product_of_elementary_motions(name):
+    robot = read_robot(name)
+    q = states(len(robot.moving), 25)[0]
+    np.testing.assert_allclose(
+        compiled(name).forward_kinematics(q), expected(robot, q), rtol=0, atol=1e-13
+    )
+
+
+def test_a_row_may_hold_anything():
+    robot = robot_from_text(TREE, "odd-tree")
+    model = derive_model(robot)
+    emitted = emit(model, base_parameters(model))
+    q = states(4, 25)[0]
+    T = load(emitted.spec, emitted.files).forward_kinematics(q)
+    np.testing.assert_allclose(T, expected(robot, q), rtol=0, atol=1e-13)
+
+
+def test_poses_move_as_the_torques_of_a_weight_say():
+    """Virtual work: gravity of a mass at the last origin is the slope of its height."""
+    robot, model = read_robot("puma560"), compiled("puma560")
+    names = [parameter.name for parameter in model.spec.standard]
+    chi = np.zeros(len(names))
+    chi[names.index("M6")] = 2.0
+    q, step = states(6, 10)[0], 1e-6
+    torque = model.gravity(q, model.base_parameters(chi))
+    g = np.array([entry.number(robot.symbol_values()) for entry in robot.gravity])
+    for joint, unit in enumerate(np.eye(6)):
+        ahead, behind = (model.forward_kinematics(q + s * unit)[:, -1, :, 3] for s in (step, -step))
+        work = -2.0 * (ahead - behind) @ g / (2 * step)
+        np.testing.assert_allclose(torque[:, joint], work, rtol=0, atol=1e-7)
+
+
+def test_shapes():
+    wrist = compiled("wrist")
+    assert wrist.forward_kinematics(np.zeros((5, 3))).shape == (5, 3, 3, 4)
+    assert wrist.forward_kinematics(np.empty((0, 3))).shape == (0, 3, 3, 4)
+    with pytest.raises(ShapeError, match=re.escape("q: got shape (5, 2), expected (samples, 3)")):
+        wrist.forward_kinematics(np.zeros((5, 2)))
+    function = wrist.spec.functions[-1]
+    assert function.name == "wrist_forward_kinematics"
+    assert [argument.shape for argument in function.inputs] == [(3,)]
+    assert [argument.shape for argument in function.outputs] == [(3, 3, 4)]
