@@ -39,7 +39,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "0f0b3cf5e3520646";
+    return "52c1df86014b50fa";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

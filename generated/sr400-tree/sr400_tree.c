@@ -51,7 +51,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "22b4512553441936";
+    return "5a3bf3a0d4191c4d";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -33,7 +33,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "9b7cd8cd3f732823";
+    return "04576a60be99586f";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -15,6 +15,7 @@ from modeler.core.errors import DataError
 from modeler.fit import (
     IdentifiedModel,
     Payload,
+    doubts,
     identify,
     identify_with_payloads,
     load_model,
@@ -132,10 +133,11 @@ def run_fit(args: argparse.Namespace) -> Json:
     else:
         result = identify(observation, args.method)
     save_model(args.out, identified(derivation, emitted, observation, result))
-    for line in (*observation.report.summary(), "", *result.summary()):
+    doubtful = doubts(emitted.spec, result)
+    for line in (*observation.report.summary(), "", *result.summary(), *doubtful):
         say(line)
     say(f"written: {args.out}")
-    return result.to_json()
+    return result.to_json() | {"doubts": list(doubtful)}
 
 
 def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:

@@ -62,7 +62,14 @@ def _standard(model: SymbolicModel, column: StandardColumn) -> ParameterSpec:
         effect=column.effect,
         joint=model.robot.joints[column.row].name,
         nominal=model.robot.parameters.get(column.name),
+        nonnegative=_nonnegative(column),
     )
+
+
+def _nonnegative(column: StandardColumn) -> bool:
+    if column.column is None:
+        return column.prefix in ("XX", "YY", "ZZ", "M")
+    return column.column.nonnegative
 
 
 def _base(model: SymbolicModel, parameter: BaseParameter) -> BaseSpec:

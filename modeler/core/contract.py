@@ -70,6 +70,7 @@ class ParameterSpec:
     effect: str
     joint: str  # row of the table it belongs to
     nominal: float | None
+    nonnegative: bool = False  # physics allows no negative value
 
 
 @dataclass(frozen=True)

@@ -1,19 +1,22 @@
 """The effects, in the order in which their parameters stand after the link's own."""
 
+import dataclasses
+
 from modeler.core.expression import parse
 from modeler.effects.effect import Effect, EffectColumn, EnergyBlock
 
-_ROTOR_INERTIA = EffectColumn("Ia", parse("a"), "kg m2", "kg", "rotor_inertia", EnergyBlock.KINETIC)
-_VISCOUS = EffectColumn("Fv", parse("v"), "N m s/rad", "N s/m", "friction", EnergyBlock.RAYLEIGH)
-_COULOMB = EffectColumn("Fs", parse("sign(v)"), "N m", "N", "friction", EnergyBlock.COULOMB)
-_OFFSET = EffectColumn("Off", parse("1"), "N m", "N", "offset", EnergyBlock.POWER)
+_ROTOR_INERTIA = EffectColumn(
+    "Ia", parse("a"), "kg m2", "kg", "rotor_inertia", EnergyBlock.KINETIC, True
+)
+_VISCOUS = EffectColumn(
+    "Fv", parse("v"), "N m s/rad", "N s/m", "friction", EnergyBlock.RAYLEIGH, True
+)
+_COULOMB = EffectColumn("Fs", parse("sign(v)"), "N m", "N", "friction", EnergyBlock.COULOMB, True)
+_OFFSET = EffectColumn("Off", parse("1"), "N m", "N", "offset", EnergyBlock.POWER, False)
 
 
 def _motor(column: EffectColumn, prefix: str) -> EffectColumn:
-    return EffectColumn(
-        prefix, column.equation, column.unit_revolute, column.unit_prismatic, column.kind,
-        column.block,
-    )  # fmt: skip
+    return dataclasses.replace(column, prefix=prefix)
 
 
 CATALOGUE: tuple[Effect, ...] = (

@@ -30,6 +30,7 @@ class EffectColumn:
         unit_prismatic: the same on a prismatic joint.
         kind: rotor_inertia | friction | offset: how base parameters are counted.
         block: its energy function, for grouping.
+        nonnegative: physics allows no negative value.
     """
 
     prefix: str
@@ -38,6 +39,7 @@ class EffectColumn:
     unit_prismatic: str
     kind: str
     block: EnergyBlock
+    nonnegative: bool
 
 
 @dataclass(frozen=True)

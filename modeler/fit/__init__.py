@@ -1,5 +1,6 @@
 """Estimates of the base parameters, their certainty, and the model file."""
 
+from modeler.fit.doubts import doubts as doubts
 from modeler.fit.essential import Essential as Essential
 from modeler.fit.identify import identify as identify
 from modeler.fit.least_squares import Method as Method
