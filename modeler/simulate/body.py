@@ -24,6 +24,7 @@ class Body:
     inertia: np.ndarray
 
 
+_ROUNDING = 1e-11  # of the moments of inertia
 _PLACE = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
 
 
@@ -80,6 +81,8 @@ def standard_from_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
 def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
     """True if some distribution of mass has these parameters; rods, plates and no mass included."""
     matrix = pseudo_inertia(values)
+    # A plate of which XX = YY + ZZ holds but for rounding is one.
+    matrix[:3, :3] += _ROUNDING * abs(np.trace(matrix[:3, :3])) * np.eye(3)
     # Rows scaled to ones on the diagonal: kilograms and kilogram square metres become comparable.
     diagonal = np.diag(matrix)
     if np.any(diagonal < 0):

@@ -15,7 +15,7 @@ from modeler.robot import INERTIAL
 from modeler.simulate.body import is_physical, pseudo_inertia, standard_from_pseudo_inertia
 
 _SUMS = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}  # XX = int y2 dm + int z2 dm, ...
-_MOMENTS = ("MX", "MY", "MZ")
+_OUTSIDE = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "MX": (0, 3), "MY": (1, 3), "MZ": (2, 3)}
 _ROUNDING = 1e-13  # relative; differences of stated numbers below it are 0
 _STRICT = 1e-7  # least eigenvalue, of a matrix near ones on its diagonal, of a body with an inside
 _EDGE = 5e-10  # below 0 by so little is the rounding of a plate, a rod or a point
@@ -54,6 +54,8 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
         stated: some of the ten, by prefix.
         reference: all ten, of a body with an inside.
     """
+    if not stated:
+        return Completion(dict(reference))
     if len(stated) == len(INERTIAL):
         return Completion(dict(stated)) if is_physical(stated) else Completion(None, True)
     near = pseudo_inertia(reference) * (
@@ -64,11 +66,14 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
         return Completion(None, impossible=True)
     if not problem.rows.size:
         return Completion(dict.fromkeys(INERTIAL, 0.0) | dict(stated))
-    x, impossible = _feasible(problem)
-    if impossible:
-        return Completion(None, impossible=True)
-    if _least(_matrix(problem, x)) > 1e-9:
-        x = _nearest(problem, x, near)
+    try:
+        x, impossible = _feasible(problem)
+        if impossible:
+            return Completion(None, impossible=True)
+        if x.size and _least(_matrix(problem, x)) > 1e-9:
+            x = _nearest(problem, x, near)
+    except np.linalg.LinAlgError:  # numbers too far apart for floating point
+        return Completion(None)
     scale = problem.scale[problem.rows]
     found = np.zeros((4, 4))
     found[np.ix_(problem.rows, problem.rows)] = _matrix(problem, x) * np.outer(scale, scale)
@@ -77,8 +82,10 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
 
 
 def _problem(stated: Mapping[str, float], near: np.ndarray) -> _Problem | None:
-    """The stated values as constraints; None if they contradict a diagonal element that is 0."""
+    """The stated values as constraints; None if two of them exclude each other."""
     known = _known_diagonal(stated)
+    if _contradicted(stated, known):
+        return None
     rows = np.array([i for i in range(4) if known.get(i) != 0.0], dtype=int)
     scale = _scale(stated, known, near)
     pairs = [(i, j) for a, i in enumerate(rows) for j in rows[a:]]
@@ -125,19 +132,39 @@ def _known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
     return {i: 0.0 if i < 3 and abs(v) <= _ROUNDING * size else v for i, v in known.items()}
 
 
-def _scale(
-    stated: Mapping[str, float], known: Mapping[int, float], near: np.ndarray
-) -> np.ndarray:
+def _contradicted(stated: Mapping[str, float], known: Mapping[int, float]) -> bool:
+    """True if a diagonal element is negative, or P_ii P_jj >= P_ij^2 cannot hold for a stated one.
+
+    Says at once what is wrong by far; the multiplier of the search proves the rest.
+    """
+    most = {i: np.inf for i in range(4)}
+    for prefix, pair in _SUMS.items():
+        most |= {i: min(most[i], stated[prefix]) for i in pair if prefix in stated}
+    most |= known
+    if min(most.values()) < 0:
+        return True
+    for prefix, (i, j) in _OUTSIDE.items():
+        product = most[i] * most[j] if most[i] and most[j] else 0.0
+        for total in (stated[p] for p, pair in _SUMS.items() if pair == (i, j) and p in stated):
+            product = min(product, total**2 / 4)  # the largest a b of a + b
+        if stated.get(prefix, 0.0) ** 2 > product * (1 + 1e-9):
+            return True
+    return False
+
+
+def _scale(stated: Mapping[str, float], known: Mapping[int, float], near: np.ndarray) -> np.ndarray:
     """(4,) roots of what the diagonal elements are about, so that S is of order 1."""
-    mass = abs(known.get(3, 0.0)) or near[3, 3]
-    size = np.empty(4)
-    for i, moment in enumerate(_MOMENTS):
+    size, loose = np.diag(near).copy(), []
+    for i in range(4):
         sums = [abs(stated[p]) for p, pair in _SUMS.items() if p in stated and i in pair]
-        needed = stated.get(moment, 0.0) ** 2 / mass
-        size[i] = abs(known.get(i, 0.0)) or min(sums, default=max(near[i, i], needed))
-    size = np.where(size > 0, size, np.diag(near))
-    needed = max(stated.get(m, 0.0) ** 2 / size[i] for i, m in enumerate(_MOMENTS))
-    size[3] = mass if 3 in known else max(mass, needed)
+        bound = abs(known.get(i, 0.0)) or min(sums, default=0.0)
+        size[i] = bound or size[i]
+        loose += [] if bound else [i]
+    for _ in range(3):  # P_ii P_jj > P_ij^2
+        for prefix, (i, j) in _OUTSIDE.items():
+            for one, other in ((i, j), (j, i)):
+                if one in loose:
+                    size[one] = max(size[one], 2 * stated.get(prefix, 0.0) ** 2 / size[other])
     return np.sqrt(size)
 
 
@@ -148,6 +175,9 @@ def _feasible(problem: _Problem) -> tuple[np.ndarray, bool]:
     the trace keeps free elements from running away.
     """
     m = len(problem.rows)
+    unit = np.trace(problem.directions, axis1=1, axis2=2)
+    if np.allclose(np.tensordot(unit, problem.directions, 1), np.eye(m), rtol=0, atol=1e-12):
+        return unit * (1.0 - _least(problem.origin)), False  # no diagonal element is fixed
     moves = np.concatenate([problem.directions, np.eye(m)[None]])
     z = np.zeros(len(moves))
     z[-1] = 1.0 - _least(problem.origin)

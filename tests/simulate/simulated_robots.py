@@ -78,6 +78,26 @@ rows = [
 rotor_inertia = ["1", "4"]
 """
 
+# As TREE, with joints of both kinds that run against z, first, between others and at the ends.
+BACKWARDS = """
+name = "backwards"
+gravity = [0.3, -0.2, -9.7]
+[mdh]
+columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 1, 0,   0,   0.2,    0,   0.1,        "-q1"],
+  ["2", "1", 0, 0.2, 0.1, "pi/2", 0.1, "0.4 - q2", 0.2],
+  ["3", "2", 1, 0,   0,   "pi/4", 0.2, 0.3,        "0.1 - q3"],
+  ["4", "3", 0, 0,   0,   "pi/3", 0.1, "q4",       0.1],
+  ["f", "2", 2, 0.5, 0.3, "pi/6", 0.1, 0.7,        0.2],
+  ["5", "f", 0, 0,   0,   "pi/3", 0.1, "-q5",      0.1],
+  ["6", "5", 1, 0,   0,   "pi/2", 0,   0,          "-q6"],
+]
+[effects]
+rotor_inertia = ["2", "3"]
+viscous = "all"
+"""
+
 
 def robot(text: str, **changes: str) -> Robot:
     """The robot of the text, with further tables appended: robot(ARM, limits="1 = ...")."""
@@ -101,7 +121,11 @@ def pinocchio_model(source: Robot, parameters: PlantParameters) -> pin.Model:
         if not row.moves:
             holders[row.name] = (holder, there @ pose)
             continue
-        kind = pin.JointModelRZ() if row.angular else pin.JointModelPZ()
+        cell = row.theta if row.angular else row.r
+        axis = np.array([0, 0, cell.number({**values, row.variable: 1.0}) - cell.number(values)])
+        axis = axis.round(12)
+        revolute, prismatic = pin.JointModelRevoluteUnaligned, pin.JointModelPrismaticUnaligned
+        kind = revolute(axis) if row.angular else prismatic(axis)
         index = model.addJoint(holder, kind, pin.SE3(there @ pose), row.name)
         body = parameters.bodies[row.name]
         inertia = pin.Inertia(body.mass, body.centre, body.inertia)

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pinocchio as pin
 import pytest
-from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
+from simulated_robots import ARM, BACKWARDS, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
 
 from modeler.core.errors import RobotError
 from modeler.robot import EffectUse, Robot
@@ -26,7 +26,9 @@ def column(function, *arguments) -> np.ndarray:
     return (values[0] if isinstance(values, tuple) else values).full().ravel()
 
 
-@pytest.mark.parametrize("text", [ARM, SIX, TREE], ids=["arm", "six", "tree"])
+@pytest.mark.parametrize(
+    "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
+)
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_forward_dynamics_agree_with_pinocchio(text, seed):
     source = robot(text)
@@ -45,7 +47,9 @@ def test_forward_dynamics_agree_with_pinocchio(text, seed):
         np.testing.assert_allclose(back, tau + resistance, rtol=0, atol=1e-10 * max(scale, 1))
 
 
-@pytest.mark.parametrize("text", [ARM, SIX, TREE], ids=["arm", "six", "tree"])
+@pytest.mark.parametrize(
+    "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
+)
 def test_energies_agree_with_pinocchio(text):
     source = dataclasses.replace(robot(text), effects=())
     plant, parameters = plant_of(source)
@@ -57,7 +61,9 @@ def test_energies_agree_with_pinocchio(text):
     assert potential == pytest.approx(pin.computePotentialEnergy(model, data, q), rel=1e-12)
 
 
-@pytest.mark.parametrize("text", [ARM, SIX, TREE], ids=["arm", "six", "tree"])
+@pytest.mark.parametrize(
+    "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
+)
 def test_power_of_motors_and_friction_changes_the_energy(text):
     """qd . (tau - friction) = d(T + U)/dt, with T and U formed apart from the torques."""
     plant, _ = plant_of(robot(text))
@@ -87,6 +93,26 @@ def test_pendulum_is_that_of_the_textbook():
     for q, qd, qdd in ((0.3, 1.1, -2.0), (-2.0, -0.4, 0.7)):
         expected = 1.0 * qdd + 9.81 * 1.2 * np.cos(q) + 0.5 * qd + 0.7 * np.sign(qd) - 0.2
         assert float(plant.torque(q, qd, qdd, [])) == pytest.approx(expected, rel=1e-12)
+
+
+NO_PRODUCTS = "XX1 = 0.1\nXY1 = 0\nXZ1 = 0\nYY1 = 0.95\nYZ1 = 0\nZZ1 = 0.9\nMY1 = 0\nMZ1 = 0\n"
+
+
+def test_a_pendulum_that_turns_against_z_is_that_of_the_textbook():
+    """The mass centre is at height -c sin q."""
+    text = PENDULUM.replace('"q1"', '"-q1"')
+    plant, _ = plant_of(robot(text, parameters=NO_PRODUCTS + "MX1 = 1.2\nM1 = 2"))
+    for q, qd, qdd in ((0.3, 1.1, -2.0), (-2.0, -0.4, 0.7)):
+        expected = 0.9 * qdd - 9.81 * 1.2 * np.cos(q)
+        assert float(plant.torque(q, qd, qdd, [])) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("cell", "sign"), [("q1", 1), ("-q1", -1)])
+def test_a_mass_lifted_along_or_against_z(cell, sign):
+    rows = f'columns = ["j", "a", "sigma", "r"]\nrows = [["1", "0", 1, "{cell}"]]\n'
+    text = f'name = "lift"\ngravity = [0, 0, "-9.81"]\n[mdh]\n{rows}'
+    plant, _ = plant_of(robot(text, parameters=NO_PRODUCTS + "MX1 = 0.6\nM1 = 3"))
+    assert float(plant.torque(0.2, 0.5, 2.0, [])) == pytest.approx(3 * (2.0 + sign * 9.81))
 
 
 def test_friction_opposes_motion_and_is_full_at_two_percent_of_the_top_speed():

@@ -8,14 +8,16 @@ from simulated_robots import ARM, PENDULUM, SIX, TREE, robot
 
 from modeler.core.errors import RobotError
 from modeler.robot import INERTIAL, Limits, builtin_names, read_robot
-from modeler.simulate import motion_limits, plant_parameters
+from modeler.simulate import links, motion_limits, plant_parameters
 from modeler.simulate.body import (
+    Body,
     body_from_standard,
     is_physical,
     pseudo_inertia,
     standard_from_body,
     standard_from_pseudo_inertia,
 )
+from modeler.simulate.completion import Completion, completed
 
 
 def cloud(seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -124,6 +126,81 @@ def test_every_built_in_robot_can_be_filled_in(name):
     stated = {k: v for k, v in source.parameters.items() if k in parameters.standard}
     assert stated.items() <= parameters.standard.items()
     assert all(np.isfinite(value) for value in parameters.standard.values())
+
+
+REFERENCE = standard_from_body(
+    Body(8.0, np.array([0.2, 0.01, 0.02]), np.diag([0.1, 0.3, 0.35]) + 0.01)
+)
+
+
+@pytest.mark.parametrize("count", range(1, 8))
+def test_whatever_a_real_body_has_can_be_stated(count):
+    """Points, rods, plates and bodies, light or heavy, near or far: any part of their numbers."""
+    for seed in range(60):
+        rng = np.random.default_rng([count, seed])
+        masses = rng.uniform(0.1, 2, count) * 10 ** rng.uniform(-3, 2)
+        places = rng.normal(size=(count, 3)) * 10 ** rng.uniform(-2, 1)
+        if seed % 3 == 1:
+            places[:, rng.integers(3)] = 0.0
+        real = standard_of_cloud(masses, places)
+        share = rng.choice([0.3, 0.6, 0.9])
+        stated = {p: real[p] for p in INERTIAL if rng.random() < share}
+        values = completed(stated, REFERENCE).values
+        assert values is not None, (seed, stated)
+        assert stated.items() <= values.items()
+        second = pseudo_inertia(values)  # positive up to rounding, by an oracle of its own
+        size = np.sqrt(np.abs(np.diag(second)) + 1e-9 * np.abs(np.diag(second)).max())
+        assert np.linalg.eigvalsh(second / np.outer(size, size))[0] > -1e-4, (seed, stated)
+
+
+@pytest.mark.parametrize(
+    "stated",
+    [
+        {"ZZ": 5, "MX": 1, "MY": 0.3, "M": 3},
+        {"XX": 0.4, "YY": 0.4, "ZZ": 0.8, "MX": 0.1, "MY": 0.03, "M": 3},
+        {"MX": 1000.0},
+        {"M": 0.0},
+        {"XX": 0.0, "M": 2.0},
+    ],
+)
+def test_links_that_exist_are_not_refused(stated):
+    lines = "\n".join(f"{prefix}2 = {value}" for prefix, value in stated.items())
+    source = robot(ARM, parameters=lines)
+    standard = plant_parameters(source, motion_limits(source)).standard
+    assert {p: standard[p + "2"] for p in stated} == stated
+    assert is_physical({p: standard[p + "2"] for p in INERTIAL})
+
+
+@pytest.mark.parametrize(
+    "stated",
+    [
+        {"M": 0.0, "MX": 1.0},
+        {"M": 1.0, "MX": 1.0, "ZZ": 5.0, "YY": 0.9},
+        {"XX": 1.0, "YY": 1.0, "ZZ": 2.1},
+        {"XX": 1.0, "YY": 1.0, "ZZ": 1.0, "XY": 0.6},
+        {"XX": 0.0, "MY": 0.1},
+        {"ZZ": 1.0, "XY": 0.6},
+        {"ZZ": 0.1, "MX": -34.0, "MZ": 0.01, "M": 0.004},
+        {"XX": 1.0, "YY": 1.0, "ZZ": 1.0, "XY": -0.4, "XZ": -0.4, "YZ": 0.4, "MX": 1e-3},
+        {"ZZ": 1.0, "M": 1.0, "MX": 0.8, "MY": 0.8},
+        {p: float(p in ("XX", "YY", "M")) for p in INERTIAL if p != "ZZ"} | {"ZZ": 2.01},
+    ],
+)
+def test_links_that_cannot_exist_are_proved_impossible(stated):
+    """By hand: an inequality of Cauchy and Schwarz, or the triangle inequality, fails for each."""
+    assert completed(stated, REFERENCE) == Completion(None, impossible=True)
+
+
+def test_the_completion_is_the_reference_where_that_fits():
+    stated = {p: REFERENCE[p] for p in ("ZZ", "MX", "MY", "M")}
+    assert completed(stated, REFERENCE).values == pytest.approx(REFERENCE, rel=1e-6, abs=1e-8)
+
+
+def test_a_search_that_fails_does_not_claim_that_no_body_exists(monkeypatch):
+    monkeypatch.setattr(links, "completed", lambda stated, reference: Completion(None))
+    source = robot(ARM, parameters="M1 = 1.0")
+    with pytest.raises(RobotError, match=r"link 1: found no rigid body .*M1 = 1, nor a proof"):
+        plant_parameters(source, motion_limits(source))
 
 
 def test_impossible_links_are_named():

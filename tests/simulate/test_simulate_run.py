@@ -239,6 +239,8 @@ def test_files_that_cannot_be_written(arm_log, tmp_path):
     [
         ({"duration": 0.0}, r"duration: got 0\.0; expected a number above 0"),
         ({"duration": float("nan")}, r"duration: got nan"),
+        ({"duration": 1e9}, r"duration: got 1e\+09 s at 1000 samples .* expected at most 2e\+07"),
+        ({"duration": 1e300, "rate": 1e300}, r"duration: got 1e\+300 s .* expected at most"),
         ({"rate": -1.0}, r"rate: got -1\.0; expected a number above 0"),
         ({"bandwidth": 0.0}, r"bandwidth: got 0\.0"),
         ({"seed": -1}, r"seed: got -1; expected 0 or more"),
