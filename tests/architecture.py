@@ -25,7 +25,7 @@ PACKAGES: dict[str, set[str]] = {
     "core": {"numpy"},
     "effects": set(),
     "robot": set(),
-    "symbolic": {"numpy", "sympy", "casadi"},
+    "symbolic": {"numpy", "scipy", "sympy", "casadi"},
     "base": {"numpy", "sympy"},
     "terms": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},

@@ -125,7 +125,7 @@ class ModularState:
         assert column.shaft is not None
         total = np.zeros(self.points, dtype=np.int64)
         for joint, coefficient in column.shaft.items():
-            exact = sympy.Rational(repr(coefficient))
+            exact = sympy.Rational(coefficient.numerator, coefficient.denominator)
             total = (total + self.value(exact) * self.qd[joint]) % PRIME
         return total
 

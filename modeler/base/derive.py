@@ -9,7 +9,7 @@ from modeler.base.fallback import numeric_grouping
 from modeler.base.field import geometry_field
 from modeler.base.grouping import base_from_relations, column_relations
 from modeler.base.numeric import NumericRank, numeric_rank, random_states, regressor_values
-from modeler.base.proof import NotProved, certificate
+from modeler.base.proof import Certificate, NotProved, certificate
 from modeler.base.result import BaseParameters, Proof
 from modeler.symbolic import Geometry, SymbolicModel, exact_geometry
 
@@ -40,7 +40,7 @@ def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
     Raises:
         DerivationError: a priority pattern matches nothing.
     """
-    samples = max(60, 3 * len(model.columns) // max(1, model.geometry.joints))
+    samples = max(60, 3 * len(model.columns) // max(1, len(model.robot.coordinates)))
     phi = regressor_values(model, random_states(model, samples, np.random.default_rng(seed)))
     numeric = numeric_rank(phi, range(len(model.columns)))
     try:
@@ -65,13 +65,16 @@ def _exact(
 ) -> BaseParameters:
     """Raises NotProved or TooLarge unless everything agrees."""
     K = geometry_field(geometry)
-    relations = column_relations(model, geometry, K)
+    relations = column_relations(model, geometry, K, seed)
     if len(relations.kept) != numeric.rank:
         raise NotProved(
             f"the symbols give rank {len(relations.kept)}, the torques at the given values "
             f"{numeric.rank}"
         )
-    proved = certificate(geometry, model.columns, K, relations, seed)
+    if geometry.tied or model.closure is not None:
+        proved = Certificate(numeric.rank, 0)
+    else:
+        proved = certificate(geometry, model.columns, K, relations, seed)
     parameters, unidentifiable = base_from_relations(model.columns, relations, K)
     agreement = torque_agreement(model, parameters, seed)
     if agreement > _AGREEMENT:

@@ -36,12 +36,12 @@ def numeric_grouping(model: SymbolicModel, seed: int) -> NumericGrouping:
     Raises:
         DerivationError: a priority pattern matches nothing.
     """
-    samples = 20 + 3 * len(model.columns) // max(1, model.geometry.joints)
+    samples = 20 + 3 * len(model.columns) // max(1, len(model.robot.coordinates))
     phi = regressor_values(model, random_states(model, samples, np.random.default_rng(seed)))
     W = phi.reshape(-1, phi.shape[2])
     lengths = np.linalg.norm(W, axis=0)
     absent = {i for i, length in enumerate(lengths) if length <= ZERO * lengths.max(initial=0.0)}
-    order = [i for i in priority_order(model.names, model.robot.priority) if i not in absent]
+    order = [i for i in priority_order(model.names, model.robot.kept_first) if i not in absent]
     kept, relations, bound = _first_come(W, lengths, order)
     terms = {b: [Term(sympy.Integer(1), model.names[b])] for b in sorted(kept)}
     for column in sorted(relations):

@@ -7,12 +7,12 @@ import sympy
 
 from modeler.base.elimination import sparse_row_reduce
 from modeler.base.field import Element, ExactField
+from modeler.base.loops import loop_relations, on_link
 from modeler.base.priority import priority_order
 from modeler.base.result import BaseParameter, Term
 from modeler.base.shafts import friction_relations
-from modeler.base.transfer import joint_constant, placement, transferred
-from modeler.base.tree import INERTIA, OFFSET, group_tree
-from modeler.robot import INERTIAL
+from modeler.base.tree import group_tree
+from modeler.base.units import Units, grouping_units
 from modeler.symbolic import Geometry, StandardColumn, SymbolicModel
 
 
@@ -31,62 +31,47 @@ class Relations:
     kept: tuple[int, ...]
 
 
-def column_relations(model: SymbolicModel, geometry: Geometry, K: ExactField) -> Relations:
-    """The reduced relations of a serial or tree robot, first-come by the priority order."""
-    rows = _link_relations(model, geometry, K) + [
+def column_relations(
+    model: SymbolicModel, geometry: Geometry, K: ExactField, seed: int
+) -> Relations:
+    """The reduced relations of a robot, first-come by the priority order."""
+    units = grouping_units(geometry, model.columns)
+    if geometry.tied:
+        from modeler.base.tied import tied_relations
+
+        rows = tied_relations(geometry, units.columns, K, seed)
+    else:
+        rows = _link_relations(geometry, K, units)
+    rows += loop_relations(geometry, K, units.places)
+    rows, auxiliary = units.merged(rows)
+    rows += [
         {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
         for relation in friction_relations(model.columns)
     ]
-    order = priority_order(model.names, model.robot.priority)
-    reduced, dropped = sparse_row_reduce(rows, order[::-1])
+    order = priority_order(model.names, model.robot.kept_first)
+    reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
+    first = sum(pivot >= len(model.columns) for pivot in pivots)
+    reduced, dropped = reduced[first:], pivots[first:]
     kept = [place for place in range(len(model.columns)) if place not in set(dropped)]
     return Relations(tuple(reduced), tuple(dropped), tuple(kept))
 
 
-def _link_relations(
-    model: SymbolicModel, geometry: Geometry, K: ExactField
-) -> list[dict[int, Element]]:
-    places = _places(model.columns)
+def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dict[int, Element]]:
+    """Relations of a tree whose rows all move freely."""
     relations = []
+    places = units.places
     for k, grouping in enumerate(group_tree(geometry, K, places.keys())):
         if geometry.rows[k].index is None:
             continue
         for hidden, moved in zip(grouping.hidden, grouping.moved, strict=True):
             relation = {places[k, i]: x for i, x in enumerate(hidden) if x}
-            parent, moved = _carrying(geometry, K, k, moved)
+            parent, moved = on_link(geometry, K, geometry.rows[k].parent, moved)
             if parent is not None:
                 for i, x in enumerate(moved):
                     if x:
                         relation[places[parent, i]] = -x
             relations.append(relation)
     return relations
-
-
-def _carrying(
-    geometry: Geometry, K: ExactField, k: int, moved: list[Element]
-) -> tuple[int | None, list[Element]]:
-    """The link that takes over, below any fixed frames; None for the base."""
-    rows = geometry.rows
-    parent = rows[k].parent
-    while parent is not None and rows[parent].index is None:
-        for step in (joint_constant(rows[parent], K), placement(rows[parent], K)):
-            moved = transferred(step, moved, K)
-        parent = rows[parent].parent
-    return parent, moved
-
-
-def _places(columns: Sequence[StandardColumn]) -> dict[tuple[int, int], int]:
-    """Column of (row, place among the link's ten, rotor inertia, offset)."""
-    found = {}
-    for place, column in enumerate(columns):
-        if column.column is None:
-            found[column.row, INERTIAL.index(column.prefix)] = place
-        elif column.shaft is not None and len(column.shaft) == 1 and column.effect in _OWN:
-            found[column.row, _OWN[column.effect]] = place
-    return found
-
-
-_OWN = {"rotor_inertia": INERTIA, "offset": OFFSET}
 
 
 def base_from_relations(

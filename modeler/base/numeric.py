@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.symbolic import SymbolicModel
+from modeler.symbolic.closed_states import closed_motion, closed_postures
 
 TOLERANCE = 1e-9
 """Relative to the largest singular value of the scaled matrix; see `NumericRank.gap`."""
@@ -15,7 +16,7 @@ ZERO = 1e-13
 out, never scaled up."""
 
 States = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""q, qd, qdd of shape (samples, joints)."""
+"""Positions, speeds and accelerations of the free variables, each (samples, len(u))."""
 
 
 @dataclass(frozen=True)
@@ -36,15 +37,24 @@ class NumericRank:
 
 
 def random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) -> States:
-    """Positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1."""
-    n = model.geometry.joints
-    angular = np.array([joint.angular for joint in model.robot.moving])
-    q = rng.uniform(-1.0, 1.0, (samples, n)) * np.where(angular, np.pi, 1.0)
-    return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
+    """Positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1.
+
+    With loops: closed postures around home, and motions that the loops allow.
+    """
+    if model.closure is None:
+        n = model.geometry.coordinates
+        angular = np.array([joint.angular for joint in model.robot.free])
+        q = rng.uniform(-1.0, 1.0, (samples, n)) * np.where(angular, np.pi, 1.0)
+        return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
+    u = closed_postures(model, samples, rng)
+    qd, qdd = rng.normal(size=(2, samples, len(model.closure.given)))
+    motion = closed_motion(model, u, qd)
+    ud = np.einsum("nij,nj->ni", motion.coupling, qd)
+    return u, ud, np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
 
 
 def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
-    """(samples, joints, columns): the standard regressor at the nominal geometry."""
+    """(samples, coordinates, columns): the standard regressor at the nominal geometry."""
     q, qd, qdd = states
     values = dict(model.geometry.values)
     inputs = {
@@ -57,7 +67,10 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
     found = model.graph.evaluate(list(entries.values()), {**values, **inputs})
     for (joint, column), value in zip(entries, found, strict=True):
         phi[:, joint, column] = value
-    return phi
+    if model.closure is None:
+        return phi
+    none = np.zeros((len(q), len(model.closure.given)))
+    return np.einsum("nij,nic->njc", closed_motion(model, q, none).coupling, phi)
 
 
 def numeric_rank(phi: np.ndarray, columns: Sequence[int]) -> NumericRank:

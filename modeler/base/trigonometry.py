@@ -8,6 +8,9 @@ import sympy
 from sympy import QQ
 from sympy.polys.rings import PolyElement, ring
 
+Terms = Sequence[tuple[tuple[int, ...], Any]]
+"""(exponents, coefficient) of a polynomial."""
+
 Letters = Mapping[sympy.Expr, str]
 """What each generator stands for -> "symbol", "angle" or "opaque"."""
 
@@ -19,15 +22,24 @@ def in_cosines(numerator: PolyElement, denominator: PolyElement, letters: Letter
     t**2/(1 + t**2) = (1 - c)/2, 1/(1 + t**2) = (1 + c)/2, t/(1 + t**2) = s/2. Sums are written
     expanded, with s**2 or c**2 eliminated, whichever leaves fewer terms.
     """
-    target = _Target(letters)
     degrees = [
         max((m[i] for part in (numerator, denominator) for m in part), default=0)
         for i in range(len(letters))
     ]
-    pairs = [(degree + 1) // 2 for degree in degrees]
-    top, bottom = (target.converted(part, pairs) for part in (numerator, denominator))
+    used = [i for i, degree in enumerate(degrees) if degree]
+    names = list(letters)
+    target = _Target({names[i]: letters[names[i]] for i in used})
+    pairs = [(degrees[i] + 1) // 2 for i in used]
+    parts = [
+        [(tuple(m[i] for i in used), c) for m, c in part.terms()]
+        for part in (numerator, denominator)
+    ]
+    top, bottom = (target.converted(part, pairs) for part in parts)
     top, bottom = top.cancel(bottom)
     return target.shortest(top) / target.shortest(bottom)
+
+
+_ALL_CHOICES = 4
 
 
 class _Target:
@@ -46,10 +58,10 @@ class _Target:
                 self.names.append(letter)
         self.ring, *self.generators = ring([f"x{i}" for i in range(len(self.names))], QQ)
 
-    def converted(self, part: PolyElement, pairs: Sequence[int]) -> PolyElement:
+    def converted(self, terms: Terms, pairs: Sequence[int]) -> PolyElement:
         """The polynomial divided by (1 + t**2)**pairs for each angle."""
         total = self.ring.zero
-        for monomial, coefficient in part.terms():
+        for monomial, coefficient in terms:
             term = self.ring.one * coefficient
             for slot, exponent, K in zip(self.slots, monomial, pairs, strict=True):
                 term = term * self._factor(slot, exponent, K)
@@ -80,11 +92,19 @@ class _Target:
         return poly
 
     def shortest(self, poly: PolyElement) -> sympy.Expr:
-        """The expanded form of fewest terms."""
-        forms = [
-            self.reduced(poly, keep) for keep in product((True, False), repeat=len(self.angles))
-        ]
-        best = min(forms, key=len)
+        """The expanded form of fewest terms; with many angles the choices are made in turn."""
+        count = len(self.angles)
+        if count <= _ALL_CHOICES:
+            choices = product((True, False), repeat=count)
+            best = min((self.reduced(poly, keep) for keep in choices), key=len)
+        else:
+            keep = [True] * count
+            best = self.reduced(poly, keep)
+            for i in range(count):
+                other = [k != (i == j) for j, k in enumerate(keep)]
+                form = self.reduced(poly, other)
+                if len(form) < len(best):
+                    best, keep = form, other
         return sympy.Add(*(self._term(m, c) for m, c in best.terms()))
 
     def _term(self, monomial: tuple[int, ...], coefficient: Any) -> sympy.Expr:

@@ -102,7 +102,7 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
 
 def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
     model, base = derivation.model, derivation.base
-    small = model.geometry.joints <= _FEW_JOINTS
+    small = len(model.robot.coordinates) <= _FEW_JOINTS
     if args.closed_form:
         say()
         say(_CLOSED_FORMS[args.format](closed_form(model, base)))

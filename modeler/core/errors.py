@@ -31,3 +31,7 @@ class BuildError(ModelerError):
 
 class ManifestError(ModelerError):
     """A manifest, model file or compiled library does not say what it should."""
+
+
+class LoopError(ModelerError):
+    """A kinematic loop leaves too much or too little free, is singular, or cannot close."""

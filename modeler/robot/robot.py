@@ -47,9 +47,45 @@ class Limits:
     acceleration: float
 
 
+LOOP_KINDS = (
+    "rigid", "revolute", "prismatic", "cylindrical", "universal", "spherical", "position", "planar",
+)  # fmt: skip
+"""What the joint that closes a loop lets free; see `Loop`."""
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A joint that closes a kinematic chain: frame `frame` and frame `meets` meet there.
+
+    rigid: the frames coincide; revolute: origins and z axes coincide; prismatic: they coincide but
+    for a travel along z; cylindrical: the z axes coincide as lines; universal: origins coincide
+    and the z axes (the two axes of the cross) are perpendicular; spherical, position: origins
+    coincide; planar: their xy planes coincide.
+
+    Attributes:
+        name: of the loop, for messages.
+        frame: row of one frame.
+        meets: row of the other; "0" for the base.
+        kind: one of `LOOP_KINDS`.
+    """
+
+    name: str
+    frame: str
+    meets: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class SharedParameter:
+    """One parameter that several links have in common: "XX2" for XX21, XX22, XX23."""
+
+    name: str
+    members: tuple[str, ...]
+
+
 @dataclass(frozen=True)
 class Robot:
-    """A serial or tree-structured robot.
+    """A robot: serial, tree-structured, or with closed loops.
 
     Attributes:
         gravity: acceleration of gravity in frame 0, m/s2.
@@ -66,6 +102,14 @@ class Robot:
         limits: range of motion for simulation, by joint.
         physical: the letters of a paper for the links, by joint.
         terms: how a paper prints its coefficients (see `modeler.terms`).
+        relations: variables of joints that follow others: row -> its variable as a linear
+            expression of the variables of other rows (`q4 = "-q3"`).
+        loops: joints that close kinematic chains.
+        platform: rows that move the platform, the last of which carries it; empty without one.
+        home: posture from which loops are closed, by row; rows left out stand at 0. It says which
+            assembly mode is meant.
+        links: inertial parameters of rows that have not all ten: row -> prefixes.
+        shared: parameters that similar legs have in common.
         notes: source of the table and remarks, for people.
         text: the TOML text it was read from.
     """
@@ -83,13 +127,48 @@ class Robot:
     limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
     physical: Mapping[str, PhysicalLink] = field(default_factory=lambda: _EMPTY)
     terms: Mapping[str, object] = field(default_factory=lambda: _EMPTY)
+    relations: Mapping[str, Expression] = field(default_factory=lambda: _EMPTY)
+    loops: tuple[Loop, ...] = ()
+    platform: tuple[str, ...] = ()
+    home: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    links: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: _EMPTY)
+    shared: tuple[SharedParameter, ...] = ()
     notes: str = ""
     text: str = ""
 
     @property
     def moving(self) -> tuple[Joint, ...]:
-        """Rows with a joint variable, in table order: the order of q, qd, qdd, tau."""
+        """Rows with a joint variable, in table order."""
         return tuple(joint for joint in self.joints if joint.moves)
+
+    @property
+    def free(self) -> tuple[Joint, ...]:
+        """Moving rows whose variable does not follow others, in table order."""
+        return tuple(joint for joint in self.moving if joint.name not in self.relations)
+
+    @property
+    def coordinates(self) -> tuple[Joint, ...]:
+        """Rows whose variables are q, qd, qdd, tau, in that order.
+
+        The free rows of a tree; the actuated ones among them once loops tie the others to them.
+        """
+        return tuple(joint for joint in self.free if joint.actuated or not self.loops)
+
+    @property
+    def kept_first(self) -> tuple[str, ...]:
+        """`priority`; where none is stated, the platform's parameters.
+
+        What moves the platform is what people look for, and legs group into it more simply than
+        it into legs.
+        """
+        if self.priority or not self.platform:
+            return self.priority
+        name = self.platform[-1]
+        return tuple(f"{prefix}{name}" for prefix in self.inertial(name))
+
+    def inertial(self, name: str) -> tuple[str, ...]:
+        """Prefixes of the inertial parameters of the link of that row."""
+        return self.links.get(name, INERTIAL)
 
     def joint(self, name: str) -> Joint:
         """Row of that name."""

@@ -1,9 +1,10 @@
 """Stage 2: the model as expressions, linear in the standard parameters."""
 
+from modeler.symbolic.closure import Closure as Closure
 from modeler.symbolic.columns import StandardColumn as StandardColumn
+from modeler.symbolic.derive import derive_model as derive_model
 from modeler.symbolic.geometry import Geometry as Geometry
 from modeler.symbolic.geometry import exact_geometry as exact_geometry
 from modeler.symbolic.graph import Expr as Expr
 from modeler.symbolic.graph import Graph as Graph
 from modeler.symbolic.model import SymbolicModel as SymbolicModel
-from modeler.symbolic.model import derive_model as derive_model

@@ -37,7 +37,8 @@ class Algebra(Protocol):
 
 
 class GraphAlgebra:
-    """Expressions of a graph; q, qd, qdd are its symbols `q[0]`, `qd[0]`, ..."""
+    """Expressions of a graph; the free variables and their derivatives are its symbols `q[0]`,
+    `qd[0]`, ..."""
 
     def __init__(self, graph: Graph, geometry: Geometry) -> None:
         self.graph = graph
@@ -80,15 +81,23 @@ class GraphAlgebra:
 
     def variable(self, row: Row) -> Expr:
         """rate * q + offset of a prismatic joint."""
-        q = self.graph.symbol(f"q[{row.index}]")
+        q = self.combined("q", row)
         return (q if row.rate > 0 else -q) + self.static(row.r)
+
+    def combined(self, kind: str, row: Row) -> Expr:
+        """The variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
+        assert row.index is not None
+        total = self.graph.constant(0)
+        for k, coefficient in self.geometry.forms[row.index].items():
+            total = total + self.graph.symbol(f"{kind}[{k}]") * coefficient
+        return total
 
     def cos_sin(self, row: Row) -> tuple[Expr, Expr]:
         """Cosine and sine of theta; right angles are taken out exactly."""
         if row.index is None or not row.joint.angular:
             c, s = cos_sin(row.theta)
             return self.static(c), self.static(s)
-        q = self.graph.symbol(f"q[{row.index}]")
+        q = self.combined("q", row)
         angle = q if row.rate > 0 else -q
         quarters = row.theta / (sympy.pi / 2)
         if not quarters.is_Integer:

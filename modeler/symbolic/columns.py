@@ -1,10 +1,12 @@
 """The standard parameters of a robot: which columns the regressor has, and in which order."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from modeler.effects import CATALOGUE, EffectColumn
-from modeler.robot import INERTIAL, Joint, Robot
+from modeler.robot import Joint, Robot
+from modeler.symbolic.geometry import Geometry
 
 _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
     ("MX", "MY", "MZ"), "kg m"
@@ -23,8 +25,10 @@ class StandardColumn:
         kind: inertial | rotor_inertia | friction | offset.
         effect: "rigid_body" or the id of the effect.
         column: the effect's column; None for the ten inertial parameters.
-        shaft: for an effect, {index of the joint variable: coefficient}; the speed of the shaft is
-            v = sum of coefficient * qd, and it turns the joints back with the same coefficients.
+        shaft: for an effect, {k: coefficient}; the speed of the shaft is v = sum of coefficient *
+            ud[k] over the free variables, and it turns them back with the same coefficients.
+        others: columns of the same parameter on other rows, which similar legs share; the
+            parameter's column is the sum of its `parts`.
     """
 
     name: str
@@ -34,17 +38,37 @@ class StandardColumn:
     kind: str
     effect: str
     column: EffectColumn | None = None
-    shaft: Mapping[int, float] | None = None
+    shaft: Mapping[int, Fraction] | None = None
+    others: tuple["StandardColumn", ...] = ()
+
+    @property
+    def parts(self) -> tuple["StandardColumn", ...]:
+        """The column on every row that has the parameter."""
+        return (self, *self.others)
 
 
-def standard_columns(robot: Robot) -> tuple[StandardColumn, ...]:
-    """All standard parameters: row after row, the link's ten, then those of the joint's effects."""
+def standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
+    """All standard parameters: row after row, the link's, then those of the joint's effects.
+
+    A shared parameter stands where its first member would.
+    """
+    robot = geometry.robot
     columns: list[StandardColumn] = []
     for row, joint in enumerate(robot.joints):
         if joint.moves:
-            columns += [_inertial(prefix, row, joint) for prefix in INERTIAL]
-            columns += _effect_columns(robot, row, joint)
-    return tuple(columns)
+            columns += [_inertial(prefix, row, joint) for prefix in robot.inertial(joint.name)]
+            columns += _effect_columns(geometry, row, joint)
+    return _shared(robot, columns)
+
+
+def _shared(robot: Robot, columns: list[StandardColumn]) -> tuple[StandardColumn, ...]:
+    by_name = {column.name: column for column in columns}
+    for shared in robot.shared:
+        first, *others = (by_name[name] for name in shared.members)
+        by_name[shared.members[0]] = replace(first, name=shared.name, others=tuple(others))
+        for other in others:
+            del by_name[other.name]
+    return tuple(by_name.values())
 
 
 def _inertial(prefix: str, row: int, joint: Joint) -> StandardColumn:
@@ -52,30 +76,37 @@ def _inertial(prefix: str, row: int, joint: Joint) -> StandardColumn:
     return StandardColumn(prefix + joint.name, row, prefix, unit, "inertial", "rigid_body")
 
 
-def _effect_columns(robot: Robot, row: int, joint: Joint) -> list[StandardColumn]:
+def _effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[StandardColumn]:
     found = []
     for effect in CATALOGUE:
-        if robot.has_effect(effect.id, joint.name):
+        if geometry.robot.has_effect(effect.id, joint.name):
             for column in effect.columns:
-                unit = column.unit_revolute if joint.angular else column.unit_prismatic
-                shaft = _shaft(robot, joint, effect.coupled)
                 found.append(
                     StandardColumn(
-                        column.prefix + joint.name,
-                        row,
-                        column.prefix,
-                        unit,
-                        column.kind,
-                        effect.id,
-                        column,
-                        shaft,
+                        name=column.prefix + joint.name,
+                        row=row,
+                        prefix=column.prefix,
+                        unit=column.unit_revolute if joint.angular else column.unit_prismatic,
+                        kind=column.kind,
+                        effect=effect.id,
+                        column=column,
+                        shaft=_shaft(geometry, joint, effect.coupled),
                     )
                 )
     return found
 
 
-def _shaft(robot: Robot, joint: Joint, coupled: bool) -> dict[int, float]:
-    order = {moving.name: index for index, moving in enumerate(robot.moving)}
-    if not coupled:
-        return {order[joint.name]: 1}
-    return {order[name]: c for name, c in robot.coupling[joint.name].items()}
+def _shaft(geometry: Geometry, joint: Joint, coupled: bool) -> dict[int, Fraction]:
+    """The shaft's speed in the speeds of the free variables."""
+    order = {moving.name: index for index, moving in enumerate(geometry.robot.moving)}
+    coupling = geometry.robot.coupling[joint.name] if coupled else {joint.name: 1.0}
+    total: dict[int, Fraction] = {}
+    for name, factor in coupling.items():
+        for k, coefficient in geometry.forms[order[name]].items():
+            total[k] = total.get(k, Fraction(0)) + exact(factor) * coefficient
+    return {k: coefficient for k, coefficient in total.items() if coefficient}
+
+
+def exact(value: float) -> Fraction:
+    """A coefficient of the robot file as the decimal fraction that was written."""
+    return Fraction(repr(value))

@@ -2,19 +2,17 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.robot import Joint, Robot
+from modeler.symbolic.folding import folded
+from modeler.symbolic.relations import resolved_relations
 
-_FUNCTIONS = {
-    "sin": sympy.sin, "cos": sympy.cos, "sqrt": sympy.sqrt,
-    "tan": lambda x: sympy.sin(x) / sympy.cos(x),
-    "exp": sympy.exp, "abs": sympy.Abs, "sign": sympy.sign, "tanh": sympy.tanh,
-}  # fmt: skip
 _RIGHT_ANGLE_TOLERANCE = 1e-9
 _QUARTER = math.pi / 2
 
@@ -33,7 +31,7 @@ class Row:
 
     Attributes:
         parent: index of the antecedent row, None for the base.
-        index: index of the joint variable in q; None for a fixed frame.
+        index: number of the row among those that move; None for a fixed frame.
         theta: constant part of theta.
         r: constant part of r.
         rate: +1 or -1.
@@ -59,17 +57,30 @@ class Geometry:
         rows: in table order.
         gravity: acceleration of gravity in frame 0.
         values: number of every symbol that is left in the entries.
+        forms: by `Row.index`: the row's variable as a sum of coefficient * u[k], where u are the
+            variables of `robot.free`. Constants of relations stand in the row's theta or r.
     """
 
     robot: Robot
     rows: tuple[Row, ...]
     gravity: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
     values: Mapping[str, float]
+    forms: tuple[Mapping[int, Fraction], ...]
 
     @property
     def joints(self) -> int:
-        """Number of joint variables."""
-        return sum(row.index is not None for row in self.rows)
+        """Number of rows that move."""
+        return len(self.forms)
+
+    @property
+    def coordinates(self) -> int:
+        """Number of free variables u."""
+        return len(self.robot.free)
+
+    @property
+    def tied(self) -> bool:
+        """True if rows follow others, so that u has fewer entries than rows move."""
+        return bool(self.robot.relations)
 
     def ancestors(self, k: int) -> list[int]:
         """Rows from `k` down to the base, `k` first."""
@@ -98,25 +109,34 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     """
     numbers = robot.symbol_values()
     symbols = _symbols(robot, numbers, at_nominal)
-    rows = _rows(robot, symbols, numbers)
-    gravity = tuple(_fold(entry, symbols) for entry in robot.gravity)
+    forms, constants = resolved_relations(robot, symbols)
+    cells = _Cells(symbols, numbers)
+    rows = tuple(_moved(row, constants, cells) for row in _rows(robot, cells))
+    gravity = tuple(folded(entry, symbols) for entry in robot.gravity)
     used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
     return Geometry(
-        robot, tuple(rows), (gravity[0], gravity[1], gravity[2]),
-        {name: numbers[name] for name in numbers if name in used},
+        robot, rows, (gravity[0], gravity[1], gravity[2]),
+        {name: numbers[name] for name in numbers if name in used}, forms,
     )  # fmt: skip
 
 
-def _rows(
-    robot: Robot, symbols: Mapping[str, sympy.Expr], numbers: Mapping[str, float]
-) -> list[Row]:
+def _moved(row: Row, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> Row:
+    """The row with the constant of its variable's relation in theta or r."""
+    constant = constants.get(row.joint.name, sympy.Integer(0))
+    if constant == 0:
+        return row
+    if row.joint.angular:
+        return replace(row, theta=cells.snapped(row.theta + row.rate * constant))
+    return replace(row, r=sympy.expand(row.r + row.rate * constant))
+
+
+def _rows(robot: Robot, cells: "_Cells") -> list[Row]:
     rows: list[Row] = []
     places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
     index = 0
     for joint in robot.joints:
-        cells = _Cells(joint, symbols, numbers)
-        theta, rate_theta = cells.affine(joint.theta, angle=True)
-        r, rate_r = cells.affine(joint.r, angle=False)
+        theta, rate_theta = cells.affine(joint, joint.theta, angle=True)
+        r, rate_r = cells.affine(joint, joint.r, angle=False)
         rows.append(
             Row(
                 joint=joint,
@@ -144,48 +164,37 @@ def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> di
         elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
             found[name] = quarters * sympy.pi / 2
         elif expression.names or "pi" in expression.text or at_nominal:
-            found[name] = _fold(expression, found)
+            found[name] = folded(expression, found)
         else:
             found[name] = geometric_symbol(name)
     return found
 
 
-def _fold(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
-    folded = sympy.sympify(
-        expression.fold(
-            values, _FUNCTIONS, sympy.pi, lambda x: sympy.Rational(x.numerator, x.denominator)
-        )
-    )
-    if folded.has(sympy.zoo, sympy.oo, sympy.nan):
-        raise DerivationError(f'"{expression.text}" is not finite; expected a finite number')
-    return sympy.expand_trig(folded) if folded.has(sympy.cos, sympy.sin) else folded
-
-
 @dataclass(frozen=True)
 class _Cells:
-    joint: Joint
     symbols: Mapping[str, sympy.Expr]
     numbers: Mapping[str, float]
 
     def length(self, cell: Expression) -> sympy.Expr:
-        return _fold(cell, self.symbols)
+        return folded(cell, self.symbols)
 
     def angle(self, cell: Expression) -> sympy.Expr:
-        return self._snap(_fold(cell, self.symbols))
+        return self.snapped(folded(cell, self.symbols))
 
-    def affine(self, cell: Expression, angle: bool) -> tuple[sympy.Expr, int]:
+    def affine(self, joint: Joint, cell: Expression, angle: bool) -> tuple[sympy.Expr, int]:
         """(constant part, coefficient of the joint variable)."""
-        q = sympy.Symbol(self.joint.variable, real=True)
-        folded = sympy.expand(_fold(cell, {**self.symbols, self.joint.variable: q}))
-        rate = folded.coeff(q, 1)
-        constant = folded - rate * q
+        q = sympy.Symbol(joint.variable, real=True)
+        value = sympy.expand(folded(cell, {**self.symbols, joint.variable: q}))
+        rate = value.coeff(q, 1)
+        constant = value - rate * q
         if constant.has(q) or rate not in (0, 1, -1):
             raise DerivationError(
-                f"joint {self.joint.name}: got {cell.text}; expected {q} or -{q} plus a constant"
+                f"joint {joint.name}: got {cell.text}; expected {q} or -{q} plus a constant"
             )
-        return (self._snap(constant) if angle else constant), int(rate)
+        return (self.snapped(constant) if angle else constant), int(rate)
 
-    def _snap(self, value: sympy.Expr) -> sympy.Expr:
+    def snapped(self, value: sympy.Expr) -> sympy.Expr:
+        """The angle, exact where its value is a right angle."""
         turns = float(value.subs(self._values())) / float(sympy.pi / 2)
         if value.free_symbols and abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
             return round(turns) * sympy.pi / 2

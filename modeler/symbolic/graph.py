@@ -8,7 +8,7 @@ fold numbers, so that symbolic lengths cost no more operations than numeric ones
 
 Two expressions are equal when they are equal as functions, however they are written: every node
 carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
-circle, and a new node whose value is known is the known node. So c*c + s*s is 1, and what vanishes
+circle and those of sums composed of those of their terms, and a new node whose value is known is the known node. So c*c + s*s is 1, and what vanishes
 identically is the zero. (Two different rational functions of degree d share a value with a
 probability of about d * 2**-61; emitted code is compared with other derivations anyway.)
 """
@@ -22,6 +22,7 @@ from typing import Any, Union
 import numpy as np
 
 PRIME = 2**61 - 1
+_LARGEST_MULTIPLE = 64
 
 Number = int | Fraction
 Operand = Union["Expr", int, Fraction]
@@ -119,11 +120,31 @@ class Graph:
         if op == "div":
             return values[0] * pow(values[1], -1, PRIME) % PRIME
         if op in ("sin", "cos"):
-            # tan of half the angle is drawn for each angle; 1 + t*t is never 0 modulo this prime.
-            t = _random_residue(f"angle {values[0] % PRIME}")
-            top = 2 * t if op == "sin" else 1 - t * t
-            return top * pow(1 + t * t, -1, PRIME) % PRIME
+            c, s = self._unit(args[0])
+            return s if op == "sin" else c
         return _random_residue(f"{op} {values[0] % PRIME}")
+
+    def _unit(self, ref: int) -> tuple[int, int]:
+        """(cos, sin) of an angle modulo the prime; those of sums and multiples are composed."""
+        if ref <= 0:
+            c, s = (1, 0) if ref == 0 else self._unit(-ref)
+            return c, -s % PRIME
+        node = self.nodes[ref]
+        if node.op == "add":
+            return _composed(self._unit(node.args[0]), self._unit(node.args[1]))
+        if node.op == "mul" and self._is_whole(node.args[0]):
+            turn, total = self._unit(node.args[1]), (1, 0)
+            for _ in range(int(self._value(node.args[0]))):
+                total = _composed(total, turn)
+            return total
+        # tan of half the angle is drawn for each angle; 1 + t*t is never 0 modulo this prime.
+        t = _random_residue(f"angle {self._residue[ref]}")
+        scale = pow(1 + t * t, -1, PRIME)
+        return (1 - t * t) * scale % PRIME, 2 * t * scale % PRIME
+
+    def _is_whole(self, ref: int) -> bool:
+        """True for a small whole number."""
+        return self._is_number(ref) and self._value(ref) in range(1, _LARGEST_MULTIPLE)
 
     def _number(self, value: Fraction) -> int:
         if value == 0:
@@ -244,6 +265,11 @@ class Graph:
         for index in self.reachable(outputs):
             found[index] = _evaluate(self.nodes[index], values, found)
         return [found[abs(o.ref)] if o.ref >= 0 else -found[-o.ref] for o in outputs]
+
+
+def _composed(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
+    """(cos, sin) of the sum of two angles."""
+    return (a[0] * b[0] - a[1] * b[1]) % PRIME, (a[1] * b[0] + a[0] * b[1]) % PRIME
 
 
 def _random_residue(name: str) -> int:

@@ -7,11 +7,20 @@ from functools import cached_property
 
 from modeler.robot import Robot
 from modeler.symbolic.algebra import GraphAlgebra
+from modeler.symbolic.closure import Closure, closure_of
 from modeler.symbolic.columns import StandardColumn, standard_columns
 from modeler.symbolic.geometry import Geometry, exact_geometry
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.inertia_matrix import inertia_matrix
-from modeler.symbolic.kinematics import Pose, base_poses, poses, screws
+from modeler.symbolic.kinematics import (
+    Pose,
+    Screw,
+    base_poses,
+    plus,
+    poses,
+    screws,
+    times,
+)
 from modeler.symbolic.newton_euler import (
     Motion,
     State,
@@ -29,8 +38,9 @@ Entries = Mapping[tuple[int, int], Expr]
 class SymbolicModel:
     """The dynamics of a robot as expressions of one graph.
 
-    Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.moving`, which no
-    geometric symbol can be named like, and the geometric symbols by name.
+    Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.free`, which no
+    geometric symbol can be named like, and the geometric symbols by name. Torques are those along
+    the free variables; where loops tie these to each other, `closure` says how.
     """
 
     robot: Robot
@@ -54,8 +64,35 @@ class SymbolicModel:
         return poses(self.geometry, self.algebra)
 
     def inputs(self, kind: str) -> list[Expr]:
-        """The symbols of `kind` "q", "qd" or "qdd"."""
-        return [self.graph.symbol(f"{kind}[{i}]") for i in range(self.geometry.joints)]
+        """The symbols of `kind` "q", "qd" or "qdd", of the free variables."""
+        return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinates)]
+
+    @cached_property
+    def closure(self) -> Closure | None:
+        """What ties the free variables to each other; None without loops.
+
+        Raises:
+            LoopError: the loops leave more or less free than is actuated, or cannot close.
+        """
+        return closure_of(self.geometry, self.graph, self.frames, self.algebra)
+
+    def _row_values(self, free: Sequence[Expr]) -> list[Expr]:
+        """Speeds or accelerations of the moving rows from those of the free variables."""
+        found = []
+        for form in self.geometry.forms:
+            total = self.graph.constant(0)
+            for k, coefficient in form.items():
+                total = total + free[k] * coefficient
+            found.append(total)
+        return found
+
+    def _free_efforts(self, rows: Sequence[Expr]) -> list[Expr]:
+        """Torques along the free variables from those of the moving rows: F^T tau."""
+        found = [self.graph.constant(0)] * self.geometry.coordinates
+        for form, torque in zip(self.geometry.forms, rows, strict=True):
+            for k, coefficient in form.items():
+                found[k] = found[k] + torque * coefficient
+        return found
 
     def _gravity(self) -> list[Expr]:
         return [self.algebra.static(entry) for entry in self.geometry.gravity]
@@ -63,7 +100,7 @@ class SymbolicModel:
     def _motions(
         self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: Sequence[Expr]
     ) -> list[Motion]:
-        state = State(qd, qdd, list(gravity))
+        state = State(self._row_values(qd), self._row_values(qdd), list(gravity))
         return motions(self.geometry, self.frames, state, self.algebra)
 
     @cached_property
@@ -74,21 +111,40 @@ class SymbolicModel:
         projected on every joint below; effect columns from their definition.
         """
         moved = self._motions(self.inputs("qd"), self.inputs("qdd"), self._gravity())
-        carried = screws(self.geometry, self.frames, self.algebra)
+        carried = self.carried
         wrenches = [wrench_columns(motion) for motion in moved]
         entries: dict[tuple[int, int], Expr] = {}
         for place, column in enumerate(self.columns):
-            if column.column is not None:
-                entries.update(self._effect_entries(place, column))
-                continue
-            force, moment = wrenches[column.row][column.prefix]
-            for joint, screw in carried[column.row].items():
-                value = project(screw, force, moment)
-                if not value.is_zero:
-                    entries[joint, place] = value
-        return entries
+            for part in column.parts:
+                if part.column is not None:
+                    values = self._effect_entries(part)
+                else:
+                    force, moment = wrenches[part.row][part.prefix]
+                    values = {
+                        k: project(screw, force, moment) for k, screw in carried[part.row].items()
+                    }
+                for k, value in values.items():
+                    value = entries.get((k, place), self.graph.constant(0)) + value
+                    entries[k, place] = value
+        return {at: value for at, value in entries.items() if not value.is_zero}
 
-    def _effect_entries(self, place: int, column: StandardColumn) -> dict[tuple[int, int], Expr]:
+    @cached_property
+    def carried(self) -> list[dict[int, Screw]]:
+        """For every row, the screw of each free variable that moves it."""
+        found = []
+        for screws_of in screws(self.geometry, self.frames, self.algebra):
+            total: dict[int, Screw] = {}
+            for index, screw in screws_of.items():
+                for k, coefficient in self.geometry.forms[index].items():
+                    e, m = times(coefficient, screw.e), times(coefficient, screw.m)
+                    before = total.get(k)
+                    total[k] = (
+                        Screw(plus(before.e, e), plus(before.m, m)) if before else Screw(e, m)
+                    )
+            found.append(total)
+        return found
+
+    def _effect_entries(self, column: StandardColumn) -> dict[int, Expr]:
         assert column.column is not None and column.shaft is not None
         speed, acceleration = (self._shaft(column.shaft, kind) for kind in ("qd", "qdd"))
         functions = {
@@ -100,15 +156,12 @@ class SymbolicModel:
                 {"v": speed, "a": acceleration}, functions, None, self.graph.constant
             )
         )
-        return {
-            (joint, place): torque * exact(coefficient)
-            for joint, coefficient in column.shaft.items()
-        }
+        return {k: torque * coefficient for k, coefficient in column.shaft.items()}
 
-    def _shaft(self, shaft: Mapping[int, float], kind: str) -> Expr:
+    def _shaft(self, shaft: Mapping[int, Fraction], kind: str) -> Expr:
         total = self.graph.constant(0)
-        for joint, coefficient in shaft.items():
-            total = total + self.inputs(kind)[joint] * exact(coefficient)
+        for k, coefficient in shaft.items():
+            total = total + self.inputs(kind)[k] * coefficient
         return total
 
     def torque(
@@ -126,14 +179,15 @@ class SymbolicModel:
             links: False without the links.
         """
         zero = self.graph.constant(0)
-        none = [zero] * self.geometry.joints
+        none = [zero] * self.geometry.coordinates
         qd = self.inputs("qd") if speeds else none
         qdd = self.inputs("qdd") if accelerations else none
         tau = list(none)
         if links:
             moved = self._motions(qd, qdd, self._gravity() if gravity else [zero] * 3)
             rows = self.link_parameters(parameters)
-            tau = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
+            torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
+            tau = self._free_efforts(torques)
         if effects:
             for (joint, place), value in self.regressor.items():
                 if self.columns[place].column is not None and place in parameters:
@@ -144,25 +198,28 @@ class SymbolicModel:
         """Per row, the inertial parameters among `parameters`, by prefix."""
         rows: list[dict[str, Expr]] = [{} for _ in self.geometry.rows]
         for place, value in parameters.items():
-            if self.columns[place].column is None:
-                rows[self.columns[place].row][self.columns[place].prefix] = value
+            for part in self.columns[place].parts:
+                if part.column is None:
+                    rows[part.row][part.prefix] = value
         return rows
 
     def inertia_matrix(self, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
-        """M(q): composite links, and the rotor inertias of the effects."""
+        """M(q) of the free variables: composite links, and the rotor inertias of the effects."""
         zero = self.graph.constant(0)
         rows = self.link_parameters(parameters)
-        matrix = inertia_matrix(self.geometry, self.frames, rows, zero)
+        tree = inertia_matrix(self.geometry, self.frames, rows, zero)
+        half = [self._free_efforts(line) for line in tree]
+        matrix = [self._free_efforts([line[k] for line in half]) for k in range(len(half[0]))]
         for place, value in parameters.items():
-            column = self.columns[place]
-            if column.kind == "rotor_inertia" and column.shaft is not None:
-                for i, ci in column.shaft.items():
-                    for j, cj in column.shaft.items():
-                        matrix[i][j] = matrix[i][j] + value * (exact(ci) * exact(cj))
+            for part in self.columns[place].parts:
+                if part.kind == "rotor_inertia" and part.shaft is not None:
+                    for i, ci in part.shaft.items():
+                        for j, cj in part.shaft.items():
+                            matrix[i][j] = matrix[i][j] + value * (ci * cj)
         return matrix
 
     def forward_kinematics(self) -> list[list[list[Expr]]]:
-        """[R | p], 3 x 4, of every frame that a joint moves, in frame 0, in the order of q.
+        """[R | p], 3 x 4, of every moving row's frame in frame 0, in table order.
 
         The columns of R are the frame's axes x, y, z in frame 0; p is its origin, m.
         """
@@ -172,13 +229,3 @@ class SymbolicModel:
             for row, (axes, origin) in zip(self.geometry.rows, found, strict=True)
             if row.index is not None
         ]
-
-
-def exact(value: float) -> Fraction:
-    """A coefficient of the robot file as the decimal fraction that was written."""
-    return Fraction(repr(value))
-
-
-def derive_model(robot: Robot) -> SymbolicModel:
-    """The symbolic model of a robot."""
-    return SymbolicModel(robot, exact_geometry(robot), Graph(), standard_columns(robot))

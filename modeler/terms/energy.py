@@ -23,7 +23,6 @@ from modeler.symbolic.kinematics import (
     poses,
     screws,
 )
-from modeler.symbolic.model import exact
 from modeler.terms.ring import Poly, TrigRing
 
 MOST_PRODUCTS = 500_000
@@ -143,7 +142,7 @@ def _add_rotors(
             continue
         assert column.shaft is not None
         for i, j in _pairs(column.shaft):
-            value = exact(column.shaft[i]) * exact(column.shaft[j])
+            value = column.shaft[i] * column.shaft[j]
             factor = ring.static(sympy.Rational(value.numerator, value.denominator))
             entries.setdefault((i, j), {})[place] = factor
 

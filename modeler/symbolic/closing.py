@@ -1,0 +1,151 @@
+"""Closing loops in floating point, for many postures at once.
+
+Newton on all equations, redundant ones included, in the sense of least squares; what the emitted C
+does with an independent set of them is checked against this.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import LoopError
+from modeler.robot import Robot
+from modeler.symbolic.graph import Expr, Graph
+
+_CLOSED = 1e-12
+"""Residual of a closed loop, relative to the robot's size."""
+_ZERO = 1e-9
+_ITERATIONS = 60
+_STEPS = 12
+
+
+@dataclass(frozen=True)
+class Closing:
+    """The closure equations as functions of arrays.
+
+    Attributes:
+        graph: of the expressions.
+        values: of the geometric symbols.
+        equations: all, redundant ones included.
+        jacobian: their derivatives by u.
+        given: places in u of the coordinates q.
+        solved: places in u of the others.
+        lengths: by u, True for a travel in m.
+    """
+
+    graph: Graph
+    values: Mapping[str, float]
+    equations: Sequence[Expr]
+    jacobian: Sequence[Sequence[Expr]]
+    given: tuple[int, ...]
+    solved: tuple[int, ...]
+    lengths: tuple[bool, ...]
+
+    @property
+    def unknowns(self) -> int:
+        """Number of free variables u."""
+        return len(self.lengths)
+
+    @property
+    def size(self) -> float:
+        """A length of the robot, m: the largest of its symbols' sizes, 1 where it has none."""
+        return max((abs(v) for n, v in self.values.items() if n != "g"), default=1.0) or 1.0
+
+    def residuals(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations) of (n, unknowns)."""
+        return self._evaluate(self.equations, u)
+
+    def jacobians(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations, unknowns)."""
+        flat = self._evaluate([entry for line in self.jacobian for entry in line], u)
+        return flat.reshape(len(u), len(self.equations), self.unknowns)
+
+    def scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
+        """Jacobians with travels counted in sizes of the robot and rows of length 1."""
+        J = self.jacobians(u) * np.where(self.lengths, self.size, 1.0)
+        length = np.linalg.norm(J, axis=2, keepdims=True)
+        # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
+        return J / np.where(length > _ZERO, length, np.inf)
+
+    def _evaluate(self, expressions: Sequence[Expr], u: np.ndarray) -> np.ndarray:
+        inputs = {f"q[{k}]": u[:, k] for k in range(self.unknowns)}
+        found = self.graph.evaluate(list(expressions), {**self.values, **inputs})
+        out = np.empty((len(u), len(expressions)))
+        for i, value in enumerate(found):
+            out[:, i] = value
+        return out
+
+    def closed(self, u: np.ndarray, solved: Sequence[int] | None = None) -> np.ndarray:
+        """Newton from u with the others held; rows that do not close come back as NaN."""
+        places = list(self.solved if solved is None else solved)
+        u = np.array(u, dtype=float)
+        scale = np.where(self.lengths, self.size, 1.0)[places]
+        for _ in range(_ITERATIONS):
+            f = self.residuals(u)
+            if np.all(np.max(np.abs(f), axis=1, initial=0.0) < _CLOSED * self.size):
+                break
+            J = self.jacobians(u)[:, :, places] * scale
+            step = -np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-12), f)
+            longest = np.max(np.abs(step), axis=1, keepdims=True)
+            step *= np.minimum(1.0, 0.4 / np.maximum(longest, 1e-300))
+            u[:, places] += step * scale
+        bad = ~(np.max(np.abs(self.residuals(u)), axis=1, initial=0.0) < 1e-9 * self.size)
+        u[bad] = np.nan
+        return u
+
+
+def closed_home(
+    closing: Closing, start: np.ndarray, robot: Robot, owners: Sequence[str]
+) -> np.ndarray:
+    """The posture [home], closed: passive joints first, and if that fails all joints move.
+
+    Raises:
+        LoopError: no closed posture near; names the loop that stays open.
+    """
+    home = closing.closed(start[None])[0]
+    if np.all(np.isfinite(home)):
+        return home
+    f = np.abs(closing.residuals(start[None])[0])
+    worst = int(np.argmax(f))
+    every = closing.closed(start[None], range(closing.unknowns))[0]
+    if np.all(np.isfinite(every)):
+        names = [joint.name for joint in robot.free]
+        near = ", ".join(f"q{names[k]} = {every[k]:.4g}" for k in closing.given)
+        advice = f"it closes with {near}"
+    else:
+        advice = "state values near a closed posture, and check the lengths"
+    raise LoopError(
+        f'{robot.name}: [home]: loop "{owners[worst]}" does not close from there (open by '
+        f"{f[worst]:.3g}); {advice}"
+    )
+
+
+def moved_postures(
+    closing: Closing, home: np.ndarray, rng: np.random.Generator, samples: int, reach: float = 0.3
+) -> np.ndarray:
+    """(samples, unknowns) closed postures around home: random actuated motion, in small steps.
+
+    A sample stops where the loops would not close any further.
+    """
+    scale = np.where(closing.lengths, closing.size, 1.0) * reach
+    scale = np.where(closing.lengths, 0.5 * scale, scale)
+    u = np.tile(home, (samples, 1))
+    target = rng.uniform(-1.0, 1.0, u.shape) * scale
+    step = _tangent(closing, u, target) / _STEPS
+    for _ in range(_STEPS):
+        trial = closing.closed(u + step, range(closing.unknowns))
+        jump = np.max(np.abs(trial - u) / np.where(closing.lengths, closing.size, 1.0), axis=1)
+        good = np.isfinite(jump) & (jump < 4 * reach / _STEPS * 3)
+        u[good] = trial[good]
+        step = _tangent(closing, u, target) / _STEPS
+    return u
+
+
+def _tangent(closing: Closing, u: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """`wanted` projected on the motions that the loops allow."""
+    scale = np.where(closing.lengths, closing.size, 1.0)
+    J = closing.jacobians(u) * scale
+    w = wanted / scale
+    along = np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-9), np.einsum("nij,nj->ni", J, w))
+    return (w - along) * scale

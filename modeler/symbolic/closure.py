@@ -1,0 +1,215 @@
+"""What loops tie together: which variables are solved for, by which equations.
+
+f(u) = 0 are the closure equations, u the free variables of the tree, q the actuated ones among
+them. With the Jacobian J = df/du = [J_q | J_s] of the actuated and of the solved variables,
+
+    qd_s = -J_s^-1 J_q qd,   qdd_s = -J_s^-1 (J_q qdd + d/dt(J) ud),
+
+and torques follow by the principle of virtual power, tau_q = G^T tau_u with ud = G qd
+(Briot and Gautier 2012, eq. 4; Khalil and Dombre 2002, 10.3).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from modeler.core.errors import LoopError
+from modeler.symbolic.algebra import GraphAlgebra
+from modeler.symbolic.closing import Closing, closed_home, moved_postures
+from modeler.symbolic.derivative import derivatives
+from modeler.symbolic.geometry import Geometry
+from modeler.symbolic.graph import Expr, Graph
+from modeler.symbolic.kinematics import Pose, base_poses
+from modeler.symbolic.loop_equations import loop_equations
+
+_RANK = 1e-9
+_SAMPLES = 12
+_SEED = 20120
+
+
+@dataclass(frozen=True)
+class Closure:
+    """The loops of a robot in its free variables u.
+
+    Attributes:
+        given: places in u of the robot's coordinates q, in order.
+        solved: places in u of the others.
+        equations: len(solved) independent equations of the symbols `q[k]`.
+        jacobian: their derivatives by u, (len(solved), len(u)).
+        drift: d/dt(jacobian) ud, of `q[k]` and `qd[k]`: jacobian udd + drift = 0.
+        home: u where the loops are closed first; it says which assembly mode is meant.
+        lengths: by u, True for a travel in m, False for an angle.
+        platform: places in u that are given where the platform's motion is; None without one.
+        redundant: number of equations that follow from the others.
+    """
+
+    given: tuple[int, ...]
+    solved: tuple[int, ...]
+    equations: tuple[Expr, ...]
+    jacobian: tuple[tuple[Expr, ...], ...]
+    drift: tuple[Expr, ...]
+    home: tuple[float, ...]
+    lengths: tuple[bool, ...]
+    platform: tuple[int, ...] | None
+    redundant: int
+
+
+def closure_of(
+    geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
+) -> Closure | None:
+    """The closure of a robot's loops; None if it has none, or relations say all that they do.
+
+    Raises:
+        LoopError: the loops do not close at home, leave more or less free than is actuated, or
+            are singular at home.
+    """
+    robot = geometry.robot
+    if not robot.loops:
+        return None
+    closing, owners = _all_equations(geometry, graph, frames, algebra)
+    start = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free])
+    home = closed_home(closing, start, robot, owners)
+    chosen = _independent(closing, home, geometry, owners)
+    if not closing.solved:
+        return None
+    jacobian = tuple(tuple(closing.jacobian[i]) for i in chosen)
+    return Closure(
+        given=closing.given,
+        solved=closing.solved,
+        equations=tuple(closing.equations[i] for i in chosen),
+        jacobian=jacobian,
+        drift=tuple(_drift(graph, jacobian, closing.unknowns)),
+        home=tuple(float(x) for x in home),
+        lengths=closing.lengths,
+        platform=_platform(geometry, closing.given),
+        redundant=len(closing.equations) - len(chosen),
+    )
+
+
+def _all_equations(
+    geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
+) -> tuple[Closing, list[str]]:
+    """The equations of all loops, and the name of the loop that each comes from."""
+    robot = geometry.robot
+    posed = base_poses(geometry, frames, algebra)
+    equations: list[Expr] = []
+    owners: list[str] = []
+    for loop in robot.loops:
+        found = loop_equations(geometry, loop, posed)
+        equations += found
+        owners += [loop.name] * len(found)
+    n = geometry.coordinates
+    columns = [derivatives(equations, {f"q[{k}]": graph.constant(1)}) for k in range(n)]
+    jacobian = [tuple(column[i] for column in columns) for i in range(len(equations))]
+    names = [joint.name for joint in robot.free]
+    given = tuple(names.index(joint.name) for joint in robot.coordinates)
+    solved = tuple(k for k in range(n) if k not in given)
+    lengths = tuple(not joint.angular for joint in robot.free)
+    values = geometry.values
+    return Closing(graph, values, equations, jacobian, given, solved, lengths), owners
+
+
+def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
+    """d/dt(J) ud."""
+    speeds = [graph.symbol(f"qd[{k}]") for k in range(n)]
+    rates = []
+    for line in jacobian:
+        total = graph.constant(0)
+        for entry, speed in zip(line, speeds, strict=True):
+            total = total + entry * speed
+        rates.append(total)
+    return derivatives(rates, {f"q[{k}]": speeds[k] for k in range(n)})
+
+
+def _independent(
+    closing: Closing, home: np.ndarray, geometry: Geometry, owners: Sequence[str]
+) -> list[int]:
+    """Numbers of as many independent equations as there are variables to solve for.
+
+    Raises:
+        LoopError: they leave more or less free than is actuated, or are singular at home.
+    """
+    postures = moved_postures(closing, home, np.random.default_rng(_SEED), _SAMPLES)
+    J = closing.scaled_jacobian(postures)
+    ranks = [_rank(sample) for sample in J]
+    free = closing.unknowns - max(ranks)
+    if free != len(closing.given):
+        raise LoopError(_mobility(closing, geometry, J[int(np.argmax(ranks))], free, owners))
+    inner = J[:, :, list(closing.solved)]
+    best = max(range(len(inner)), key=lambda i: _rank(inner[i]))
+    at_home = closing.scaled_jacobian(home[None])[0][:, list(closing.solved)]
+    if _rank(inner[best]) < len(closing.solved):
+        raise LoopError(_undriven(closing, geometry, inner[best]))
+    if _rank(at_home) < len(closing.solved):
+        raise LoopError(
+            f"{geometry.robot.name}: the loops are singular at [home]: "
+            f"{_moving_names(closing, geometry, at_home)} could move there with the actuated "
+            "joints locked; state another posture"
+        )
+    _, _, order = scipy.linalg.qr(at_home.T, pivoting=True)
+    return sorted(int(i) for i in order[: len(closing.solved)])
+
+
+def _rank(matrix: np.ndarray) -> int:
+    singular = np.linalg.svd(matrix, compute_uv=False)
+    return int(np.sum(singular > _RANK * max(singular[0], 1e-300))) if singular.size else 0
+
+
+def _moving_names(closing: Closing, geometry: Geometry, inner: np.ndarray) -> str:
+    """The solved joints that take part in a motion which the equations do not stop."""
+    _, singular, vt = np.linalg.svd(inner, full_matrices=True)
+    rank = int(np.sum(singular > _RANK * singular[0]))
+    share = np.max(np.abs(vt[rank:]), axis=0)
+    free = geometry.robot.free
+    names = [
+        free[k].name for k, s in zip(closing.solved, share, strict=True) if s > 0.1 * share.max()
+    ]
+    return f"joint{'s' if len(names) > 1 else ''} " + ", ".join(names)
+
+
+def _mobility(
+    closing: Closing, geometry: Geometry, J: np.ndarray, free: int, owners: Sequence[str]
+) -> str:
+    robot = geometry.robot
+    actuated = ", ".join(joint.name for joint in robot.coordinates)
+    told = f"{robot.name}: the loops leave {free} degree{'s' if free != 1 else ''} of freedom"
+    if free > len(closing.given):
+        inner = J[:, list(closing.solved)]
+        return (
+            f"{told}, {len(closing.given)} joints are actuated ({actuated}): under-constrained, "
+            f"{_moving_names(closing, geometry, inner)} could move with these locked; actuate one "
+            "of them (mu 1), add a relation, or close the loop by a joint that lets less free"
+        )
+    return (
+        f"{told}, {len(closing.given)} joints are actuated ({actuated}): over-constrained by "
+        f"loop {_strictest(closing, J, owners)}; close it by a joint that lets more free, or make "
+        "actuated joints passive (mu 0)"
+    )
+
+
+def _strictest(closing: Closing, J: np.ndarray, owners: Sequence[str]) -> str:
+    """The loops without which more would be free, as text."""
+    names = list(dict.fromkeys(owners))
+    full = _rank(J)
+    blamed = [name for name in names if _rank(J[[o != name for o in owners]]) < full]
+    return ", ".join(f'"{name}"' for name in blamed or names)
+
+
+def _undriven(closing: Closing, geometry: Geometry, inner: np.ndarray) -> str:
+    return (
+        f"{geometry.robot.name}: {_moving_names(closing, geometry, inner)} can move with all "
+        "actuated joints locked, and the actuated joints are tied to each other; actuate others "
+        "(mu 1)"
+    )
+
+
+def _platform(geometry: Geometry, given: Sequence[int]) -> tuple[int, ...] | None:
+    """Platform coordinates first, then as many actuated ones as are still to be given."""
+    robot = geometry.robot
+    names = [joint.name for joint in robot.free]
+    places = [names.index(name) for name in robot.platform if name in names]
+    if not places or len(places) > len(given):
+        return None
+    return tuple(places)
