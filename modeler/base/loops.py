@@ -59,7 +59,7 @@ def loop_relations(
 def on_link(
     geometry: Geometry, K: ExactField, row: int | None, parameters: list[Element]
 ) -> tuple[int | None, list[Element]]:
-    """The link that carries a body fixed to frame `row`, and its parameters there; None: the base."""
+    """The link that carries a body fixed to frame `row` (None: the base), and its parameters."""
     rows = geometry.rows
     while row is not None and rows[row].index is None:
         for step in (joint_constant(rows[row], K), placement(rows[row], K)):

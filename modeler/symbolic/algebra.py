@@ -37,8 +37,7 @@ class Algebra(Protocol):
 
 
 class GraphAlgebra:
-    """Expressions of a graph; the free variables and their derivatives are its symbols `q[0]`,
-    `qd[0]`, ..."""
+    """Expressions of a graph; its symbols `q[0]`, `qd[0]`, ... are those of the free variables."""
 
     def __init__(self, graph: Graph, geometry: Geometry) -> None:
         self.graph = graph

@@ -8,9 +8,10 @@ fold numbers, so that symbolic lengths cost no more operations than numeric ones
 
 Two expressions are equal when they are equal as functions, however they are written: every node
 carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
-circle and those of sums composed of those of their terms, and a new node whose value is known is the known node. So c*c + s*s is 1, and what vanishes
-identically is the zero. (Two different rational functions of degree d share a value with a
-probability of about d * 2**-61; emitted code is compared with other derivations anyway.)
+circle (those of a sum are composed of those of its terms), and a new node whose value is known is
+the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
+compared with other derivations anyway.)
 """
 
 import hashlib

@@ -8,8 +8,8 @@ from functools import cached_property
 from modeler.robot import Robot
 from modeler.symbolic.algebra import GraphAlgebra
 from modeler.symbolic.closure import Closure, closure_of
-from modeler.symbolic.columns import StandardColumn, standard_columns
-from modeler.symbolic.geometry import Geometry, exact_geometry
+from modeler.symbolic.columns import StandardColumn
+from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.inertia_matrix import inertia_matrix
 from modeler.symbolic.kinematics import (
