@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-NORTH = ("effects", "robot", "symbolic", "base", "terms", "codegen")
+NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = ("compiled", "observation", "fit", "compare")
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -28,6 +28,7 @@ PACKAGES: dict[str, set[str]] = {
     "symbolic": {"numpy", "scipy", "sympy", "casadi"},
     "base": {"numpy", "sympy"},
     "terms": {"numpy", "sympy"},
+    "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},

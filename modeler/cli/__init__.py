@@ -42,6 +42,12 @@ def _listing(commands: _Commands) -> None:
     add_effects(commands)
 
 
+def _reproducing(commands: _Commands) -> None:
+    from modeler.cli.reproduce import add_reproduce
+
+    add_reproduce(commands)
+
+
 def _showing(commands: _Commands) -> None:
     from modeler.cli.demo import add_demo
 
@@ -53,6 +59,7 @@ _GROUPS = {
     ("fit", "compare"): _fitting,
     ("simulate",): _simulating,
     ("robots", "effects"): _listing,
+    ("reproduce",): _reproducing,
     ("demo",): _showing,
 }
 

@@ -26,17 +26,20 @@ def say(text: str = "") -> None:
 def run_command(args: argparse.Namespace) -> None:
     """Run the command of `args`, and write what it returns to the file that `--json` names.
 
+    `args.after`, if there is one, judges the result when all is written.
+
     "-" is stdout, which then carries the JSON alone.
     """
     with redirect_stdout(io.StringIO()) if args.json == "-" else nullcontext():
         content = args.run(args)
-    if args.json is None:
-        return
-    text = json.dumps(content, indent=1, allow_nan=False) + "\n"
-    if args.json == "-":
-        sys.stdout.write(text)
-    else:
-        write_atomically(Path(args.json), text)
+    if args.json is not None:
+        text = json.dumps(content, indent=1, allow_nan=False) + "\n"
+        if args.json == "-":
+            sys.stdout.write(text)
+        else:
+            write_atomically(Path(args.json), text)
+    if hasattr(args, "after"):
+        args.after(args)
 
 
 @contextmanager
