@@ -8,35 +8,69 @@ the rank from above, this proves the number of base parameters.
 """
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import lcm
 
 import numpy as np
 import sympy
 
 from modeler.base.field import ExactField, cosine_letter
+from modeler.base.residues import (
+    SMALL,
+    Residues,
+    circle,
+    drawn,
+    filled,
+    inverse,
+    power,
+    rational,
+    row_echelon,
+    turned,
+)
 from modeler.effects import EnergyBlock
 from modeler.symbolic import Geometry, StandardColumn
 from modeler.symbolic.angles import cos_sin
+from modeler.symbolic.geometry import Row
 
-PRIME = 2**31 - 1
-"""Products of two residues fit in 64 bits."""
-
-Residues = np.ndarray
-"""int64, reduced modulo PRIME; one entry per random point."""
+PRIME = SMALL
 
 
 class ModularState:
-    """Random geometry, positions and speeds modulo the prime, and the links' motion."""
+    """Random geometry, positions and speeds modulo the prime, and the links' motion.
 
-    def __init__(self, geometry: Geometry, K: ExactField, points: int, seed: int) -> None:
+    Loops are left open; joints that follow others by relations do so.
+    """
+
+    def __init__(
+        self,
+        geometry: Geometry,
+        K: ExactField,
+        points: int,
+        seed: int,
+        prime: int = SMALL,
+        letters: Mapping[sympy.Expr, Residues] | None = None,
+    ) -> None:
+        """A state at `points` random points.
+
+        Args:
+            geometry: the table.
+            K: its field.
+            points: number of points.
+            seed: of everything random.
+            prime: modulus.
+            letters: values of the letters at every point; one random geometry if left out.
+        """
         rng = np.random.default_rng(seed)
-        self.geometry, self.points = geometry, points
-        self.residues = {letter: int(rng.integers(2, PRIME)) for letter in K.letters}
-        self.letters = {
-            letter: np.full(points, residue, dtype=np.int64)
-            for letter, residue in self.residues.items()
+        self.geometry, self.points, self.prime = geometry, points, prime
+        self.residues = {letter: int(drawn(rng, (1,), prime)[0]) for letter in K.letters}
+        self.letters = letters or {
+            letter: filled(residue, points, prime) for letter, residue in self.residues.items()
         }
-        self.qd = rng.integers(1, PRIME, size=(geometry.joints, points), dtype=np.int64)
-        self.q = rng.integers(2, PRIME, size=(geometry.joints, points), dtype=np.int64)
+        count = geometry.coordinates
+        self.qd = drawn(rng, (count, points), prime)
+        self.travel = drawn(rng, (count, points), prime)
+        self._scales = _angle_scales(geometry)
+        self._units = [circle(t, prime) for t in drawn(rng, (count, points), prime)]
         self.gravity = [self.value(entry) for entry in geometry.gravity]
         self._frames()
 
@@ -44,10 +78,9 @@ class ModularState:
         """Residues of a constant expression."""
         e = expression
         if e.is_Rational:
-            number = int(e.p) * pow(int(e.q), -1, PRIME) % PRIME
-            return np.full(self.points, number, dtype=np.int64)
+            return self._number(Fraction(int(e.p), int(e.q)))
         if e.func in (sympy.cos, sympy.sin):
-            c, s = _circle(self.letters[cosine_letter(e)])
+            c, s = circle(self.letters[cosine_letter(e)], self.prime)
             return c if e.func is sympy.cos else s
         if e in self.letters:
             return self.letters[e]
@@ -55,41 +88,72 @@ class ModularState:
             total = self.value(e.args[0])
             for arg in e.args[1:]:
                 other = self.value(arg)
-                total = (total + other if e.is_Add else total * other) % PRIME
+                total = (total + other if e.is_Add else total * other) % self.prime
             return total
         n = int(e.exp)
-        base = power(self.value(e.base), abs(n))
-        return base if n >= 0 else inverse(base)
+        base = power(self.value(e.base), abs(n), self.prime)
+        return base if n >= 0 else inverse(base, self.prime)
+
+    def _number(self, number: Fraction) -> Residues:
+        return filled(rational(number, self.prime), self.points, self.prime)
 
     def _frames(self) -> None:
         """R (3, 3), p, angular and linear velocity of every row's frame, in the base frame."""
-        zero, one = (np.full(self.points, n, dtype=np.int64) for n in (0, 1))
+        zero, one = (filled(n, self.points, self.prime) for n in (0, 1))
         identity = [[one if i == j else zero for j in range(3)] for i in range(3)]
         none = [zero] * 3
         self.motion: list[tuple[list, list, list, list]] = []
         for row in self.geometry.rows:
-            R, p, w, v = (
-                (identity, none, none, none) if row.parent is None else self.motion[row.parent]
-            )
-            p0 = p
-            R = _turn(R, 2, *self._cos_sin(row.gamma))
-            p = _shift(p, R, 2, self.value(row.b))
-            R = _turn(R, 0, *self._cos_sin(row.alpha))
-            p = _shift(p, R, 0, self.value(row.d))
-            moving = row.index is not None
-            if moving and row.joint.angular:
-                # The constant part of theta shifts the variable, which is random anyway.
-                R = _turn(R, 2, *_circle(self.q[row.index]))
-            else:
-                R = _turn(R, 2, *self._cos_sin(row.theta))
-            slides = moving and not row.joint.angular
-            p = _shift(p, R, 2, self.q[row.index] if slides else self.value(row.r))
-            v = _plus(v, _cross(w, _plus(p, [-x for x in p0])))
-            axis = [R[i][2] for i in range(3)]
-            if moving:
-                own = [x * (row.rate * self.qd[row.index] % PRIME) % PRIME for x in axis]
-                w, v = (_plus(w, own), v) if row.joint.angular else (w, _plus(v, own))
-            self.motion.append((R, p, w, v))
+            at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
+            self.motion.append(self._frame(row, *at))
+
+    def _frame(self, row: Row, R: list, p: list, w: list, v: list) -> tuple:
+        p0, prime = p, self.prime
+        R = _turn(R, 2, *self._cos_sin(row.gamma), prime)
+        p = _shift(p, R, 2, self.value(row.b), prime)
+        R = _turn(R, 0, *self._cos_sin(row.alpha), prime)
+        p = _shift(p, R, 0, self.value(row.d), prime)
+        moving = row.index is not None
+        if not moving or not row.joint.angular or self.geometry.tied:
+            # The constant part of a free angle only shifts the variable, which is random anyway.
+            R = _turn(R, 2, *self._cos_sin(row.theta), prime)
+        if moving and row.joint.angular:
+            R = _turn(R, 2, *self._angle(row), prime)
+        slides = moving and not row.joint.angular
+        r = self.value(row.r) if not slides or self.geometry.tied else self.value(sympy.Integer(0))
+        if slides:
+            r = (r + row.rate * self._combined(row, self.travel)) % prime
+        p = _shift(p, R, 2, r, prime)
+        v = _plus(v, _cross(w, _plus(p, [-x for x in p0], prime), prime), prime)
+        if moving:
+            speed = row.rate * self._combined(row, self.qd) % prime
+            own = [R[i][2] * speed % prime for i in range(3)]
+            w, v = (_plus(w, own, prime), v) if row.joint.angular else (w, _plus(v, own, prime))
+        return R, p, w, v
+
+    def _combined(self, row: Row, free: Residues) -> Residues:
+        assert row.index is not None
+        return self._sum(self.geometry.forms[row.index], free)
+
+    def _sum(self, form: Mapping[int, Fraction], free: Residues) -> Residues:
+        total = filled(0, self.points, self.prime)
+        for k, coefficient in form.items():
+            total = (total + rational(coefficient, self.prime) * free[k]) % self.prime
+        return total
+
+    def _angle(self, row: Row) -> tuple[Residues, Residues]:
+        """(cos, sin) of rate * the row's variable: powers of the free variables' angles."""
+        assert row.index is not None
+        total = (filled(1, self.points, self.prime), filled(0, self.points, self.prime))
+        for k, coefficient in self.geometry.forms[row.index].items():
+            turns = int(coefficient * self._scales[k]) * row.rate
+            c, s = self._units[k]
+            unit = (c, s if turns > 0 else -s % self.prime)
+            for bit in bin(abs(turns))[:1:-1]:
+                if bit == "1":
+                    total = turned(total, unit, self.prime)
+                unit = turned(unit, unit, self.prime)
+        return total
 
     def _cos_sin(self, angle: sympy.Expr) -> tuple[Residues, Residues]:
         c, s = cos_sin(angle)
@@ -97,126 +161,99 @@ class ModularState:
 
     def energy_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
         """(2 points, columns): rows of 2T, then of the power of gravity and constant forces."""
-        rows = np.zeros((2 * self.points, len(columns)), dtype=np.int64)
-        links = {}
+        n = self.points
+        rows = np.stack([filled(0, 2 * n, self.prime)] * len(columns), axis=1)
+        links: dict[int, Mapping[str, tuple[Residues, Residues]]] = {}
         for place, column in enumerate(columns):
-            if column.column is None:
-                if column.row not in links:
-                    links[column.row] = self._link_rows(column.row)
-                kinetic, power_of_gravity = links[column.row][column.prefix]
-                rows[: self.points, place] = kinetic
-                rows[self.points :, place] = power_of_gravity
-            elif column.column.block is EnergyBlock.KINETIC:
-                rows[: self.points, place] = power(self.speed(column), 2)
-            elif column.column.block is EnergyBlock.POWER:
-                rows[self.points :, place] = self.speed(column)
-        return rows
+            for part in column.parts:
+                if part.column is None:
+                    if part.row not in links:
+                        links[part.row] = self._link_rows(part.row)
+                    kinetic, power_of_gravity = links[part.row][part.prefix]
+                    rows[:n, place] += kinetic
+                    rows[n:, place] += power_of_gravity
+                elif part.column.block is EnergyBlock.KINETIC:
+                    rows[:n, place] += power(self.speed(part), 2, self.prime)
+                elif part.column.block is EnergyBlock.POWER:
+                    rows[n:, place] += self.speed(part)
+        return rows % self.prime
 
     def rayleigh_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
         """(points, columns): v**2 of the viscous columns."""
-        rows = np.zeros((self.points, len(columns)), dtype=np.int64)
+        rows = np.stack([filled(0, self.points, self.prime)] * len(columns), axis=1)
         for place, column in enumerate(columns):
             if column.column is not None and column.column.block is EnergyBlock.RAYLEIGH:
-                rows[:, place] = power(self.speed(column), 2)
-        return rows
+                for part in column.parts:
+                    rows[:, place] += power(self.speed(part), 2, self.prime)
+        return rows % self.prime
 
     def speed(self, column: StandardColumn) -> Residues:
         """Speed of the shaft of an effect's column."""
         assert column.shaft is not None
-        total = np.zeros(self.points, dtype=np.int64)
-        for joint, coefficient in column.shaft.items():
-            exact = sympy.Rational(coefficient.numerator, coefficient.denominator)
-            total = (total + self.value(exact) * self.qd[joint]) % PRIME
-        return total
+        return self._sum(column.shaft, self.qd)
 
     def _link_rows(self, row: int) -> Mapping[str, tuple[Residues, Residues]]:
+        prime = self.prime
         R, _, w, v = self.motion[row]
-        w, v, g = (_to_frame(R, x) for x in (w, v, self.gravity))
-        vw, gw = _cross(v, w), _cross(g, w)
-        nothing = np.zeros(self.points, dtype=np.int64)
+        w, v, g = (_to_frame(R, x, prime) for x in (w, v, self.gravity))
+        vw, gw = _cross(v, w, prime), _cross(g, w, prime)
+        nothing = filled(0, self.points, prime)
 
         def both(i: int, j: int) -> tuple[Residues, Residues]:
-            return (w[i] * w[j] % PRIME * (1 if i == j else 2)) % PRIME, nothing
+            return (w[i] * w[j] % prime * (1 if i == j else 2)) % prime, nothing
 
         rows = {"XX": both(0, 0), "XY": both(0, 1), "XZ": both(0, 2)}
         rows |= {"YY": both(1, 1), "YZ": both(1, 2), "ZZ": both(2, 2)}
         for i, name in enumerate(("MX", "MY", "MZ")):
-            rows[name] = (2 * vw[i] % PRIME, -gw[i] % PRIME)
-        rows["M"] = (_dot(v, v), -_dot(g, v) % PRIME)
+            rows[name] = (2 * vw[i] % prime, -gw[i] % prime)
+        rows["M"] = (_dot(v, v, prime), -_dot(g, v, prime) % prime)
         return rows
 
 
-def power(value: Residues, n: int) -> Residues:
-    """value**n modulo the prime."""
-    result = np.ones_like(value)
-    while n:
-        if n & 1:
-            result = result * value % PRIME
-        value = value * value % PRIME
-        n >>= 1
-    return result
+def _angle_scales(geometry: Geometry) -> list[int]:
+    """Common denominators of the coefficients with which each free variable enters angles."""
+    scales = [1] * geometry.coordinates
+    for row in geometry.rows:
+        if row.index is not None and row.joint.angular:
+            for k, coefficient in geometry.forms[row.index].items():
+                scales[k] = lcm(scales[k], coefficient.denominator)
+    return scales
 
 
-def inverse(value: Residues) -> Residues:
-    """1 / value modulo the prime."""
-    return power(value, PRIME - 2)
-
-
-def _circle(t: Residues) -> tuple[Residues, Residues]:
-    square = t * t % PRIME
-    # 1 + t**2 is never 0: the prime is 3 modulo 4.
-    scale = inverse((1 + square) % PRIME)
-    return (1 - square) * scale % PRIME, 2 * t % PRIME * scale % PRIME
-
-
-def _turn(R: list, axis: int, c: Residues, s: Residues) -> list:
+def _turn(R: list, axis: int, c: Residues, s: Residues, prime: int) -> list:
     """R times the rotation by (c, s) about its own axis x (0) or z (2)."""
     i, j = (1, 2) if axis == 0 else (0, 1)
     out = [list(line) for line in R]
     for line in out:
         x, y = line[i], line[j]
-        line[i], line[j] = (c * x + s * y % PRIME) % PRIME, (c * y - s * x % PRIME) % PRIME
+        line[i] = (c * x % prime + s * y % prime) % prime
+        line[j] = (c * y % prime - s * x % prime) % prime
     return out
 
 
-def _shift(p: list, R: list, axis: int, length: Residues) -> list:
-    return [(p[i] + R[i][axis] * length) % PRIME for i in range(3)]
+def _shift(p: list, R: list, axis: int, length: Residues, prime: int) -> list:
+    return [(p[i] + R[i][axis] * length % prime) % prime for i in range(3)]
 
 
-def _plus(a: list, b: list) -> list:
-    return [(x + y) % PRIME for x, y in zip(a, b, strict=True)]
+def _plus(a: list, b: list, prime: int) -> list:
+    return [(x + y) % prime for x, y in zip(a, b, strict=True)]
 
 
-def _cross(a: list, b: list) -> list:
+def _cross(a: list, b: list, prime: int) -> list:
     return [
-        (a[(i + 1) % 3] * b[(i + 2) % 3] % PRIME - a[(i + 2) % 3] * b[(i + 1) % 3] % PRIME) % PRIME
+        (a[(i + 1) % 3] * b[(i + 2) % 3] % prime - a[(i + 2) % 3] * b[(i + 1) % 3] % prime) % prime
         for i in range(3)
     ]
 
 
-def _dot(a: list, b: list) -> Residues:
-    return sum(x * y % PRIME for x, y in zip(a, b, strict=True)) % PRIME
+def _dot(a: list, b: list, prime: int) -> Residues:
+    return sum(x * y % prime for x, y in zip(a, b, strict=True)) % prime
 
 
-def _to_frame(R: list, v: list) -> list:
-    return [_dot([R[j][i] for j in range(3)], v) for i in range(3)]
+def _to_frame(R: list, v: list, prime: int) -> list:
+    return [_dot([R[j][i] for j in range(3)], v, prime) for i in range(3)]
 
 
 def modular_rank(matrix: np.ndarray) -> int:
-    """Rank modulo the prime."""
-    left = matrix.copy() % PRIME
-    rank = 0
-    for column in range(left.shape[1]):
-        having = np.nonzero(left[rank:, column])[0]
-        if len(having) == 0:
-            continue
-        pivot = rank + int(having[0])
-        left[[rank, pivot]] = left[[pivot, rank]]
-        scale = pow(int(left[rank, column]), -1, PRIME)
-        left[rank] = left[rank] * scale % PRIME
-        below = left[rank + 1 :, column][:, None] * left[rank][None, :] % PRIME
-        left[rank + 1 :] = (left[rank + 1 :] - below) % PRIME
-        rank += 1
-        if rank == left.shape[0]:
-            break
-    return rank
+    """Rank modulo the small prime."""
+    return len(row_echelon(matrix.copy() % PRIME, range(matrix.shape[1]), PRIME))

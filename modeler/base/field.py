@@ -59,6 +59,10 @@ class ExactField:
             self._found[value] = found
         return found
 
+    def generator(self, place: int) -> Element:
+        """The generator of the letter at that place of `letters`."""
+        return self._generator[list(self.letters)[place]]
+
     def cos_sin(self, angle: sympy.Expr) -> tuple[Element, Element]:
         """Cosine and sine of a constant angle."""
         c, s = cos_sin(angle)
@@ -103,9 +107,10 @@ def geometry_field(geometry: Geometry) -> ExactField:
     for row in geometry.rows:
         constants += [row.b, row.d]
         angles = [row.gamma, row.alpha]
-        if row.index is None or not row.joint.angular:
+        # The constant part of a free joint's variable only shifts it.
+        if row.index is None or not row.joint.angular or geometry.tied:
             angles.append(row.theta)
-        if row.index is None or row.joint.angular:
+        if row.index is None or row.joint.angular or geometry.tied:
             constants.append(row.r)
         for angle in angles:
             constants += cos_sin(angle)

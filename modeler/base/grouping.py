@@ -11,6 +11,7 @@ from modeler.base.loops import loop_relations, on_link
 from modeler.base.priority import priority_order
 from modeler.base.result import BaseParameter, Term
 from modeler.base.shafts import friction_relations
+from modeler.base.tied import tied_relations
 from modeler.base.tree import group_tree
 from modeler.base.units import Units, grouping_units
 from modeler.symbolic import Geometry, StandardColumn, SymbolicModel
@@ -36,10 +37,9 @@ def column_relations(
 ) -> Relations:
     """The reduced relations of a robot, first-come by the priority order."""
     units = grouping_units(geometry, model.columns)
+    order = priority_order(model.names, model.robot.kept_first)
     if geometry.tied:
-        from modeler.base.tied import tied_relations
-
-        rows = tied_relations(geometry, units.columns, K, seed)
+        rows = tied_relations(geometry, units.columns, K, units.order(order), seed)
     else:
         rows = _link_relations(geometry, K, units)
     rows += loop_relations(geometry, K, units.places)
@@ -48,7 +48,6 @@ def column_relations(
         {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
         for relation in friction_relations(model.columns)
     ]
-    order = priority_order(model.names, model.robot.kept_first)
     reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
     first = sum(pivot >= len(model.columns) for pivot in pivots)
     reduced, dropped = reduced[first:], pivots[first:]

@@ -60,6 +60,15 @@ class Units:
         used = sorted({place for row in found for place in row if place >= self.standard})
         return found, used
 
+    def order(self, columns: Sequence[int]) -> list[int]:
+        """Units in the order of the columns that own them, those without owner last."""
+        places = {column: i for i, column in enumerate(columns)}
+        last = len(places)
+        return sorted(
+            range(len(self.owner)),
+            key=lambda unit: last if (own := self.owner[unit]) is None else places[own],
+        )
+
     def _others(self, column: int, unit: int) -> list[int]:
         return [u for u, owner in enumerate(self.owner) if owner == column and u != unit]
 

@@ -8,7 +8,7 @@ import dataclasses
 import fnmatch
 import re
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +17,12 @@ from modeler.effects import effect_named
 from modeler.robot.builtin import builtin_names, builtin_text
 from modeler.robot.cells import form_at, list_at, plain_number, table_at, text_at
 from modeler.robot.joint import Joint
+from modeler.robot.legs import expanded, leg_names
+from modeler.robot.loops import read_home, read_loops
 from modeler.robot.place import Place, listed, near, shown
-from modeler.robot.robot import INERTIAL, EffectUse, Robot
+from modeler.robot.platform import read_platform
+from modeler.robot.relations import read_relations
+from modeler.robot.robot import EffectUse, Loop, Robot
 from modeler.robot.sections import (
     read_coupling,
     read_drive_gains,
@@ -26,14 +30,15 @@ from modeler.robot.sections import (
     read_limits,
     read_physical,
 )
+from modeler.robot.sharing import read_links, read_shared, shared_names
 from modeler.robot.symbols import read_gravity, read_symbols
 from modeler.robot.table import Row, table_joints, table_rows
 
 _KEYS = (
-    "name", "title", "notes", "gravity", "priority", "symbols", "mdh", "effects", "coupling",
-    "parameters", "drive_gains", "limits", "physical", "terms",
+    "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
+    "relations", "platform", "loops", "home", "links", "effects", "coupling", "parameters",
+    "drive_gains", "limits", "physical", "terms",
 )  # fmt: skip
-_CLOSED_LOOP_KEYS = ("loops", "relations", "legs", "platform")
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
     "gravity": 'write the acceleration of gravity in frame 0, such as [0, 0, "-g"] with g among '
@@ -84,19 +89,23 @@ def robot_from_text(text: str, where: str) -> Robot:
         RobotError: a mistake in the text.
     """
     place = Place(where)
-    document = _document(text, place)
-    rows = table_rows(document["mdh"], place.at("[mdh]"))
+    document = expanded(_document(text, place), place)
+    platform_rows, platform = read_platform(document.get("platform"), place.at("[platform]"))
+    rows = table_rows(document["mdh"], place.at("[mdh]"), platform_rows)
     variables = _joint_columns(rows)
     symbols = read_symbols(document.get("symbols", {}), variables, place.at("[symbols]"))
     values: dict[str, float] = {}
     for symbol, expression in symbols.items():
         values[symbol] = form_at(expression, values, place).constant
+    relations = read_relations(document.get("relations", {}), rows, values, place.at("[relations]"))
     robot = Robot(
         name=document["name"],
         title=_text(document, "title", document["name"], place),
         gravity=read_gravity(document["gravity"], variables, values, place.at("gravity")),
         symbols=symbols,
         joints=table_joints(rows, values),
+        relations=relations,
+        platform=platform,
         notes=_text(document, "notes", "", place),
         text=text,
     )
@@ -110,9 +119,18 @@ def _with_tables(
     moving = {joint.name: joint for joint in robot.moving}
     coupling = read_coupling(document.get("coupling", {}), moving, values, place.at("[coupling]"))
     effects = read_effects(document.get("effects", {}), moving, coupling, place.at("[effects]"))
-    known = _parameter_names(moving, effects, robot.symbols, place)
+    links = dict.fromkeys(robot.platform[:-1], ())
+    links |= read_links(document.get("links", {}), moving, place.at("[links]"))
+    robot = dataclasses.replace(robot, links=links)
+    every = _parameter_names(robot, moving, effects, place)
+    legs = leg_names(document.get("legs"), place.at("legs"))
+    shared = read_shared(document.get("shared", []), every, legs, place.at("shared"))
+    known = shared_names(every, shared)
     return dataclasses.replace(
         robot,
+        loops=_loops(document.get("loops"), robot, place.at("[loops]")),
+        home=read_home(document.get("home", {}), moving, values, place.at("[home]")),
+        shared=shared,
         effects=effects,
         coupling=coupling,
         priority=_priority(document.get("priority", []), known, place.at("priority")),
@@ -124,6 +142,13 @@ def _with_tables(
         physical=read_physical(document.get("physical", {}), moving, place.at("[physical]")),
         terms=table_at(document.get("terms", {}), place.at("[terms]"), "[terms]"),
     )
+
+
+def _loops(value: Any, robot: Robot, place: Place) -> tuple[Loop, ...]:
+    loops = read_loops(value, robot.joints, place)
+    if loops and not any(joint.actuated for joint in robot.free):
+        raise place.error("no joint is actuated; write mu 1 in the rows that have a motor")
+    return loops
 
 
 def _not_found(path: Path) -> str:
@@ -158,11 +183,6 @@ def _document(text: str, place: Place) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise place.error(f"cannot be read as TOML ({error}); correct the file") from None
     for key in document:
-        if key in _CLOSED_LOOP_KEYS:
-            raise place.at(f"[{key}]").error(
-                "describes closed loops; this version reads serial and tree robots only; open "
-                "the loops and remove the table"
-            )
         if key not in _KEYS:
             raise place.error(
                 f"unknown key {shown(key)}{near(key, _KEYS)}; expected {listed(_KEYS)}"
@@ -208,10 +228,7 @@ def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:
 
 
 def _parameter_names(
-    moving: Mapping[str, Joint],
-    effects: tuple[EffectUse, ...],
-    symbols: Collection[str],
-    place: Place,
+    robot: Robot, moving: Mapping[str, Joint], effects: tuple[EffectUse, ...], place: Place
 ) -> tuple[str, ...]:
     """Names of the standard parameters.
 
@@ -220,7 +237,7 @@ def _parameter_names(
     """
     names: dict[str, str] = {}
     for name in moving:
-        prefixes = list(INERTIAL)
+        prefixes = list(robot.inertial(name))
         for use in effects:
             effect = effect_named(use.effect)
             assert effect is not None
@@ -228,7 +245,7 @@ def _parameter_names(
                 prefixes += [column.prefix for column in effect.columns]
         for prefix in prefixes:
             parameter = f"{prefix}{name}"
-            if parameter in symbols:
+            if parameter in robot.symbols:
                 raise place.at("[symbols]").error(
                     f"{shown(parameter)} is the name of a standard parameter; choose another name"
                 )

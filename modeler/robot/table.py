@@ -1,7 +1,7 @@
 """The `[mdh]` table of a robot file: rows to `Joint`s."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression, parse
@@ -21,15 +21,21 @@ COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
 _ANGLES = ("gamma", "alpha", "theta")
 _EXAMPLE = 'columns = ["j", "alpha", "d", "theta", "r"], rows = [["1", 0, 0, "q1", 0]]'
-_NAME = re.compile(r"[A-Za-z0-9]+")
+ROW_NAME = re.compile(r"[A-Za-z0-9]+")
 
 Row = dict[str, Any]
 
+HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
+"""Column of the joint variable."""
 
-def table_rows(value: Any, place: Place) -> tuple[tuple[Row, Place], ...]:
+
+def table_rows(
+    value: Any, place: Place, platform: Sequence[tuple[Row, Place]] = ()
+) -> tuple[tuple[Row, Place], ...]:
     """The rows of `[mdh]` as {column: cell}, each with its place; names and antecedents filled in.
 
-    `j` becomes text; a missing `a` becomes the name of the row above, "0" for the first.
+    `j` becomes text; a missing `a` becomes the name of the row above, "0" for the first. The rows
+    of the platform stand before the others.
 
     Raises:
         RobotError: columns, row lengths, row names or antecedents are wrong.
@@ -45,21 +51,23 @@ def table_rows(value: Any, place: Place) -> tuple[tuple[Row, Place], ...]:
         if key not in table:
             raise place.error(f"{key} is missing; write {_EXAMPLE}")
     columns = _columns(table["columns"], place.at("columns"))
-    rows: list[tuple[Row, Place]] = []
+    rows: list[tuple[Row, Place]] = list(platform)
     for number, cells in enumerate(list_at(table["rows"], place.at("rows"), _EXAMPLE), start=1):
         row = _row(number, cells, columns, place)
         name = _row_name(row["j"], place.at(f"row {number}, column j"))
         here = place.at(f'row "{name}"')
         names = [earlier["j"] for earlier, _ in rows]
         if name in names:
+            first = names.index(name) + 1 - len(platform)
+            where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
             raise here.error(
-                f"the name {shown(name)} stands in rows {names.index(name) + 1} and {number}; "
-                "give each row its own name"
+                f"the name {shown(name)} stands {where} {number}; give each row its own name"
             )
         row["j"] = name
-        row["a"] = name_of(row.get("a", names[-1] if names else "0"))
+        above = names[-1] if len(names) > len(platform) else "0"
+        row["a"] = name_of(row.get("a", above))
         rows.append((row, here))
-    if not rows:
+    if len(rows) == len(platform):
         raise place.at("rows").error(
             f"the table is empty; write one row per joint, as in {_EXAMPLE}"
         )
@@ -79,7 +87,7 @@ def table_joints(
     Raises:
         RobotError: a cell is wrong; says row, column, got, expected.
     """
-    kinds = {row["j"]: _kind(row.get("sigma", 0), place) for row, place in rows}
+    kinds = {row["j"]: row_kind(row, place) for row, place in rows}
     if all(kind is JointKind.FIXED for kind in kinds.values()):
         raise rows[0][1].error(
             "no row of the table moves; expected at least one joint with sigma 0 (revolute) "
@@ -120,7 +128,7 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
 
 def _row_name(cell: Any, place: Place) -> str:
     name = name_of(cell)
-    if not isinstance(name, str) or not _NAME.fullmatch(name) or not name.isascii():
+    if not isinstance(name, str) or not ROW_NAME.fullmatch(name) or not name.isascii():
         raise place.error(
             f"got {shown(cell)}; expected a name of letters and digits such as "
             '"1" or "12" (it becomes part of names in the C code)'
@@ -166,7 +174,13 @@ def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
     return []
 
 
-def _kind(cell: Any, place: Place) -> JointKind:
+def row_kind(row: Row, place: Place) -> JointKind:
+    """Sigma of a row.
+
+    Raises:
+        RobotError: not 0, 1 or 2.
+    """
+    cell = row.get("sigma", 0)
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
         raise place.at("column sigma").error(
             f"got {shown(cell)}; expected 0 (revolute), 1 (prismatic) or 2 (fixed)"
@@ -189,16 +203,12 @@ def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
     return cell == 1
 
 
-_HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
-"""Column of the joint variable."""
-
-
 def _joint(
     row: Row, place: Place, kinds: Mapping[str, JointKind], symbols: Mapping[str, float]
 ) -> Joint:
     kind = kinds[row["j"]]
     # The place of the variable last: a variable in the wrong column is told there, not as missing.
-    order = sorted(_GEOMETRY, key=lambda column: column == _HOME.get(kind))
+    order = sorted(_GEOMETRY, key=lambda column: column == HOME.get(kind))
     cells = {
         column: _cell(row, column, place.at(f"column {column}"), kinds, symbols) for column in order
     }
@@ -214,7 +224,7 @@ def _cell(
 ) -> Expression:
     expression = expression_at(row.get(column, 0), place)
     kind, own = kinds[row["j"]], f"q{row['j']}"
-    home = _HOME.get(kind)
+    home = HOME.get(kind)
     _check_variables(expression, own, home, column, kinds, place)
     check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:
@@ -246,9 +256,11 @@ def _check_variables(
                 f"belongs into column {home}; move it there, or correct sigma"
             )
         if name != own and name.startswith("q") and name[1:] in kinds:
+            column = home or "theta or r"
             raise place.error(
-                f"{got}, which uses the variable {name} of another row; linear relations between "
-                f"joints come with closed loops, not in this version; expected {own} or none"
+                f"{got}, which uses the variable {name} of another row; expected {own} and "
+                "constants, or, where the joint follows others, a sum of their variables in "
+                f"column {column} without {own}"
             )
 
 

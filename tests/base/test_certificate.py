@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base.certificate import PRIME, ModularState, inverse, modular_rank, power
+from modeler.base.certificate import PRIME, ModularState, modular_rank
+from modeler.base.residues import inverse, power
 from modeler.base.field import ExactField, geometry_field
 from modeler.base.grouping import column_relations
 from modeler.base.proof import NotProved, certificate
