@@ -6,7 +6,7 @@ the robot's columns: what it does not have is eliminated, and what legs share mu
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from modeler.base.field import Element
 from modeler.base.tree import INERTIA, OFFSET
@@ -88,7 +88,7 @@ def grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) -> Uni
                 places[part.row, INERTIAL.index(part.prefix)] = len(found)
             elif part.effect in _OWN:
                 places[part.row, _OWN[part.effect]] = len(found)
-            found.append(part)
+            found.append(replace(part, others=()))
             owner.append(column)
     for k, row in enumerate(geometry.rows):
         if row.index is not None:

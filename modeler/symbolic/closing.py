@@ -18,6 +18,8 @@ _CLOSED = 1e-12
 _ZERO = 1e-9
 _ITERATIONS = 60
 _STEPS = 12
+_SEED = 7
+_STARTS = 200
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,7 @@ class Closing:
         given: places in u of the coordinates q.
         solved: places in u of the others.
         lengths: by u, True for a travel in m.
+        alignments: positive where the loops are closed as meant.
     """
 
     graph: Graph
@@ -41,6 +44,7 @@ class Closing:
     given: tuple[int, ...]
     solved: tuple[int, ...]
     lengths: tuple[bool, ...]
+    alignments: Sequence[Expr] = ()
 
     @property
     def unknowns(self) -> int:
@@ -55,6 +59,11 @@ class Closing:
     def residuals(self, u: np.ndarray) -> np.ndarray:
         """(n, equations) of (n, unknowns)."""
         return self._evaluate(self.equations, u)
+
+    def aligned(self, u: np.ndarray) -> np.ndarray:
+        """(n,) True where no loop is closed with axes opposite; NaN postures are not."""
+        values = self._evaluate(self.alignments, u)
+        return np.all(np.isfinite(u), axis=1) & np.all(values > 0.0, axis=1)
 
     def jacobians(self, u: np.ndarray) -> np.ndarray:
         """(n, equations, unknowns)."""
@@ -103,8 +112,8 @@ def closed_home(
     Raises:
         LoopError: no closed posture near; names the loop that stays open.
     """
-    home = closing.closed(start[None])[0]
-    if np.all(np.isfinite(home)):
+    home = _nearest(closing, start)
+    if home is not None:
         return home
     f = np.abs(closing.residuals(start[None])[0])
     worst = int(np.argmax(f))
@@ -119,6 +128,32 @@ def closed_home(
         f'{robot.name}: [home]: loop "{owners[worst]}" does not close from there (open by '
         f"{f[worst]:.3g}); {advice}"
     )
+
+
+def _nearest(closing: Closing, start: np.ndarray) -> np.ndarray | None:
+    """The closed posture that Newton finds from `start`; where its axes are opposite, another near.
+
+    Other starts differ in the solved angles.
+    """
+    home = closing.closed(start[None])
+    if closing.aligned(home)[0]:
+        return home[0]
+    if not np.all(np.isfinite(home)):
+        return None
+    rng = np.random.default_rng(_SEED)
+    others = np.tile(start, (_STARTS, 1))
+    angles = [k for k in closing.solved if not closing.lengths[k]]
+    others[:, angles] += rng.uniform(-np.pi, np.pi, (_STARTS, len(angles)))
+    found = closing.closed(others)
+    found = found[closing.aligned(found)]
+    if len(found) == 0:
+        return None
+    found[:, angles] = start[angles] + _wrapped(found[:, angles] - start[angles])
+    return found[int(np.argmin(np.sum(np.abs(found - start), axis=1)))]
+
+
+def _wrapped(angle: np.ndarray) -> np.ndarray:
+    return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
 def moved_postures(

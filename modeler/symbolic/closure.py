@@ -22,7 +22,7 @@ from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.kinematics import Pose, base_poses
-from modeler.symbolic.loop_equations import loop_equations
+from modeler.symbolic.loop_equations import loop_alignments, loop_equations
 
 _RANK = 1e-9
 _SAMPLES = 12
@@ -96,8 +96,10 @@ def _all_equations(
     posed = base_poses(geometry, frames, algebra)
     equations: list[Expr] = []
     owners: list[str] = []
+    aligned: list[Expr] = []
     for loop in robot.loops:
         found = loop_equations(geometry, loop, posed)
+        aligned += loop_alignments(geometry, loop, posed)
         equations += found
         owners += [loop.name] * len(found)
     n = geometry.coordinates
@@ -107,8 +109,10 @@ def _all_equations(
     given = tuple(names.index(joint.name) for joint in robot.coordinates)
     solved = tuple(k for k in range(n) if k not in given)
     lengths = tuple(not joint.angular for joint in robot.free)
-    values = geometry.values
-    return Closing(graph, values, equations, jacobian, given, solved, lengths), owners
+    closing = Closing(
+        graph, geometry.values, equations, jacobian, given, solved, lengths, aligned
+    )
+    return closing, owners
 
 
 def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:

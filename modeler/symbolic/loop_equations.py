@@ -27,6 +27,19 @@ def loop_equations(geometry: Geometry, loop: Loop, frames: Sequence[Frame]) -> l
     return [value for value in _KINDS[loop.kind](one, other) if not value.is_zero]
 
 
+def loop_alignments(
+    geometry: Geometry, loop: Loop, frames: Sequence[Frame]
+) -> list[Expr]:
+    """Expressions that are 1 where the loop is closed as meant, -1 with axes opposite.
+
+    The equations compare directions by right angles, which opposite axes fulfil too.
+    """
+    places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
+    one = frames[places[loop.frame]]
+    other = _base(one) if loop.meets == "0" else frames[places[loop.meets]]
+    return [dot(one[0][axis], other[0][axis]) for axis in _SAME_AXES[loop.kind]]
+
+
 def _base(like: Frame) -> Frame:
     graph = like[1][0].graph
     zero, unit = graph.constant(0), graph.constant(1)
@@ -65,3 +78,8 @@ _KINDS: Mapping[str, Callable[[Frame, Frame], list[Expr]]] = {
     "planar": lambda a, b: [dot(a[0][2], _between(b, a)), *_parallel(a, b)],
     "rigid": lambda a, b: [*_position(a, b), *_aligned(a, b)],
 }
+
+_SAME_AXES: Mapping[str, tuple[int, ...]] = {
+    "position": (), "spherical": (), "universal": (), "revolute": (2,), "cylindrical": (2,),
+    "planar": (2,), "prismatic": (0, 2), "rigid": (0, 2),
+}  # fmt: skip
