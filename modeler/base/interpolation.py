@@ -148,9 +148,7 @@ def _monomials(count: int, degree: int) -> list[tuple[int, ...]]:
     return found
 
 
-def _shared_points(
-    sampler: Sampler, letters: tuple[int, ...], count: int
-) -> list[tuple[int, ...]]:
+def _shared_points(sampler: Sampler, letters: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
     """Random values of these letters; the same for all functions, so that samples are reused."""
     known = getattr(sampler, "drawn_points", None)
     if known is None:

@@ -6,12 +6,13 @@ from typing import Any
 from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
-from modeler.codegen.functions import Function, module_functions
+from modeler.codegen.closed import closed_functions
+from modeler.codegen.functions import Function, tree_functions
 from modeler.codegen.manifest import module_spec
 from modeler.codegen.names import graph_places, module_prefix, symbol_macros
 from modeler.codegen.render import render
 from modeler.codegen.symbols import SymbolLines, symbol_lines
-from modeler.core.contract import MANIFEST, RUNTIME, Emitted, ModuleSpec
+from modeler.core.contract import CLOSURE_RUNTIME, MANIFEST, RUNTIME, Emitted, ModuleSpec
 from modeler.core.errors import EmitError
 from modeler.core.resources import resource_dir
 from modeler.symbolic import SymbolicModel
@@ -22,6 +23,7 @@ class _Written:
     """One function as finished strings."""
 
     unit: str
+    internal: bool
     name: str
     does: str
     equation: str
@@ -49,18 +51,22 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
-    places = graph_places(model.geometry.joints, macros, parameters)
-    blocks = [(f, _block(f, places)) for f in module_functions(model, base)]
+    places = graph_places(model.geometry.coordinates, macros, parameters)
+    closed = model.closure is not None
+    functions = closed_functions(model, base, prefix) if closed else tree_functions(model, base)
+    blocks = [(f, _block(f, places)) for f in functions]
     spec = module_spec(model, base, blocks)
     symbols = symbol_lines(model, base, macros)
-    values = _values(spec, symbols, [_written(prefix, f, block) for f, block in blocks])
+    written = [_written(prefix, f, block) for f, block in blocks]
+    values = _values(spec, symbols, written) | {"loops": _loops(model)}
     files = {
         f"{prefix}.h": render("module.h", **values),
         **{
             f"{prefix}{unit}.c": _unit(unit, values)
             for unit in ("", "_regressor", "_base_regressor")
         },
-        **_runtime(),
+        **(_loop_files(prefix, values) if closed else {}),
+        **_runtime(spec),
         "Makefile": render("Makefile", **values),
         "CMakeLists.txt": render("CMakeLists.txt", **values),
         "base_parameters.md": render("base_parameters.md", **values),
@@ -68,6 +74,41 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
         MANIFEST: spec.to_json(),
     }
     return Emitted(spec, files)
+
+
+def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
+    """The header of the opened tree's functions, and the unit that closes the loops."""
+    functions = values["functions"]
+    inner = [f for f in functions if f.internal]
+    outer = [f for f in functions if f.unit == "_loops"]
+    return {
+        f"{prefix}_tree.h": render("tree.h", **{**values, "functions": inner}),
+        f"{prefix}_loops.c": render("loops.c", **{**values, "functions": outer}),
+    }
+
+
+def _loops(model: SymbolicModel) -> dict[str, Any] | None:
+    """Numbers of the closures, as C initialisers."""
+    closure = model.closure
+    if closure is None:
+        return None
+    scales = [closure.size if long else 1.0 for long in closure.lengths]
+    sets = [("", closure.given)]
+    if closure.platform is not None:
+        sets.append(("platform_", closure.platform))
+    every = range(len(closure.home))
+    return {
+        "home": ", ".join(repr(x) for x in closure.home),
+        "scale": ", ".join(repr(x) for x in scales),
+        "unknowns": len(closure.home),
+        "solved": len(closure.solved),
+        "given": len(closure.given),
+        "variables": ", ".join(joint.name for joint in model.robot.free),
+        "sets": [
+            (head, ", ".join(map(str, given)), ", ".join(str(k) for k in every if k not in given))
+            for head, given in sets
+        ],
+    }
 
 
 def _block(function: Function, places: dict[str, str]) -> Block | None:
@@ -79,15 +120,17 @@ def _block(function: Function, places: dict[str, str]) -> Block | None:
 
 def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     name = f"{prefix}_{function.role}"
+    returns = "void" if function.body is None else "int"
     return _Written(
         unit=function.unit,
+        internal=function.internal,
         name=name,
         does=function.does,
         equation=function.equation,
         arguments=layout.argument_lines(function),
-        declaration=layout.prototype(name, layout.arguments(function, "")),
-        definition=layout.prototype(name, layout.arguments(function, "restrict ")),
-        lines=layout.body_lines(function, block),
+        declaration=layout.prototype(name, layout.arguments(function, ""), returns),
+        definition=layout.prototype(name, layout.arguments(function, "restrict "), returns),
+        lines=list(function.body or layout.body_lines(function, block)),
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,
     )
@@ -106,7 +149,10 @@ def _values(spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written]) -
         "joints": ", ".join(joint.name for joint in spec.joints),
         "relations": [layout.relation(parameter) for parameter in spec.base],
         "functions": functions,
-        "observation": [layout.observation_prototype(spec.prefix, r) for r in ("", "restrict ")],
+        "observation": [
+            layout.observation_prototype(spec.prefix, r, spec.closure is not None)
+            for r in ("", "restrict ")
+        ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
@@ -120,10 +166,10 @@ def _unit(unit: str, values: dict[str, Any]) -> str:
     return render("module.c", **{**values, "functions": functions, "main": not unit})
 
 
-def _runtime() -> dict[str, str]:
+def _runtime(spec: ModuleSpec) -> dict[str, str]:
     folder = resource_dir("csrc")
     places = (folder / "include", folder)
     return {
         name: (places[0] if name.endswith(".h") else places[1]).joinpath(name).read_text("utf-8")
-        for name in RUNTIME
+        for name in (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
     }

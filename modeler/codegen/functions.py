@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from modeler.base.result import BaseParameters
 from modeler.core.contract import ArgumentSpec
+from modeler.robot import Joint
 from modeler.symbolic import Expr, SymbolicModel
 
 
@@ -20,6 +21,8 @@ class Function:
         inputs: arguments read.
         output: argument written.
         entries: (index into the row-major output, value) of everything that is not zero.
+        body: statements, of a function that calls others; None if `entries` say all.
+        internal: True for a function of the opened tree, which the header does not show.
     """
 
     unit: str
@@ -29,10 +32,12 @@ class Function:
     inputs: tuple[ArgumentSpec, ...]
     output: ArgumentSpec
     entries: tuple[tuple[int, Expr], ...]
+    body: tuple[str, ...] | None = None
+    internal: bool = False
 
 
 @dataclass(frozen=True)
-class _Arguments:
+class Arguments:
     """All arguments that functions share."""
 
     q: ArgumentSpec
@@ -43,27 +48,33 @@ class _Arguments:
     tau: ArgumentSpec
 
 
-def module_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function, ...]:
-    """All functions of a robot's module, in the order of the header."""
-    given = _arguments(model, base)
-    beta = {
+def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
+    """{standard column: the base parameter that stands for it}."""
+    return {
         parameter.column: model.graph.symbol(f"beta[{i}]")
         for i, parameter in enumerate(base.parameters)
     }
+
+
+def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function, ...]:
+    """All functions of a module without loops, in the order of the header."""
+    given = arguments_of(model.robot.free, model, base)
+    beta = beta_symbols(model, base)
     return (
         *_regressors(model, base, given),
         *_dynamics(model, beta, given),
-        _grouping(model, base, given),
+        grouping_function(model, base, given),
         _kinematics(model, given),
     )
 
 
-def _arguments(model: SymbolicModel, base: BaseParameters) -> _Arguments:
-    n = (model.geometry.joints,)
-    angle = _either([joint.unit for joint in model.robot.moving])
-    effort = _either([joint.effort_unit for joint in model.robot.moving])
+def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters) -> Arguments:
+    """The arguments of functions whose positions are those of `joints`."""
+    n = (len(joints),)
+    angle = _either([joint.unit for joint in joints])
+    effort = _either([joint.effort_unit for joint in joints])
     rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
-    return _Arguments(
+    return Arguments(
         q=ArgumentSpec("q", n, angle, "joint positions"),
         qd=ArgumentSpec("qd", n, rate, "joint velocities"),
         qdd=ArgumentSpec("qdd", n, acceleration, "joint accelerations"),
@@ -78,9 +89,9 @@ def _either(units: Sequence[str]) -> str:
 
 
 def _regressors(
-    model: SymbolicModel, base: BaseParameters, given: _Arguments
+    model: SymbolicModel, base: BaseParameters, given: Arguments
 ) -> tuple[Function, ...]:
-    joints, p, c = model.geometry.joints, len(model.columns), base.rank
+    joints, p, c = model.geometry.coordinates, len(model.columns), base.rank
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
     standard = [(joint * p + k, value) for (joint, k), value in model.regressor.items()]
     values = {
@@ -116,9 +127,9 @@ def _by_place(item: tuple[tuple[int, int], Expr]) -> tuple[int, int]:
 
 
 def _dynamics(
-    model: SymbolicModel, beta: dict[int, Expr], given: _Arguments
+    model: SymbolicModel, beta: dict[int, Expr], given: Arguments
 ) -> tuple[Function, ...]:
-    joints = model.geometry.joints
+    joints = model.geometry.coordinates
     q, qd, qdd, b = given.q, given.qd, given.qdd, given.beta
     matrix = [value for row in model.inertia_matrix(beta) for value in row]
     losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
@@ -128,7 +139,7 @@ def _dynamics(
 
     def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
                  values: Sequence[Expr]) -> Function:  # fmt: skip
-        return Function("", role, does, equation, inputs, given.tau, _entries(values))
+        return Function("", role, does, equation, inputs, given.tau, entries_of(values))
 
     return (
         function(
@@ -139,7 +150,7 @@ def _dynamics(
             "", "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
             "tau = M(q) qdd + ...", (q, b),
             ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
-            _entries(matrix),
+            entries_of(matrix),
         ),
         function("gravity", "Torques that hold the robot still, without friction.",
                  "g(q) = tau(q, 0, 0) without effects", (q, b), gravity),
@@ -150,7 +161,7 @@ def _dynamics(
     )  # fmt: skip
 
 
-def _grouping(model: SymbolicModel, base: BaseParameters, given: _Arguments) -> Function:
+def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> Function:
     place = {name: model.graph.symbol(f"chi[{k}]") for k, name in enumerate(model.names)}
     values = []
     for parameter in base.parameters:
@@ -160,20 +171,20 @@ def _grouping(model: SymbolicModel, base: BaseParameters, given: _Arguments) -> 
         values.append(total)
     return Function(
         "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
-        "beta = K chi", (given.chi,), given.beta, _entries(values),
+        "beta = K chi", (given.chi,), given.beta, entries_of(values),
     )  # fmt: skip
 
 
-def _kinematics(model: SymbolicModel, given: _Arguments) -> Function:
+def _kinematics(model: SymbolicModel, given: Arguments) -> Function:
     poses = model.forward_kinematics()
     meaning = "poses [R | p] of the links' frames in frame 0"
     return Function(
-        "", "forward_kinematics", "Pose of the frame of every joint, as in the robot's table.",
+        "", "forward_kinematics", "Pose of the frame of every moving row of the robot's table, in its order.",
         "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
         ArgumentSpec("T", (len(poses), 3, 4), "1 | m", meaning),
-        _entries([value for pose in poses for row in pose for value in row]),
+        entries_of([value for pose in poses for row in pose for value in row]),
     )  # fmt: skip
 
 
-def _entries(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
+def entries_of(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
     return tuple((k, value) for k, value in enumerate(values) if not value.is_zero)

@@ -87,12 +87,12 @@ def arguments(function: Function, restrict: str) -> list[str]:
     ]
 
 
-def prototype(name: str, parameters: Sequence[str]) -> str:
+def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:
     """`void name(...)`, in lines of readable length."""
-    indent = " " * (len(name) + 6)
+    indent = " " * (len(returns) + len(name) + 2)
     return "\n".join(
         textwrap.wrap(
-            f"void {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})",
+            f"{returns} {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})",
             _WIDTH,
             subsequent_indent=indent,
             break_long_words=False,
@@ -101,10 +101,11 @@ def prototype(name: str, parameters: Sequence[str]) -> str:
     ).replace(chr(160), " ")
 
 
-def observation_prototype(prefix: str, restrict: str) -> str:
+def observation_prototype(prefix: str, restrict: str, status: bool = False) -> str:
     """Prototype of the loop over samples that fills W."""
     states = ["const double *q", "const double *qd", "const double *qdd"]
-    return prototype(f"{prefix}_observation", ["size_t samples", *states, f"double *{restrict}W"])
+    outputs = [f"double *{restrict}W", *(["int *status"] if status else [])]
+    return prototype(f"{prefix}_observation", ["size_t samples", *states, *outputs])
 
 
 def body_lines(function: Function, block: Block | None) -> list[str]:

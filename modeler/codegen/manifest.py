@@ -11,6 +11,7 @@ from modeler.codegen.names import module_prefix
 from modeler.core.contract import (
     FORMAT,
     BaseSpec,
+    ClosureSpec,
     FunctionSpec,
     JointSpec,
     ModuleSpec,
@@ -35,11 +36,29 @@ def module_spec(
         prefix=prefix,
         format=FORMAT,
         symbols=tuple(SymbolSpec(name, value) for name, value in values.items()),
-        joints=tuple(_joint(robot, joint) for joint in robot.moving),
+        joints=tuple(_joint(robot, joint) for joint in robot.coordinates),
         standard=tuple(_standard(model, column) for column in model.columns),
         base=tuple(_base(model, parameter) for parameter in base.parameters),
         unidentifiable=tuple(base.unidentifiable),
-        functions=tuple(_function(prefix, function, block) for function, block in blocks),
+        functions=tuple(
+            _function(prefix, function, block)
+            for function, block in blocks
+            if not function.internal
+        ),
+        closure=_closure(model),
+    )
+
+
+def _closure(model: SymbolicModel) -> ClosureSpec | None:
+    closure = model.closure
+    if closure is None:
+        return None
+    return ClosureSpec(
+        variables=tuple(joint.name for joint in model.robot.free),
+        units=tuple(joint.unit for joint in model.robot.free),
+        given=closure.given,
+        platform=closure.platform or (),
+        home=closure.home,
     )
 
 
@@ -79,7 +98,7 @@ def _base(model: SymbolicModel, parameter: BaseParameter) -> BaseSpec:
         column_of=column.name,
         unit=column.unit,
         kind=column.kind,
-        rows=tuple(sorted(joint for joint, k in model.regressor if k == parameter.column)),
+        rows=_rows(model, parameter.column),
         terms=tuple(
             TermSpec(
                 str(term.coefficient),
@@ -89,6 +108,13 @@ def _base(model: SymbolicModel, parameter: BaseParameter) -> BaseSpec:
             for term in parameter.terms
         ),
     )
+
+
+def _rows(model: SymbolicModel, column: int) -> tuple[int, ...]:
+    """Coordinates whose torque the column can enter; with loops all."""
+    if model.closure is not None:
+        return tuple(range(len(model.closure.given)))
+    return tuple(sorted(joint for joint, k in model.regressor if k == column))
 
 
 def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
@@ -103,4 +129,5 @@ def _function(prefix: str, function: Function, block: Block | None) -> FunctionS
         outputs=(function.output,),
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,
+        status=function.body is not None,
     )

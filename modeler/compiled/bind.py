@@ -18,12 +18,31 @@ FUNCTIONS = {
 }  # fmt: skip
 """Functions that every module has, and how many inputs they read."""
 
+LOOP_FUNCTIONS = {
+    **{role: count for role, count in FUNCTIONS.items() if role != "base_regressor_nonzeros"},
+    "friction": 3, "close": 1, "close_from": 2, "coupling": 1,
+}  # fmt: skip
+"""Those of a robot with loops."""
+
+PLATFORM_FUNCTIONS = {
+    "platform_base_regressor": 3, "platform_inverse_dynamics": 4, "platform_close": 1,
+    "platform_close_from": 2, "platform_coupling": 1,
+}  # fmt: skip
+"""Those of a robot with loops and a platform besides."""
+
 _RUNTIME = """
 typedef struct { const double *data; size_t step; } modeler_input;
 void modeler_batch_1(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_2(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_3(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_4(void *, size_t, const modeler_input *, double *, size_t);
+"""
+
+_LOOP_RUNTIME = """
+void modeler_batch_status_1(void *, size_t, const modeler_input *, double *, size_t, int *);
+void modeler_batch_status_2(void *, size_t, const modeler_input *, double *, size_t, int *);
+void modeler_batch_status_3(void *, size_t, const modeler_input *, double *, size_t, int *);
+void modeler_batch_status_4(void *, size_t, const modeler_input *, double *, size_t, int *);
 """
 
 
@@ -43,7 +62,8 @@ class Library:
         """
         self.spec = spec
         self._ffi = cffi.FFI()
-        self._ffi.cdef(_RUNTIME + _declarations(spec))
+        loops = _LOOP_RUNTIME if spec.closure is not None else ""
+        self._ffi.cdef(_RUNTIME + loops + _declarations(spec))
         try:
             self._library: Any = self._ffi.dlopen(str(path))
             self._check()
@@ -70,14 +90,22 @@ class Library:
     def _function(self, role: str) -> Any:
         return getattr(self._library, f"{self.spec.prefix}_{role}")
 
-    def batch(self, function: FunctionSpec, inputs: Sequence[np.ndarray], out: np.ndarray) -> None:
+    def batch(
+        self,
+        function: FunctionSpec,
+        inputs: Sequence[np.ndarray],
+        out: np.ndarray,
+        status: np.ndarray | None = None,
+    ) -> None:
         """Call `function` for every sample.
 
         Args:
             function: of the manifest, with 1 to 4 inputs.
             inputs: C-contiguous float64; (n, length) per sample, or (length,) the same for all.
             out: C-contiguous float64, (n, ...).
+            status: (n,) C int, of a function that returns one.
         """
+        assert (status is not None) == function.status
         assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4)
         given = self._ffi.new("modeler_input[]", len(inputs))
         for place, array in zip(given, inputs, strict=True):
@@ -86,18 +114,35 @@ class Library:
             place.step = array.shape[1] if array.ndim == 2 else 0
         samples = len(out)
         step = out.size // samples if samples else 0
-        driver = getattr(self._library, f"modeler_batch_{len(inputs)}")
         pointer = self._ffi.cast("void *", getattr(self._library, function.name))
-        driver(pointer, samples, given, self._doubles(out), step)
+        arguments = [pointer, samples, given, self._doubles(out), step]
+        if status is None:
+            getattr(self._library, f"modeler_batch_{len(inputs)}")(*arguments)
+        else:
+            driver = getattr(self._library, f"modeler_batch_status_{len(inputs)}")
+            driver(*arguments, self._integers(status))
 
-    def observation(self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, W: np.ndarray) -> None:
-        """Fill W, (n*joints, columns), from (n, joints) arrays."""
-        states = [self._doubles(array) for array in (q, qd, qdd)]
-        self._function("observation")(len(q), *states, self._doubles(W))
+    def observation(
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        W: np.ndarray,
+        status: np.ndarray | None = None,
+    ) -> None:
+        """Fill W, (n*joints, columns), from (n, joints) arrays; (n,) `status` with loops."""
+        arguments = [self._doubles(array) for array in (q, qd, qdd, W)]
+        if status is not None:
+            arguments.append(self._integers(status))
+        self._function("observation")(len(q), *arguments)
 
     def base_parameters(self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray) -> None:
         """Fill beta from chi by the grouping relations."""
         getattr(self._library, function.name)(self._doubles(chi), self._doubles(beta))
+
+    def _integers(self, array: np.ndarray) -> Any:
+        assert array.flags.c_contiguous and array.dtype == np.intc
+        return self._ffi.cast("int *", array.ctypes.data)
 
     def _doubles(self, array: np.ndarray) -> Any:
         # The address itself: half the time of from_buffer; the caller holds the array.
@@ -116,7 +161,10 @@ def check_names(spec: ModuleSpec) -> None:
     for name in (spec.prefix, *inputs):
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             raise ManifestError(f'{spec.robot}: got the name "{name}", expected a C name')
-    for role, count in FUNCTIONS.items():
+    wanted = FUNCTIONS
+    if spec.closure is not None:
+        wanted = LOOP_FUNCTIONS | (PLATFORM_FUNCTIONS if spec.closure.platform else {})
+    for role, count in wanted.items():
         got = inputs.get(f"{spec.prefix}_{role}")
         if got != count:
             raise ManifestError(
@@ -126,12 +174,14 @@ def check_names(spec: ModuleSpec) -> None:
 
 
 def _declarations(spec: ModuleSpec) -> str:
+    status = ", int *" if spec.closure is not None else ""
     lines = [
         f"const char *{spec.prefix}_signature(void);",
         f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
-        "double *);",
+        f"double *{status});",
     ]
     for function in spec.functions:
         inputs = ", ".join("const double *" for _ in function.inputs)
-        lines.append(f"void {function.name}({inputs}, double *);")
+        returns = "int" if function.status else "void"
+        lines.append(f"{returns} {function.name}({inputs}, double *);")
     return "\n".join(lines)

@@ -10,7 +10,14 @@ from modeler.compiled.bind import Library, check_names
 from modeler.compiled.build import build_library
 from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
-from modeler.core.errors import ManifestError, ShapeError
+from modeler.core.errors import LoopError, ManifestError, ShapeError
+
+_STATUS = {
+    1: "the loops cannot be closed",
+    2: "singular posture, the passive joints are not determined",
+    3: "the loops cannot be closed, a value is not finite",
+}
+"""What a status of the C code says."""
 
 
 class CompiledModel:
@@ -53,7 +60,9 @@ class CompiledModel:
         states = self._states({"q": q, "qd": qd, "qdd": qdd})
         shape = (len(states["q"]) * self._joints, len(self.spec.base))
         W = np.empty(shape) if out is None else _checked_out(out, shape)
-        self._library.observation(states["q"], states["qd"], states["qdd"], W)
+        status = self._no_status(len(states["q"]))
+        self._library.observation(states["q"], states["qd"], states["qdd"], W, status)
+        self._check(status, states["q"])
         return W
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any) -> np.ndarray:
@@ -72,12 +81,57 @@ class CompiledModel:
         """c(q, qd), (n, joints): Coriolis and centripetal torques."""
         return self._evaluate("coriolis", {"q": q, "qd": qd}, beta)
 
-    def friction(self, qd: Any, beta: Any) -> np.ndarray:
-        """f(qd), (n, joints): all effects but rotor inertias, offsets included."""
-        return self._evaluate("friction", {"qd": qd}, beta)
+    def friction(self, qd: Any, beta: Any, q: Any = None) -> np.ndarray:
+        """f(qd), (n, joints): all effects but rotor inertias, offsets included.
+
+        With loops f(q, qd): passive joints rub too, and how fast they move depends on q.
+        """
+        if self.spec.closure is None:
+            return self._evaluate("friction", {"qd": qd}, beta)
+        if q is None:
+            raise ShapeError(
+                f"{self.spec.robot} has loops: its friction depends on the positions; give q"
+            )
+        return self._evaluate("friction", {"q": q, "qd": qd}, beta)
+
+    def close(self, q: Any) -> np.ndarray:
+        """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.
+
+        Raises:
+            LoopError: the loops cannot be closed; names the sample.
+        """
+        return self._evaluate("close", {"q": q}) if self._loops else self._states({"q": q})["q"]
+
+    def closing_status(self, q: Any) -> np.ndarray:
+        """(n,) 0 where the loops close, else the status of the C code; never raises for loops."""
+        given = self._states({"q": q})["q"]
+        status = np.zeros(len(given), dtype=np.intc)
+        if self._loops:
+            out = np.empty((len(given), *self._functions["close"].outputs[0].shape))
+            self._library.batch(self._functions["close"], [given], out, status)
+        return status
+
+    def coupling(self, q: Any) -> np.ndarray:
+        """G of ud = G qd, (n, len(u), joints); rows of the platform are its Jacobian."""
+        if not self._loops:
+            n = len(self._states({"q": q})["q"])
+            return np.broadcast_to(np.eye(self._joints), (n, self._joints, self._joints)).copy()
+        return self._evaluate("coupling", {"q": q})
+
+    def platform_close(self, x: Any) -> np.ndarray:
+        """U, (n, len(u)), from the platform's coordinates."""
+        return self._evaluate("platform_close", {"x": x})
+
+    def platform_base_regressor(self, x: Any, xd: Any, xdd: Any) -> np.ndarray:
+        """Phi of f = phi beta, (n, joints, c): forces along the platform's coordinates."""
+        return self._evaluate("platform_base_regressor", {"x": x, "xd": xd, "xdd": xdd})
+
+    def platform_inverse_dynamics(self, x: Any, xd: Any, xdd: Any, beta: Any) -> np.ndarray:
+        """f, (n, joints), along the platform's coordinates."""
+        return self._evaluate("platform_inverse_dynamics", {"x": x, "xd": xd, "xdd": xdd}, beta)
 
     def forward_kinematics(self, q: Any) -> np.ndarray:
-        """[R | p] of the frame of every joint in frame 0, (n, joints, 3, 4); p in m.
+        """[R | p] of the frame of every moving row in frame 0, (n, rows, 3, 4); p in m.
 
         Columns of R are the frame's axes: a point x of frame j stands at R x + p.
         """
@@ -97,14 +151,38 @@ class CompiledModel:
         return checked
 
     def _evaluate(self, role: str, states: Mapping[str, Any], beta: Any = None) -> np.ndarray:
+        if role not in self._functions:
+            raise ManifestError(f"{self.spec.robot} has no {role}: it has no platform in a loop")
         function: FunctionSpec = self._functions[role]
         given = self._states(states)
         samples = len(next(iter(given.values())))
         if beta is not None:
             given["beta"] = as_vector(beta, "beta", len(self.spec.base))
         out = np.empty((samples, *function.outputs[0].shape))
-        self._library.batch(function, [given[a.name] for a in function.inputs], out)
+        status = self._no_status(samples) if function.status else None
+        self._library.batch(function, [given[a.name] for a in function.inputs], out, status)
+        self._check(status, given[function.inputs[0].name])
         return out
+
+    @property
+    def _loops(self) -> bool:
+        return self.spec.closure is not None
+
+    def _no_status(self, samples: int) -> np.ndarray | None:
+        return np.zeros(samples, dtype=np.intc) if self._loops else None
+
+    def _check(self, status: np.ndarray | None, given: np.ndarray) -> None:
+        """Raises LoopError for the first sample that does not close."""
+        if status is None or not np.any(status):
+            return
+        first = int(np.flatnonzero(status)[0])
+        where = ", ".join(f"{value:.6g}" for value in given[first])
+        more = int(np.count_nonzero(status)) - 1
+        also = f" (and {more} more)" if more else ""
+        raise LoopError(
+            f"{self.spec.robot}: sample {first + 1}{also}: {_STATUS[int(status[first])]}; got "
+            f"({where}); expected positions that the robot reaches from [home], in SI units"
+        )
 
 
 def load(spec: ModuleSpec, files: Mapping[str, str]) -> CompiledModel:

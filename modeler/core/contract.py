@@ -18,6 +18,9 @@ FORMAT = 1
 RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 """Hand-written C files that stand beside every emitted module."""
 
+CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
+"""Those that stand beside a robot with loops."""
+
 MANIFEST = "manifest.json"
 """Name of the manifest's file."""
 
@@ -42,6 +45,18 @@ class FunctionSpec:
     outputs: tuple[ArgumentSpec, ...]
     additions: int
     multiplications: int
+    status: bool = False  # returns 0 if it could do its work: loops may not close
+
+
+@dataclass(frozen=True)
+class ClosureSpec:
+    """The loops of a robot: its opened tree has more variables u than coordinates q."""
+
+    variables: tuple[str, ...]  # rows whose variables are u, in order
+    units: tuple[str, ...]  # "rad" | "m"
+    given: tuple[int, ...]  # places in u of q
+    platform: tuple[int, ...]  # places in u of x, the platform's coordinates; empty without one
+    home: tuple[float, ...]  # the closed posture u from which loops are closed
 
 
 @dataclass(frozen=True)
@@ -116,6 +131,7 @@ class ModuleSpec:
     base: tuple[BaseSpec, ...]  # columns of the base regressor, in order
     unidentifiable: tuple[str, ...]
     functions: tuple[FunctionSpec, ...]
+    closure: ClosureSpec | None = None
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -133,8 +149,12 @@ class ModuleSpec:
     @property
     def sources(self) -> tuple[str, ...]:
         """Names of the C files that the library is compiled from, headers included."""
-        units = (".h", ".c", "_regressor.c", "_base_regressor.c")
-        return (*(self.prefix + unit for unit in units), *RUNTIME)
+        units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
+        runtime = list(RUNTIME)
+        if self.closure is not None:
+            units += ["_tree.h", "_loops.c"]
+            runtime += CLOSURE_RUNTIME
+        return (*(self.prefix + unit for unit in units), *runtime)
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
@@ -196,7 +216,9 @@ def _build(cls: Any, raw: dict[str, Any]) -> Any:
     values = {}
     for name, value in raw.items():
         nested = _NESTED.get(f"{cls.__name__}.{name}")
-        if nested is not None:
+        if name == "closure" and value is not None:
+            value = _build(ClosureSpec, value)
+        elif nested is not None:
             value = tuple(_build(nested, item) for item in value)
         elif isinstance(value, list):
             value = tuple(value)

@@ -41,6 +41,7 @@ class Closure:
         drift: d/dt(jacobian) ud, of `q[k]` and `qd[k]`: jacobian udd + drift = 0.
         home: u where the loops are closed first; it says which assembly mode is meant.
         lengths: by u, True for a travel in m, False for an angle.
+        size: a length of the robot, m, with which travels are compared to angles.
         platform: places in u that are given where the platform's motion is; None without one.
         redundant: number of equations that follow from the others.
     """
@@ -52,6 +53,7 @@ class Closure:
     drift: tuple[Expr, ...]
     home: tuple[float, ...]
     lengths: tuple[bool, ...]
+    size: float
     platform: tuple[int, ...] | None
     redundant: int
 
@@ -83,7 +85,8 @@ def closure_of(
         drift=tuple(_drift(graph, jacobian, closing.unknowns)),
         home=tuple(float(x) for x in home),
         lengths=closing.lengths,
-        platform=_platform(geometry, closing.given),
+        size=closing.size,
+        platform=_platform(closing, home, geometry),
         redundant=len(closing.equations) - len(chosen),
     )
 
@@ -109,9 +112,7 @@ def _all_equations(
     given = tuple(names.index(joint.name) for joint in robot.coordinates)
     solved = tuple(k for k in range(n) if k not in given)
     lengths = tuple(not joint.angular for joint in robot.free)
-    closing = Closing(
-        graph, geometry.values, equations, jacobian, given, solved, lengths, aligned
-    )
+    closing = Closing(graph, geometry.values, equations, jacobian, given, solved, lengths, aligned)
     return closing, owners
 
 
@@ -209,11 +210,19 @@ def _undriven(closing: Closing, geometry: Geometry, inner: np.ndarray) -> str:
     )
 
 
-def _platform(geometry: Geometry, given: Sequence[int]) -> tuple[int, ...] | None:
-    """Platform coordinates first, then as many actuated ones as are still to be given."""
-    robot = geometry.robot
-    names = [joint.name for joint in robot.free]
-    places = [names.index(name) for name in robot.platform if name in names]
-    if not places or len(places) > len(given):
+def _platform(closing: Closing, home: np.ndarray, geometry: Geometry) -> tuple[int, ...] | None:
+    """Platform coordinates, and as many actuated ones as are still to be given with them."""
+    names = [joint.name for joint in geometry.robot.free]
+    chosen = [names.index(name) for name in geometry.robot.platform if name in names]
+    if not chosen or len(chosen) > len(closing.given):
         return None
-    return tuple(places)
+    J = closing.scaled_jacobian(home[None])[0]
+
+    def solvable(places: Sequence[int]) -> bool:
+        others = [k for k in range(closing.unknowns) if k not in places]
+        return _rank(J[:, others]) == len(closing.solved)
+
+    for k in closing.given:
+        if len(chosen) < len(closing.given) and k not in chosen and solvable([*chosen, k]):
+            chosen.append(k)
+    return tuple(chosen) if len(chosen) == len(closing.given) and solvable(chosen) else None

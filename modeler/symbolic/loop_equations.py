@@ -27,9 +27,7 @@ def loop_equations(geometry: Geometry, loop: Loop, frames: Sequence[Frame]) -> l
     return [value for value in _KINDS[loop.kind](one, other) if not value.is_zero]
 
 
-def loop_alignments(
-    geometry: Geometry, loop: Loop, frames: Sequence[Frame]
-) -> list[Expr]:
+def loop_alignments(geometry: Geometry, loop: Loop, frames: Sequence[Frame]) -> list[Expr]:
     """Expressions that are 1 where the loop is closed as meant, -1 with axes opposite.
 
     The equations compare directions by right angles, which opposite axes fulfil too.
