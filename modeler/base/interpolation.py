@@ -41,6 +41,7 @@ class Sampled:
     at: tuple[int, int]
 
     def __call__(self, geometries: Sequence[tuple[int, ...]]) -> list[int]:
+        """Its values at the geometries."""
         return self.sampler.values(self.at, geometries)
 
 

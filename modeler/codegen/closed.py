@@ -180,7 +180,7 @@ def _regressors(
                 phi,
                 (),
                 frame.wrapped(f"{role}(u, ud, udd, rows)", width, phi, speeds=True),
-            )  # fmt: skip
+            )
         )
     return found[0], found[1]
 

@@ -162,6 +162,7 @@ def _dynamics(
 
 
 def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> Function:
+    """The grouping relations as a function of the standard parameters."""
     place = {name: model.graph.symbol(f"chi[{k}]") for k, name in enumerate(model.names)}
     values = []
     for parameter in base.parameters:
@@ -179,7 +180,7 @@ def _kinematics(model: SymbolicModel, given: Arguments) -> Function:
     poses = model.forward_kinematics()
     meaning = "poses [R | p] of the links' frames in frame 0"
     return Function(
-        "", "forward_kinematics", "Pose of the frame of every moving row of the robot's table, in its order.",
+        "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
         "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
         ArgumentSpec("T", (len(poses), 3, 4), "1 | m", meaning),
         entries_of([value for pose in poses for row in pose for value in row]),
@@ -187,4 +188,5 @@ def _kinematics(model: SymbolicModel, given: Arguments) -> Function:
 
 
 def entries_of(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
+    """(place, value) of all values that are not zero."""
     return tuple((k, value) for k, value in enumerate(values) if not value.is_zero)

@@ -98,7 +98,7 @@ def read_paper(name: str) -> Paper:
     document = tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
     counts = [_count(entry) for entry in document.get("count", [])]
     relations = [r for entry in document.get("relation", []) for r in _relations(entry)]
-    robots = dict.fromkeys(entry.robot for entry in (*counts, *relations))
+    robots = dict.fromkeys([c.robot for c in counts] + [r.robot for r in relations])
     return Paper(
         name=name,
         title=document["title"],

@@ -119,7 +119,7 @@ def _with_tables(
     moving = {joint.name: joint for joint in robot.moving}
     coupling = read_coupling(document.get("coupling", {}), moving, values, place.at("[coupling]"))
     effects = read_effects(document.get("effects", {}), moving, coupling, place.at("[effects]"))
-    links = dict.fromkeys(robot.platform[:-1], ())
+    links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= read_links(document.get("links", {}), moving, place.at("[links]"))
     robot = dataclasses.replace(robot, links=links)
     every = _parameter_names(robot, moving, effects, place)

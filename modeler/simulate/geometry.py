@@ -8,7 +8,7 @@ import numpy as np
 from modeler.core.expression import Expression
 from modeler.robot import Joint, Robot
 
-_FUNCTIONS = {
+FUNCTIONS = {
     "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sqrt": ca.sqrt, "exp": ca.exp,
     "abs": ca.fabs, "sign": ca.sign, "tanh": ca.tanh,
 }  # fmt: skip
@@ -66,7 +66,7 @@ def _placed(
         if joint.variable not in expression.names:
             return expression.number(symbols)
         values = {**symbols, joint.variable: variable}
-        return expression.fold(values, _FUNCTIONS, float(np.pi), float)
+        return expression.fold(values, FUNCTIONS, float(np.pi), float)
 
     swing = antecedent.rotation @ _rotation_z(cell(joint.gamma))
     tilt = swing @ _rotation_x(cell(joint.alpha))

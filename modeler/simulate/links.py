@@ -52,6 +52,12 @@ def link_parameters(
     links, names = {}, []
     for joint in robot.moving:
         stated = stated_inertia(robot, joint.name)
+        own = robot.inertial(joint.name)
+        if len(own) < len(INERTIAL):
+            guess = standard_from_body(drawn[joint.name])
+            links[joint.name] = {p: stated.get(p, guess[p] if p in own else 0.0) for p in INERTIAL}
+            names += [f"{prefix}{joint.name}" for prefix in own if prefix not in stated]
+            continue
         completion = completed(stated, standard_from_body(drawn[joint.name]))
         values = completion.values
         if values is None:

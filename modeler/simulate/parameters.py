@@ -51,7 +51,7 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
     drawn = list(drawn_links)
     for joint, scale in zip(robot.moving, scales, strict=True):
         name = joint.name
-        standard |= {p + name: v for p, v in links[name].items()}
+        standard |= {p + name: links[name][p] for p in robot.inertial(name)}
         for effect in effects_of(robot, name):
             for prefix, value in effect.draw(rng, scale).items():
                 stated = robot.parameters.get(prefix + name)

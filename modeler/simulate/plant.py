@@ -81,6 +81,18 @@ def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits,
     return plant
 
 
+def torque_function(
+    robot: Robot, parameters: PlantParameters, limits: tuple[Limits, ...]
+) -> tuple[ca.Function, int]:
+    """(q, qd, qdd, z) -> tau of all moving rows, loops left open, and the number of states z."""
+    links = rigid_dynamics(robot, parameters.bodies)
+    effects = _effects(robot, parameters, limits, links)
+    qdd = ca.SX.sym("qdd", len(limits))
+    torque = (links.inertia + ca.SX(effects.inertia)) @ qdd + links.bias + effects.torque
+    inputs = [links.q, links.qd, qdd, effects.state]
+    return ca.Function("torque", inputs, [ca.cse(torque)]), effects.state.shape[0]
+
+
 def sample_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
     """(count, joints) poses spread over the range of motion, the middle first; always the same."""
     lower, upper = (np.array([getattr(li, k) for li in limits]) for k in ("lower", "upper"))

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
+from modeler.simulate.closed import simulate_closed
 from modeler.simulate.controller import ControllerState, Gains, control, felt_inertia, tuned_gains
 from modeler.simulate.integrate import steps_per_tick, tick_function
 from modeler.simulate.limits import motion_limits
@@ -15,6 +16,7 @@ from modeler.simulate.log import SimulatedLog, Truth
 from modeler.simulate.native import FastFunction
 from modeler.simulate.parameters import PlantParameters, plant_parameters
 from modeler.simulate.plant import Plant, build_plant
+from modeler.simulate.sensors import encoder_resolution, quantised
 from modeler.simulate.settings import SimulationSettings, check_settings
 from modeler.simulate.trajectory import Reference, exciting_reference
 
@@ -36,7 +38,7 @@ def simulate(
     settings: SimulationSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SimulatedLog:
-    """A measurement of `robot` under closed-loop control.
+    """A measurement of `robot` under closed-loop control; with tied joints see `simulate.closed`.
 
     The robot's effects are simulated as physics; effects that a model of it lacks are given by
     simulating a robot that has more of them. The same robot and settings give the same bits.
@@ -53,25 +55,17 @@ def simulate(
     """
     settings = settings or SimulationSettings()
     check_settings(settings, tuple(joint.name for joint in robot.moving))
+    if robot.relations or robot.loops:
+        return simulate_closed(robot, settings, progress)
     limits = motion_limits(robot, settings.limits)
     reference = exciting_reference(limits, settings.duration, settings.rate, settings.seed)
     parameters = plant_parameters(robot, limits, settings.parameter_seed)
     plant = build_plant(robot, parameters, limits)
     highest = _torque_limits(plant, reference, settings)
     gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
-    resolution = np.array([
-        2 * np.pi / settings.encoder_counts if joint.angular and settings.encoder_counts
-        else 0.0 if joint.angular else settings.linear_resolution
-        for joint in robot.moving
-    ])  # fmt: skip
+    resolution = encoder_resolution(robot.moving, settings)
     run = _closed_loop(plant, gains, reference, resolution, limits, progress)
     return _log(robot, plant, parameters, reference, settings, run)
-
-
-def quantised(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
-    """What an encoder of that resolution reads; a resolution of 0 reads the position itself."""
-    step = np.where(resolution > 0, resolution, 1.0)
-    return np.where(resolution > 0, np.round(position / step) * step, position)
 
 
 def _torque_limits(plant: Plant, reference: Reference, settings: SimulationSettings) -> np.ndarray:
