@@ -52,7 +52,7 @@ def _others(text: str, effects: Effects) -> dict:
 
 def _key(line: str) -> str:
     """The key of a line `key = value`; empty where there is none."""
-    found = re.match(r"\s*[\"']?(\w+)[\"']?\s*=", line)
+    found = re.match(r"\s*[\"']?([\w{}]+)[\"']?\s*=", line)
     return found[1] if found else ""
 
 

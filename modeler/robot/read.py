@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.effects import effect_named
+from modeler.effects import CATALOGUE, effect_named
 from modeler.robot.builtin import builtin_names, builtin_text
 from modeler.robot.cells import form_at, list_at, plain_number, table_at, text_at
 from modeler.robot.joint import Joint
@@ -133,7 +133,7 @@ def _with_tables(
         shared=shared,
         effects=effects,
         coupling=coupling,
-        priority=_priority(document.get("priority", []), known, place.at("priority")),
+        priority=_priority(document.get("priority", []), known, moving, place.at("priority")),
         parameters=_parameters(document.get("parameters", {}), known, place.at("[parameters]")),
         drive_gains=read_drive_gains(
             document.get("drive_gains", {}), moving, place.at("[drive_gains]")
@@ -264,16 +264,21 @@ def _parameter_names(
     return tuple(names)
 
 
-def _priority(value: Any, known: tuple[str, ...], place: Place) -> tuple[str, ...]:
+def _priority(
+    value: Any, known: tuple[str, ...], moving: Mapping[str, Joint], place: Place
+) -> tuple[str, ...]:
+    """The patterns that match a parameter; those of effects that the robot lacks are left out."""
     patterns = list_at(value, place, '["ZZ*", "Ia?"]')
+    prefixes = [column.prefix for effect in CATALOGUE for column in effect.columns]
+    possible = [*known, *(prefix + name for prefix in prefixes for name in moving)]
     for pattern in patterns:
         pattern = text_at(pattern, place, '"ZZ*"')
-        if not any(fnmatch.fnmatchcase(name, pattern) for name in known):
+        if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):
             raise place.error(
                 f"{shown(pattern)} matches no parameter{near(pattern, known)}; expected names or "
                 f"patterns of {listed(known[:12])} ..."
             )
-    return tuple(patterns)
+    return tuple(p for p in patterns if any(fnmatch.fnmatchcase(name, p) for name in known))
 
 
 def _parameters(value: Any, known: tuple[str, ...], place: Place) -> dict[str, float]:

@@ -19,7 +19,7 @@ from modeler.core.contract import module_from_json
 from modeler.core.errors import EmitError, ModelerError
 from tests.modules import STRICT, compiled, compiler, module, states
 from tests.repository import ROOT
-from tests.robots import ROBOTS
+from tests.robots import TREES
 
 SAMPLES = 40
 CLOSE = {"rtol": 0, "atol": 1e-12}
@@ -54,7 +54,7 @@ def relative(got: np.ndarray, expected: np.ndarray) -> None:
     np.testing.assert_allclose(got / scale, expected / scale, **CLOSE)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_regressors_are_those_of_the_model(name):
     made, library = module(name), compiled(name)
     q, qd, qdd = states(made.model.geometry.joints, SAMPLES)
@@ -67,7 +67,7 @@ def test_regressors_are_those_of_the_model(name):
     relative(W, standard[:, :, columns].reshape(-1, len(columns)))
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_inverse_dynamics_is_the_regressor_of_standard_parameters_times_these(name):
     """Recursion with base parameters = product with standard ones: two ways to the same torque."""
     made, library = module(name), compiled(name)
@@ -77,7 +77,7 @@ def test_inverse_dynamics_is_the_regressor_of_standard_parameters_times_these(na
     relative(library.inverse_dynamics(q, qd, qdd, beta), library.regressor(q, qd, qdd) @ chi)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_inertia_gravity_coriolis_and_friction_are_parts_of_the_torque(name):
     made, library = module(name), compiled(name)
     chi, beta = beta_of(name)
@@ -98,7 +98,7 @@ def test_inertia_gravity_coriolis_and_friction_are_parts_of_the_torque(name):
     relative(library.coriolis(q, -2 * qd, beta), 4 * coriolis)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_friction_is_what_the_robot_file_says(name):
     robot, library = module(name).model.robot, compiled(name)
     chi, beta = beta_of(name)
@@ -124,7 +124,7 @@ def _groups_offset(name: str, joint: str) -> bool:
     )
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_compact_regressor_and_its_tables_are_the_dense_one(name, tmp_path):
     """Called from C, as a controller would."""
     made = module(name)
@@ -178,7 +178,7 @@ def test_the_header_stands_alone_also_in_cpp(language, cc, tmp_path):
     assert 'extern "C"' in (tmp_path / "wrist.h").read_text()
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_the_manifest_survives_its_file_and_describes_the_module(name):
     made = module(name)
     spec = made.emitted.spec
@@ -191,7 +191,7 @@ def test_the_manifest_survives_its_file_and_describes_the_module(name):
         assert base.terms[0].parameter == base.column_of
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_the_text_is_the_same_each_time_and_names_no_place_of_this_machine(name):
     from modeler.base import base_parameters
     from modeler.robot import read_robot

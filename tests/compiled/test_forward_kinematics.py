@@ -14,7 +14,7 @@ from modeler.robot.read import robot_from_text
 from modeler.symbolic import derive_model
 from tests.elementary_motions import frames
 from tests.modules import compiled, states
-from tests.robots import ROBOTS
+from tests.robots import TREES
 
 # Without gravity; a branch, a fixed frame between joints and one at the end, joints that count
 # backwards, oblique angles, a slide that is turned and offset.
@@ -47,7 +47,7 @@ def expected(robot, q):
     return np.array([[poses[name][:3] for name in moving] for poses in found])
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", TREES)
 def test_poses_are_the_product_of_elementary_motions(name):
     robot = read_robot(name)
     q = states(len(robot.moving), 25)[0]

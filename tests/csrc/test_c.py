@@ -20,7 +20,7 @@ def test_runtime_under_sanitizers(cc, tmp_path):
     csrc = resource_dir("csrc")
     command = [compiler(cc), *STRICT, "-g", "-fsanitize=address,undefined"]
     command += ["-fno-sanitize-recover=all", "-I", csrc / "include", "-o", tmp_path / "test"]
-    command += [HERE / "test_runtime.c", *sorted(csrc.glob("*.c"))]
+    command += [HERE / "test_runtime.c", *sorted(csrc.glob("*.c")), "-lm"]
     built = subprocess.run(command, capture_output=True, text=True, check=False)
     if "cannot find" in built.stderr and "san" in built.stderr:
         pytest.skip(f"NOT CHECKED: {cc} has no sanitizer libraries")

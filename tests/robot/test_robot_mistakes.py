@@ -73,10 +73,6 @@ MISTAKES = [
     ("no table", "[mdh]", "[terms.x]", ["mdh: is missing", "add the table [mdh]"]),
     ("unknown key", "notes =", "note =", ['unknown key "note"', 'did you mean "notes"?']),
     ("unknown table", "[limits]", "[limit]", ['unknown key "limit"', '"limits"', "expected name"]),
-    ("loops", "[terms]", "[loops]", ["[loops]: describes closed loops", "serial and tree"]),
-    ("relations", "[terms]", "[relations]", ["[relations]", "serial and tree", "open the loops"]),
-    ("legs", "[terms]", "[legs]", ["[legs]", "this version"]),
-    ("platform", "[terms]", "[platform]", ["[platform]", "this version"]),
     # columns and rows
     ("mdh no table", "[mdh]", "[terms.x]\n[[mdh]]", ["[mdh]: got [{", "expected a table"]),
     ("mdh key", "rows = [\n", "row = [\n", ["[mdh]", 'unknown key "row"', 'did you mean "rows"?']),
@@ -138,7 +134,7 @@ MISTAKES = [
         ['row "1", column d', "column theta", "move"],
     ),
     ("q in theta", '0, "q3 + R4"', '"q3", 0', ['row "3", column theta', "prismatic", "column r"]),
-    ("q of another row", '"q1", 0]', '"q1 + q2", 0]', ['row "1"', "another row", "closed loops"]),
+    ("q of another row", '"q1", 0]', '"q1 + q2", 0]', ['row "1"', "another row", "follows"]),
     (
         "q of fixed",
         '0.1, "pi", 0',
