@@ -4,9 +4,7 @@ from modeler.robot import builtin_names, read_robot
 
 ROBOTS = builtin_names()
 
-TREES = tuple(
-    name for name in ROBOTS if not (read_robot(name).loops or read_robot(name).relations)
-)
+TREES = tuple(name for name in ROBOTS if not (read_robot(name).loops or read_robot(name).relations))
 """Robots whose rows all move on their own."""
 
 TIED = tuple(name for name in ROBOTS if name not in TREES)

@@ -1,200 +1,172 @@
-"""Rational functions from their values modulo a prime."""
+"""Rational functions from their values modulo a prime.
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations_with_replacement
-from typing import Protocol
+The functions are coefficients of relations: quotients of polynomials in the letters of the exact
+field, with rational numbers that are small against the prime. Most are one monomial, which shows
+when one letter is changed at a time. For the others the degrees in each letter are found first,
+then all coefficients from one linear system.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 
 import numpy as np
 from sympy import QQ
 
 from modeler.base.elimination import TooLarge
 from modeler.base.field import Element, ExactField
-from modeler.base.residues import LARGE, reconstructed, row_echelon
+from modeler.base.residues import LARGE, drawn, reconstructed, row_echelon
+
+Point = tuple[int, ...]
+"""A residue modulo LARGE for each letter of the field."""
+
+Function = Callable[[Sequence[Point]], list[int]]
+"""Its values modulo LARGE at some points."""
 
 _EXPONENTS = (1, -1, 2, -2, 3, -3, 4, -4)
-_LARGEST_DEGREE = 8
-_MOST_LETTERS = 4
-_MOST_TERMS = 220
+_LARGEST_DEGREE = 12
+_MOST_TERMS = 240
+_CHECKS = 2
 
 
-class Sampler(Protocol):
-    """Gives values of functions of the geometry; abstract, holds no data."""
+class Probes:
+    """Random points, the same for all functions, so that what was sampled serves again.
 
-    home: tuple[int, ...]
+    Attributes:
+        home: one point.
+        fresh: points that no function is made from, for checks.
+    """
 
-    def fresh(self) -> int:
-        """A random residue."""
-        ...
+    def __init__(self, letters: int, seed: int) -> None:
+        self._rng = np.random.default_rng(seed)
+        self._letters = letters
+        self.home = self._point()
+        self.fresh = [self._point() for _ in range(_CHECKS)]
+        self._known: dict[tuple[int, ...], list[Point]] = {}
 
-    def values(self, at: tuple[int, int], geometries: Sequence[tuple[int, ...]]) -> list[int]:
-        """The function `at`, at the geometries."""
-        ...
+    def moved(self, letters: tuple[int, ...], count: int) -> list[Point]:
+        """The first `count` points that differ from home in these letters only."""
+        known = self._known.setdefault(letters, [])
+        while len(known) < count:
+            other = self._point()
+            known.append(tuple(other[i] if i in letters else x for i, x in enumerate(self.home)))
+        return known[:count]
 
-
-@dataclass(frozen=True)
-class Sampled:
-    """One function of the letters of K that can be evaluated modulo LARGE."""
-
-    K: ExactField
-    sampler: Sampler
-    at: tuple[int, int]
-
-    def __call__(self, geometries: Sequence[tuple[int, ...]]) -> list[int]:
-        """Its values at the geometries."""
-        return self.sampler.values(self.at, geometries)
+    def _point(self) -> Point:
+        return tuple(int(x) for x in drawn(self._rng, (self._letters,), LARGE))
 
 
-def coefficient(function: Sampled) -> Element:
-    """The element of K whose values the function has: a monomial, or a quotient of polynomials.
+def coefficient(function: Function, K: ExactField, probes: Probes) -> Element:
+    """The element of K whose values the function has.
 
     Raises:
-        TooLarge: it depends on too many letters, or its degree is too high.
+        TooLarge: it has too many terms or too high a degree, or is no such element.
     """
-    home = function.sampler.home
-    moved = _shared_moves(function.sampler)
-    value, *others = function([home, *moved])
-    letters = [i for i, other in enumerate(others) if other != value]
-    found = _monomial(function, value, letters, moved, others)
+    moved = [probes.moved((i,), 1)[0] for i in range(len(K.letters))]
+    value, *others = function([probes.home, *moved])
+    changes = {i: other for i, other in enumerate(others) if other != value}
+    found = _monomial(value, changes, moved, K, probes)
     if found is None:
-        found = _quotient(function, letters)
-    _check(function, found)
+        found = _quotient(function, tuple(changes), K, probes)
+    for point, value in zip(probes.fresh, function(probes.fresh), strict=True):
+        if K.residue(found, dict(zip(K.letters, point, strict=True)), LARGE) != value:
+            raise TooLarge("a coefficient is no quotient of short polynomials")
     return found
-
-
-def _shared_moves(sampler: Sampler) -> list[tuple[int, ...]]:
-    """For each letter a geometry in which only it has changed; the same for all functions."""
-    moved = getattr(sampler, "moved", None)
-    if moved is None:
-        home = sampler.home
-        moved = [(*home[:i], sampler.fresh(), *home[i + 1 :]) for i in range(len(home))]
-        sampler.moved = moved  # type: ignore[attr-defined]
-        sampler.checks = [  # type: ignore[attr-defined]
-            tuple(sampler.fresh() for _ in home) for _ in range(2)
-        ]
-    return moved
 
 
 def _monomial(
-    function: Sampled,
-    value: int,
-    letters: Sequence[int],
-    moved: Sequence[tuple[int, ...]],
-    others: Sequence[int],
+    value: int, changes: Mapping[int, int], moved: Sequence[Point], K: ExactField, probes: Probes
 ) -> Element | None:
-    """c * product of powers, if it is one."""
-    home, K = function.sampler.home, function.K
-    exponents = {}
-    for i in letters:
-        ratio = others[i] * pow(value, -1, LARGE) % LARGE
-        step = moved[i][i] * pow(home[i], -1, LARGE) % LARGE
-        fitting = [e for e in _EXPONENTS if pow(step, e, LARGE) == ratio]
-        if not fitting:
-            return None
-        exponents[i] = fitting[0]
-    for i, e in exponents.items():
-        value = value * pow(home[i], -e, LARGE) % LARGE
-    number = reconstructed(value, LARGE)
-    if number is None:
+    """number * product of powers, if it is one: changing a letter multiplies by a power."""
+    if value == 0:
         return None
-    found = K.one * QQ(number.numerator, number.denominator)
-    for i, e in exponents.items():
-        generator = K.generator(i)
-        found = found * (generator**e if e > 0 else K.one / generator**-e)
-    return found
+    found = K.one
+    for i, other in changes.items():
+        ratio = other * pow(value, -1, LARGE) % LARGE
+        step = moved[i][i] * pow(probes.home[i], -1, LARGE) % LARGE
+        exponent = next((e for e in _EXPONENTS if pow(step, e, LARGE) == ratio), None)
+        if exponent is None:
+            return None
+        found = found * K.generator(i) ** exponent
+    at_home = K.residue(found, dict(zip(K.letters, probes.home, strict=True)), LARGE)
+    number = reconstructed(value * pow(at_home, -1, LARGE) % LARGE, LARGE)
+    return None if number is None else found * QQ(number.numerator, number.denominator)
 
 
-def _quotient(function: Sampled, letters: Sequence[int]) -> Element:
-    """numerator / denominator of the lowest total degree that fits."""
-    if len(letters) > _MOST_LETTERS:
-        raise TooLarge(f"a coefficient depends on {len(letters)} lengths and angles")
-    home, K = function.sampler.home, function.K
+def _quotient(
+    function: Function, letters: tuple[int, ...], K: ExactField, probes: Probes
+) -> Element:
+    """numerator / denominator of the degrees in each letter that the function has alone in it."""
+    degrees = [_degrees(function, i, probes) for i in letters]
+    above, below = (list(product(*(range(d[k] + 1) for d in degrees))) for k in (0, 1))
+    terms = len(above) + len(below)
+    if terms > _MOST_TERMS:
+        raise TooLarge(f"a coefficient has up to {terms} terms")
+    weights = _fitted(function, probes.moved(letters, terms), letters, above, below)
+    if weights is None:
+        raise TooLarge("a coefficient is no quotient of short polynomials")
+    numbers = [reconstructed(weight, LARGE) for weight in weights]
+    top, bottom = K.zero, K.zero
+    for place, (number, monomial) in enumerate(zip(numbers, [*above, *below], strict=True)):
+        if number is None:
+            raise TooLarge("a coefficient has long numbers")
+        if number:
+            term = K.one * QQ(number.numerator, number.denominator)
+            for i, e in zip(letters, monomial, strict=True):
+                term = term * K.generator(i) ** e
+            top, bottom = (top + term, bottom) if place < len(above) else (top, bottom + term)
+    return top / bottom
+
+
+def _degrees(function: Function, letter: int, probes: Probes) -> tuple[int, int]:
+    """Degrees of numerator and denominator in one letter, the others at home.
+
+    Raises:
+        TooLarge: they are above `_LARGEST_DEGREE`.
+    """
     for degree in range(1, _LARGEST_DEGREE + 1):
-        monomials = _monomials(len(letters), degree)
-        if 2 * len(monomials) > _MOST_TERMS:
-            break
-        points = _shared_points(function.sampler, tuple(letters), 2 * len(monomials) + 2)
-        geometries = []
-        for point in points:
-            geometry = list(home)
-            for i, x in zip(letters, point, strict=True):
-                geometry[i] = x
-            geometries.append(tuple(geometry))
-        values = function(geometries)
-        weights = _fitted(points, values, monomials)
-        if weights is None:
-            continue
-        numbers = [reconstructed(w, LARGE) for w in weights]
-        if any(number is None for number in numbers):
-            continue
-        parts = []
-        for half in (numbers[: len(monomials)], numbers[len(monomials) :]):
-            total = K.zero
-            for number, monomial in zip(half, monomials, strict=True):
-                if number:
-                    term = K.one * QQ(number.numerator, number.denominator)
-                    for i, e in zip(letters, monomial, strict=True):
-                        term = term * K.generator(i) ** e
-                    total = total + term
-            parts.append(total)
-        return parts[0] / parts[1]
-    raise TooLarge("a coefficient is no quotient of short polynomials")
-
-
-def _monomials(count: int, degree: int) -> list[tuple[int, ...]]:
-    found = []
-    for total in range(degree + 1):
-        for chosen in combinations_with_replacement(range(count), total):
-            found.append(tuple(chosen.count(i) for i in range(count)))
-    return found
-
-
-def _shared_points(sampler: Sampler, letters: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
-    """Random values of these letters; the same for all functions, so that samples are reused."""
-    known = getattr(sampler, "drawn_points", None)
-    if known is None:
-        known = {}
-        sampler.drawn_points = known  # type: ignore[attr-defined]
-    points = known.setdefault(letters, [])
-    while len(points) < count:
-        points.append(tuple(sampler.fresh() for _ in letters))
-    return points[:count]
+        powers = [(e,) for e in range(degree + 1)]
+        # One point more than there are terms, or some quotient would always fit.
+        points = probes.moved((letter,), 2 * len(powers) + 1)
+        weights = _fitted(function, points, (letter,), powers, powers)
+        if weights is not None:
+            above, below = weights[: degree + 1], weights[degree + 1 :]
+            return max(np.nonzero(above)[0], default=0), max(np.nonzero(below)[0], default=0)
+    raise TooLarge(f"a coefficient is of degree above {_LARGEST_DEGREE}")
 
 
 def _fitted(
-    points: Sequence[tuple[int, ...]], values: Sequence[int], monomials: Sequence[tuple[int, ...]]
+    function: Function,
+    points: Sequence[Point],
+    letters: tuple[int, ...],
+    above: Sequence[Point],
+    below: Sequence[Point],
 ) -> list[int] | None:
-    """Coefficients of numerator and denominator with numerator - value * denominator = 0."""
-    rows = []
-    for point, value in zip(points, values, strict=True):
-        line = []
-        for monomial in monomials:
-            term = 1
-            for x, e in zip(point, monomial, strict=True):
-                term = term * pow(x, e, LARGE) % LARGE
-            line.append(term)
-        rows.append([*line, *(-value * term % LARGE for term in line)])
-    matrix = np.array(rows, dtype=object)
+    """Coefficients of the monomials `above` and `below` the line; None if nothing fits.
+
+    numerator - value * denominator = 0 at all points.
+    """
+    values = np.array(function(points), dtype=object)[:, None]
+    at = np.array(points, dtype=object)[:, list(letters)]
+    matrix = np.hstack([_powers(at, above), -values * _powers(at, below)]) % LARGE
     width = matrix.shape[1]
     pivots = row_echelon(matrix, range(width), LARGE)
-    free = [column for column in range(width) if column not in {c for _, c in pivots}]
+    free = sorted(set(range(width)) - {column for _, column in pivots})
     if not free:
         return None
     found = [0] * width
     found[free[0]] = 1
     for row, column in pivots:
         found[column] = int(-matrix[row, free[0]] % LARGE)
-    return found if any(found[len(monomials) :]) else None
+    return found if any(found[len(above) :]) else None
 
 
-def _check(function: Sampled, found: Element) -> None:
-    """The element has the function's values at fresh geometries.
-
-    Raises:
-        TooLarge: it has not.
-    """
-    checks = function.sampler.checks  # type: ignore[attr-defined]
-    for geometry, value in zip(checks, function(checks), strict=True):
-        at = dict(zip(function.K.letters, geometry, strict=True))
-        if function.K.residue(found, at, LARGE) != value:
-            raise TooLarge("a coefficient is no quotient of short polynomials")
+def _powers(at: np.ndarray, monomials: Sequence[Point]) -> np.ndarray:
+    """(points, monomials): values of the monomials at `at` (points, letters)."""
+    values = np.ones((len(at), len(monomials)), dtype=object)
+    for i in range(at.shape[1]):
+        table = [values[:, 0] * 0 + 1]
+        for _ in range(max(monomial[i] for monomial in monomials)):
+            table.append(table[-1] * at[:, i] % LARGE)
+        for place, monomial in enumerate(monomials):
+            values[:, place] = values[:, place] * table[monomial[i]] % LARGE
+    return values

@@ -7,6 +7,7 @@ interpolated from its values at several geometries and checked at fresh ones.
 """
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 import sympy
@@ -14,8 +15,8 @@ import sympy
 from modeler.base.certificate import ModularState
 from modeler.base.elimination import TooLarge
 from modeler.base.field import Element, ExactField
-from modeler.base.interpolation import Sampled, coefficient
-from modeler.base.residues import LARGE, SMALL, Residues, drawn, row_echelon
+from modeler.base.interpolation import Point, Probes, coefficient
+from modeler.base.residues import LARGE, SMALL, Residues, row_echelon
 from modeler.symbolic import Geometry, StandardColumn
 
 _SPARE = 6
@@ -52,10 +53,11 @@ def tied_relations(
     if not dependent:
         return relations
     sampler = _Sampler(geometry, columns, K, dependent, seed)
+    probes = Probes(len(K.letters), seed)
     for column, support in dependent.items():
         relation = {column: K.one}
         for place, kept in enumerate(support):
-            relation[kept] = -coefficient(Sampled(K, sampler, (column, place)))
+            relation[kept] = -coefficient(partial(sampler.values, (column, place)), K, probes)
         relations.append(relation)
     return relations
 
@@ -102,23 +104,20 @@ class _Sampler:
         self.place = {column: i for i, column in enumerate(used)}
         self.columns = [columns[i] for i in used]
         self.points = max(len(support) for support in dependent.values()) + _POINTS
-        self._known: dict[tuple[int, ...], dict[tuple[int, int], int]] = {}
-        rng = np.random.default_rng(seed)
-        self.home = tuple(int(x) for x in drawn(rng, (len(K.letters),), LARGE))
-        self.rng = rng
+        self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
-    def fresh(self) -> int:
-        """A random residue."""
-        return int(drawn(self.rng, (1,), LARGE)[0])
+    def values(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
+        """The coefficient `at` = (dependent column, place in its support) at the geometries.
 
-    def values(self, at: tuple[int, int], geometries: Sequence[tuple[int, ...]]) -> list[int]:
-        """The coefficient `at` = (dependent column, place in its support) at the geometries."""
+        Raises:
+            TooLarge: there the column is not the combination that it was at one geometry.
+        """
         missing = [g for g in dict.fromkeys(geometries) if g not in self._known]
         if missing:
             self._sample(missing)
         return [self._known[g][at] for g in geometries]
 
-    def _sample(self, geometries: Sequence[tuple[int, ...]]) -> None:
+    def _sample(self, geometries: Sequence[Point]) -> None:
         n = self.points
         letters: dict[sympy.Expr, Residues] = {
             letter: np.array([g[i] for g in geometries for _ in range(n)], dtype=object)
@@ -139,8 +138,8 @@ class _Sampler:
         for column, support in self.dependent.items():
             matrix = rows[:, [self.place[c] for c in (*support, column)]].copy()
             pivots = row_echelon(matrix, range(len(support)), LARGE)
-            if len(pivots) < len(support):
-                raise TooLarge("columns that are independent at one geometry are not at another")
+            if len(pivots) < len(support) or np.any(matrix[len(pivots) :, -1]):
+                raise TooLarge("what depends on what at one geometry does not at another")
             for place, (row, _) in enumerate(pivots):
                 found[column, place] = int(matrix[row, -1])
         return found

@@ -7,10 +7,10 @@ import pytest
 import sympy
 
 from modeler.base.certificate import PRIME, ModularState, modular_rank
-from modeler.base.residues import inverse, power
 from modeler.base.field import ExactField, geometry_field
 from modeler.base.grouping import column_relations
 from modeler.base.proof import NotProved, certificate
+from modeler.base.residues import inverse, power
 from modeler.robot import read_robot, robot_from_text
 from modeler.symbolic import derive_model
 

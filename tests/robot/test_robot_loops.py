@@ -136,7 +136,12 @@ def test_what_is_written_once_stands_for_every_leg():
     assert names == ["Px", "Py", "P", "11", "12", "21", "31", "22", "32", "7"]
     assert [loop.frame for loop in robot.loops] == ["31", "32"]
     assert robot.home["12"] == 2.2 and robot.parameters["M12"] == 0.5
-    assert next(u for u in robot.effects if u.effect == "coulomb").joints == ("11", "12", "21", "22")
+    assert next(u for u in robot.effects if u.effect == "coulomb").joints == (
+        "11",
+        "12",
+        "21",
+        "22",
+    )
     assert next(u for u in robot.effects if u.effect == "viscous").joints == ("11", "12")
 
 

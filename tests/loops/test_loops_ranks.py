@@ -1,0 +1,193 @@
+"""Base parameters of robots with relations and loops: numbers, names, exactness."""
+
+import dataclasses
+import re
+
+import numpy as np
+import pytest
+import sympy
+
+from modeler.base import base_parameters
+from modeler.base.numeric import numeric_rank, random_states, regressor_values
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.symbolic import derive_model
+from tests.base.ranks import seen
+from tests.modules import module
+from tests.robots import TIED
+
+# facts of the papers, each computed there by two independent methods:
+# standard parameters, base parameters, without effect
+KNOWN = {
+    "orthoglide-leg": (53, 14, 21),
+    "orthoglide-2003": (163, 43, 63),
+    "orthoglide-2012": (196, 53, 90),
+    "evra": (210, 90, 54),
+    "sr400": (80, 39, None),
+}
+RANKS = {"orthoglide-2003-similar-legs": 23, "stewart": 88} | {n: k[1] for n, k in KNOWN.items()}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_known_numbers(name):
+    standard, rank, silent = KNOWN[name]
+    base = module(name).base
+    assert (len(base.columns), base.rank) == (standard, rank)
+    assert silent is None or len(base.unidentifiable) == silent
+
+
+@pytest.mark.parametrize("name", TIED)
+def test_the_grouping_is_exact_and_the_rank_that_of_the_torques(name):
+    model, base, _ = module(name)
+    assert base.proof.kind == "exact"
+    assert base.rank == seen(model) == RANKS.get(name, base.rank)
+    assert base.proof.agreement < 1e-12
+    assert base.proof.gap[0] > 1e6 * base.proof.gap[1]
+
+
+def variant(name, *changes):
+    text = builtin_text(name)
+    for old, new in changes:
+        assert re.search(old, text, re.M), old
+        text = re.sub(old, new, text, flags=re.M)
+    return base_parameters(derive_model(robot_from_text(text, name)))
+
+
+NO_PASSIVE = (r"^(viscous|coulomb) = .*$", r'\1 = ["1{i}"]')
+OFFSETS = (r"^\[effects\]$", '[effects]\noffset = ["1{i}"]')
+LEGS = (r"^priority", 'shared = ["*2{i}", "*3{i}", "*4{i}", "*5{i}"]\npriority')
+ALL = (r"^priority", 'shared = ["*1{i}", "*2{i}", "*3{i}", "*4{i}", "*5{i}"]\npriority')
+ORDER = (r"^priority = .*$", 'priority = ["*6"]')
+
+
+@pytest.mark.parametrize(
+    ("changes", "rank"),
+    [
+        ([NO_PASSIVE], 41),
+        ([], 53),
+        ([NO_PASSIVE, OFFSETS], 43),
+        ([OFFSETS], 55),
+        ([NO_PASSIVE, LEGS, ORDER], 21),
+        ([LEGS, ORDER], 25),
+        ([NO_PASSIVE, LEGS, OFFSETS, ORDER], 23),
+        ([LEGS, OFFSETS, ORDER], 27),
+        ([NO_PASSIVE, ALL, ORDER], 15),
+        ([ALL, ORDER], 19),
+    ],
+)
+def test_the_orthoglide_of_2012_in_all_its_variants(changes, rank):
+    base = variant("orthoglide-2012", *changes)
+    assert base.rank == rank
+    assert base.proof.agreement < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("gravity", "rank"), [("[0, 0, 0]", 12), ("[0, 'g', 0]", 12), ("[0, 0, 'g']", 13)]
+)
+def test_one_orthoglide_leg_in_all_cases_of_gravity(gravity, rank):
+    base = variant(
+        "orthoglide-leg", (r"^gravity = .*$", f"gravity = {gravity}"),
+        (r"^(viscous|coulomb) = .*$", ""),
+    )  # fmt: skip
+    assert base.rank == rank
+
+
+def test_sr400_with_rotors():
+    base = variant("sr400", (r"^\[links\]$", '[effects]\nrotor_inertia = "all"\n\n[links]'))
+    assert base.rank == 42 and base.proof.kind == "exact"
+
+
+def test_evra_locked():
+    """Sliders locked: 88; first axes of the universal joints vertical besides: 76."""
+    locked = [
+        (r'^ *\["s1", .*$', '["s1", "0", 0, 2, "pi/2", "pi/2", 0, 0, 0],'),
+        (r'^ *\["s2", .*$', '["s2", "s1", 0, 2, "pi/2", "pi/2", 0, 0, 0],'),
+        (r"^(s1|s2) = .*$", ""),
+        (r"^(Ms1|Ms2) = .*$", ""),
+    ]
+    assert variant("evra", *locked).rank == 88
+
+
+def test_the_anti_parallelogram_is_another_robot():
+    """Home says which assembly mode is meant: crossed bars imply no linear relation."""
+    text = builtin_text("sr400")
+    crossed = re.sub(r"q3 = .*", "q3 = 0.6", text)
+    crossed = re.sub(r"q8 = .*", "q8 = 2.4", crossed)
+    try:
+        model = derive_model(robot_from_text(crossed, "sr400"))
+    except Exception as error:
+        assert "home" in str(error)
+    else:
+        posture = model.robot.relations
+        assert "3" not in posture or posture["3"].text == "-q2 + q7 + pi/2"
+
+
+def test_coefficients_may_be_sums_and_quotients():
+    """Link 4 turned and shifted on a leg: sin, cos and a sum of squares in the coefficients."""
+    text = builtin_text("orthoglide-leg")
+    text = text.replace('"b3", "-pi/2",   0,   "q3",     0]', '"b3", "al",   0,   "q3",     "r3"]')
+    text = text.replace("b3 = -0.04 ", "al = -1.2\nr3 = 0.05\nb3 = -0.04 ")
+    base = base_parameters(derive_model(robot_from_text(text, "leg")))
+    assert base.proof.kind == "exact"
+    terms = {
+        t.parameter: t.coefficient for p in base.parameters for t in p.terms if p.name == "ZZ2R"
+    }
+    al, r3, D4 = (sympy.Symbol(n, real=True) for n in ("al", "r3", "D4"))
+    expected = sympy.sin(al) ** 2 * (r3**2 + D4**2)
+    assert sympy.simplify(terms["M4"] - expected) == 0
+
+
+@pytest.mark.parametrize("name", ["sr400", "orthoglide-2012", "stewart"])
+def test_loops_at_other_lengths_keep_their_rank(name):
+    """The relations are symbols: true at any lengths, not only those of the file."""
+    robot = read_robot(name)
+    rng = np.random.default_rng(2)
+    text = robot.text
+    for symbol, value in robot.symbol_values().items():
+        if symbol[0] in "DdRLrb" and value > 0.05 and not symbol.startswith("beta"):
+            text = re.sub(
+                rf"^{symbol} = \S+", f"{symbol} = {value * rng.uniform(0.97, 1.03):.5f}", text,
+                flags=re.M,
+            )  # fmt: skip
+    base = base_parameters(derive_model(robot_from_text(text, name)))
+    assert base.rank == module(name).base.rank
+    before = {p.name: [(t.parameter, str(t.coefficient)) for t in p.terms]
+              for p in module(name).base.parameters}  # fmt: skip
+    assert before == {
+        p.name: [(t.parameter, str(t.coefficient)) for t in p.terms] for p in base.parameters
+    }
+
+
+def test_the_energy_rows_have_the_same_rank():
+    """Second opinion on closed postures: rows of 2T and of the power of gravity."""
+    for name in ("five-bar", "orthoglide-2003", "evra"):
+        model, base, _ = module(name)
+        no_friction = [i for i, c in enumerate(model.columns) if c.kind != "friction"]
+        u, ud, _ = random_states(model, 150, np.random.default_rng(9))
+        still = dataclasses.replace(model)
+        kinetic = np.einsum("nic,ni->nc", _unprojected(still, u, 0 * ud, ud, weight=False), ud)
+        power = np.einsum("nic,ni->nc", _unprojected(still, u, 0 * ud, 0 * ud), ud)
+        rows = np.stack([kinetic, power], axis=1)[:, :, no_friction]
+        friction = base.counts()["friction"]
+        assert numeric_rank(rows, range(len(no_friction))).rank == base.rank - friction
+
+
+def _unprojected(model, u, ud, udd, weight=True):
+    """phi of the opened tree; without weight its part in the accelerations: M ud as columns."""
+    values = dict(model.geometry.values)
+    inputs = {
+        f"{kind}[{k}]": array[:, k]
+        for kind, array in (("q", u), ("qd", ud), ("qdd", udd))
+        for k in range(u.shape[1])
+    }
+    phi = np.zeros((*u.shape, len(model.columns)))
+    found = model.graph.evaluate(list(model.regressor.values()), {**values, **inputs})
+    for (k, column), value in zip(model.regressor, found, strict=True):
+        phi[:, k, column] = value
+    return phi if weight else phi - _unprojected(model, u, ud, 0 * udd)
+
+
+def test_states_used_here_are_closed():
+    model = module("stewart").model
+    u, ud, udd = random_states(model, 20, np.random.default_rng(1))
+    phi = regressor_values(model, (u, ud, udd))
+    assert phi.shape == (20, 6, len(model.columns))
