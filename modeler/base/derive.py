@@ -20,6 +20,24 @@ _EXACT = (
     "they are checked modulo a prime at random states and geometry. Independence: the energy rows "
     "of the base columns have full rank modulo the prime, which is a lower bound of the true rank."
 )
+_TIED = (
+    "Relations: energy rows (kinetic energy, power of gravity) of the tied joints modulo "
+    "2**127 - 1; coefficients interpolated as functions of the lengths and angles and checked at "
+    "fresh ones; then checked again modulo another prime at random states and geometry. "
+    "Independence: the energy rows of the base columns have full rank modulo that prime, which is "
+    "a lower bound of the true rank."
+)
+_LOOPS = (
+    "Relations: those of the opened tree ({tree}), and for every joint that closes a loop those "
+    "of the bodies that move alike with both its sides; all exact in the symbols. That there are "
+    "no others: at random closed postures the torques of the base columns have full rank; the "
+    "last singular value kept is {margin:.0e} times the rounding, and a perturbation must be as "
+    "large as a singular value to lower a rank (Weyl)."
+)
+_OPEN = {
+    False: "link by link over the exact field",
+    True: "interpolated modulo 2**127 - 1 and checked at fresh lengths and angles",
+}
 _AT_NOMINAL = (
     " This rank belongs to the lengths and angles as given: {why}; so they stand as numbers."
 )
@@ -44,12 +62,12 @@ def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
     phi = regressor_values(model, random_states(model, samples, np.random.default_rng(seed)))
     numeric = numeric_rank(phi, range(len(model.columns)))
     try:
-        return _exact(model, model.geometry, numeric, seed, "exact", _EXACT)
+        return _exact(model, model.geometry, numeric, seed, "exact", "")
     except (NotProved, TooLarge) as error:
         why = str(error)
     try:
         nominal = exact_geometry(model.robot, at_nominal=True)
-        statement = _EXACT + _AT_NOMINAL.format(why=why)
+        statement = _AT_NOMINAL.format(why=why)
         return _exact(model, nominal, numeric, seed, "exact at the given values", statement)
     except (NotProved, TooLarge):
         return _numeric(model, numeric, seed, why)
@@ -71,7 +89,7 @@ def _exact(
             f"the symbols give rank {len(relations.kept)}, the torques at the given values "
             f"{numeric.rank}"
         )
-    if geometry.tied or model.closure is not None:
+    if model.closure is not None:
         proved = Certificate(numeric.rank, 0)
     else:
         proved = certificate(geometry, model.columns, K, relations, seed)
@@ -81,7 +99,7 @@ def _exact(
         raise NotProved(f"base and standard torque differ by {agreement:.1e}")
     proof = Proof(
         kind=kind,
-        statement=statement,
+        statement=_statement(model, numeric) + statement,
         prime=PRIME,
         points=proved.points,
         seed=seed,
@@ -93,6 +111,15 @@ def _exact(
         agreement=agreement,
     )
     return BaseParameters(model.columns, parameters, unidentifiable, proof)
+
+
+def _statement(model: SymbolicModel, numeric: NumericRank) -> str:
+    """The argument of an exact grouping."""
+    tied = model.geometry.tied
+    if model.closure is None:
+        return _TIED if tied else _EXACT
+    margin = numeric.gap[0] / max(numeric.gap[1], float(np.finfo(float).eps))
+    return _LOOPS.format(tree=_OPEN[tied], margin=margin)
 
 
 def _numeric(model: SymbolicModel, numeric: NumericRank, seed: int, why: str) -> BaseParameters:

@@ -1,6 +1,7 @@
 """`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
 
 import argparse
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,8 @@ from modeler.cli.robots import add_robot, robot_of
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation, derive, generate
-from modeler.symbolic.lagrange import lagrange_model
+from modeler.symbolic import SymbolicModel
+from modeler.symbolic.second_opinion import lagrange_torque
 from modeler.terms import (
     CoefficientTable,
     backward_lines,
@@ -78,6 +80,8 @@ def run_derive(args: argparse.Namespace) -> Json:
     counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
     say(f"{robot.name}: {robot.title}")
     say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
+    for line in _tied_lines(derivation.model):
+        say(line)
     say()
     say(_FORMS[args.format](base))
     say()
@@ -87,21 +91,53 @@ def run_derive(args: argparse.Namespace) -> Json:
     return result
 
 
+def _tied_lines(model: SymbolicModel) -> list[str]:
+    """How the joints of a robot with relations or loops move each other."""
+    robot = model.robot
+    if not robot.relations and not robot.loops:
+        return []
+    names = ", ".join(f"q{joint.name}" for joint in robot.coordinates)
+    lines = [f"coordinates: {names}"]
+    if robot.relations:
+        relations = [f"q{name} = {relation.text}" for name, relation in robot.relations.items()]
+        lines += textwrap.wrap(
+            "relations: " + "; ".join(relations), 96, subsequent_indent=" " * 11,
+            break_long_words=False,
+        )  # fmt: skip
+    closure = model.closure
+    if closure is not None:
+        lines.append(
+            f"loops: {len(robot.loops)}, closed by {len(closure.equations)} equations for "
+            f"{len(closure.solved)} joints"
+            + (f" ({closure.redundant} more follow from these)" if closure.redundant else "")
+        )
+    elif robot.loops:
+        lines.append(f"loops: {len(robot.loops)}, which these relations close")
+    return lines
+
+
 def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     """Largest difference of the torques of both derivations, relative to the largest torque."""
     model = derivation.model
     rng = np.random.default_rng(derivation.base.proof.seed)
     states = random_states(model, samples, rng)
-    links = [i for i, column in enumerate(model.columns) if column.column is None]
-    chi = rng.normal(size=len(links))
-    tau = regressor_values(model, states)[:, :, links] @ chi
-    other = lagrange_model(model.geometry).torque(*states, chi)
+    link = np.array([column.column is None for column in model.columns])
+    chi = np.where(link, rng.normal(size=len(link)), 0.0)
+    tau = regressor_values(model, states) @ chi
+    other = lagrange_torque(model, *states, chi)
     largest = float(np.max(np.abs(other)))
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
 
 
 def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
     model, base = derivation.model, derivation.base
+    if model.robot.relations or model.robot.loops:
+        if args.closed_form or args.terms or args.report is not None:
+            raise ModelerError(
+                f"{model.robot.name}: closed forms and coefficients are written for serial and "
+                "tree robots; leave out --closed-form, --terms and --report"
+            )
+        return
     small = len(model.robot.coordinates) <= _FEW_JOINTS
     if args.closed_form:
         say()

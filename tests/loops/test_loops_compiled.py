@@ -1,0 +1,135 @@
+"""The emitted C of robots with loops: against the graph, and where loops do not close."""
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import LoopError, ShapeError
+from modeler.robot import read_robot
+from tests.loops.closed_states import closed
+from tests.modules import compiled, module
+from tests.robots import TIED
+
+LOOPS = [name for name in TIED if module(name).model.closure is not None]
+
+
+def close(a, b, tolerance=1e-11):
+    np.testing.assert_allclose(a, b, rtol=0, atol=tolerance * np.abs(b).max())
+
+
+@pytest.mark.parametrize("name", TIED)
+def test_regressors_and_observation_are_those_of_the_graph(name):
+    c, base = compiled(name), module(name).base
+    (q, qd, qdd), _, phi = closed(name, 25)
+    kept = [parameter.column for parameter in base.parameters]
+    close(c.regressor(q, qd, qdd), phi)
+    close(c.base_regressor(q, qd, qdd), phi[:, :, kept])
+    close(c.observation(q, qd, qdd), phi[:, :, kept].reshape(-1, base.rank))
+
+
+@pytest.mark.parametrize("name", TIED)
+def test_inverse_dynamics_is_the_sum_of_its_parts(name):
+    c = compiled(name)
+    (q, qd, qdd), _, phi = closed(name, 10)
+    chi = np.random.default_rng(3).normal(size=phi.shape[2])
+    beta = c.base_parameters(chi)
+    tau = c.inverse_dynamics(q, qd, qdd, beta)
+    close(tau, phi @ chi)
+    M = c.inertia_matrix(q, beta)
+    close(M, np.swapaxes(M, 1, 2), 1e-12)
+    parts = c.coriolis(q, qd, beta) + c.gravity(q, beta) + c.friction(qd, beta, q)
+    close(np.einsum("nij,nj->ni", M, qdd) + parts, tau)
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_loops_close_where_they_should(name):
+    c = compiled(name)
+    (q, qd, _), (u, ud, _), _ = closed(name, 25)
+    np.testing.assert_allclose(c.close(q), u, atol=1e-9)
+    np.testing.assert_allclose(np.einsum("nij,nj->ni", c.coupling(q), qd), ud, atol=1e-8)
+    assert not np.any(c.closing_status(q))
+
+
+@pytest.mark.parametrize("name", [n for n in LOOPS if module(n).model.closure.platform])
+def test_platform_coordinates_give_the_same_torques(name):
+    """tau = G_x^T f, where dx = G_x dq."""
+    c, closure = compiled(name), module(name).model.closure
+    (q, qd, qdd), (u, ud, udd), _ = closed(name, 10)
+    places = list(closure.platform)
+    x, xd, xdd = (array[:, places] for array in (u, ud, udd))
+    Gx = c.coupling(q)[:, places]
+    phi = c.platform_base_regressor(x, xd, xdd)
+    close(np.einsum("nij,nic->njc", Gx, phi), c.base_regressor(q, qd, qdd), 1e-9)
+    np.testing.assert_allclose(c.platform_close(x), u, atol=1e-9)
+    beta = np.random.default_rng(0).normal(size=phi.shape[2])
+    close(c.platform_inverse_dynamics(x, xd, xdd, beta), phi @ beta)
+
+
+def test_what_is_out_of_reach_is_told_by_sample():
+    c = compiled("orthoglide-2003")
+    q = np.array([[0.19, 0.19, 0.19], [0.19, 0.19, 1.4], [0.2, 0.2, 0.2]])
+    assert list(c.closing_status(q)) == [0, 1, 0]
+    with pytest.raises(LoopError, match=r"orthoglide-2003: sample 2: the loops cannot be closed; "):
+        c.base_regressor(q, q, q)
+    with pytest.raises(LoopError, match=r"sample 2.*got \(0.19, 0.19, 1.4\)"):
+        c.observation(q, q, q)
+
+
+def test_outputs_are_nan_where_loops_do_not_close():
+    c = compiled("orthoglide-2003")
+    q = np.array([[0.19, 0.19, 1.4]])
+    function = next(f for f in c.spec.functions if f.name.endswith("_close"))
+    out, status = np.empty((1, *function.outputs[0].shape)), np.zeros(1, dtype=np.intc)
+    c._library.batch(function, [q], out, status)
+    assert status[0] == 1 and np.all(np.isnan(out))
+
+
+def test_a_number_that_is_none_is_refused():
+    with pytest.raises(ShapeError, match="finite"):
+        compiled("five-bar").close([[np.nan, 0.9]])
+
+
+def test_the_assembly_mode_never_jumps():
+    """Around the workspace and back: the elbows stay on their side, and the tip moves smoothly."""
+    c = compiled("five-bar")
+    home = np.array([2.2, 0.9])
+    way = home + 0.6 * np.column_stack(
+        [np.sin(np.linspace(0, 2 * np.pi, 400)), 1 - np.cos(np.linspace(0, 2 * np.pi, 400))]
+    )
+    u = c.close(way[c.closing_status(way) == 0])
+    sign = np.sign(np.sin(u[:, 1] + u[:, 0] - u[:, 2] - u[:, 3]))
+    assert np.all(sign == sign[0])
+    np.testing.assert_allclose(c.close(way[-1:]), c.close(home[None]), atol=1e-9)
+
+
+def test_cold_and_warm_starts_agree():
+    c = compiled("stewart")
+    (q, qd, qdd), _, _ = closed("stewart", 40)
+    order = np.random.default_rng(1).permutation(len(q))
+    W = c.observation(q, qd, qdd).reshape(len(q), -1)
+    shuffled = c.observation(q[order], qd[order], qdd[order]).reshape(len(q), -1)
+    np.testing.assert_allclose(shuffled, W[order], rtol=0, atol=1e-9 * np.abs(W).max())
+
+
+def test_forward_kinematics_shows_every_row_and_the_loops_closed():
+    robot, c = read_robot("orthoglide-2003"), compiled("orthoglide-2003")
+    (q, _, _), _, _ = closed("orthoglide-2003", 5)
+    T = c.forward_kinematics(q)
+    names = [joint.name for joint in robot.moving]
+    assert T.shape == (5, len(names), 3, 4)
+    platform = T[:, names.index("P")]
+    np.testing.assert_allclose(platform[:, :, :3], np.tile(np.eye(3), (5, 1, 1)), atol=1e-12)
+    a, d6, b3 = 0.6, 0.1, -0.04
+    for leg in "123":  # the platform's point is d6 along the slide and -b3 beside it from O5
+        frame = T[:, names.index(f"5{leg}")]
+        tip = np.einsum("nij,j->ni", frame[:, :, :3], [d6, 0, -b3]) + frame[:, :, 3]
+        np.testing.assert_allclose(tip, platform[:, :, 3], atol=1e-10)
+    x, y, z = platform[:, :, 3].T
+    np.testing.assert_allclose(x**2 + y**2 + (z - q[:, 0] - d6) ** 2, 0.31**2, atol=1e-12)
+    np.testing.assert_allclose((x - q[:, 1] - d6 + a) ** 2 + y**2 + (z - a) ** 2, 0.31**2)
+    np.testing.assert_allclose(x**2 + (y - q[:, 2] - d6 + a) ** 2 + (z - a) ** 2, 0.31**2)
+
+
+def test_friction_of_passive_joints_needs_positions():
+    c = compiled("orthoglide-2012")
+    with pytest.raises(ShapeError, match="depends on the positions; give q"):
+        c.friction(np.zeros((1, 3)), np.zeros(53))
