@@ -66,6 +66,7 @@ class ModularState:
         self.letters = letters or {
             letter: filled(residue, points, prime) for letter, residue in self.residues.items()
         }
+        self._values: dict[sympy.Expr, Residues] = {}
         count = geometry.coordinates
         self.qd = drawn(rng, (count, points), prime)
         self.travel = drawn(rng, (count, points), prime)
@@ -76,7 +77,12 @@ class ModularState:
 
     def value(self, expression: sympy.Expr) -> Residues:
         """Residues of a constant expression."""
-        e = expression
+        found = self._values.get(expression)
+        if found is None:
+            found = self._values[expression] = self._evaluated(expression)
+        return found
+
+    def _evaluated(self, e: sympy.Expr) -> Residues:
         if e.is_Rational:
             return self._number(Fraction(int(e.p), int(e.q)))
         if e.func in (sympy.cos, sympy.sin):

@@ -24,7 +24,7 @@ Function = Callable[[Sequence[Point]], list[int]]
 
 _EXPONENTS = (1, -1, 2, -2, 3, -3, 4, -4)
 _LARGEST_DEGREE = 12
-_MOST_TERMS = 240
+_MOST_TERMS = 160
 _CHECKS = 2
 
 
@@ -129,9 +129,12 @@ def _degrees(function: Function, letter: int, probes: Probes) -> tuple[int, int]
         points = probes.moved((letter,), 2 * len(powers) + 1)
         weights = _fitted(function, points, (letter,), powers, powers)
         if weights is not None:
-            above, below = weights[: degree + 1], weights[degree + 1 :]
-            return max(np.nonzero(above)[0], default=0), max(np.nonzero(below)[0], default=0)
+            return _degree(weights[: degree + 1]), _degree(weights[degree + 1 :])
     raise TooLarge(f"a coefficient is of degree above {_LARGEST_DEGREE}")
+
+
+def _degree(weights: Sequence[int]) -> int:
+    return max((i for i, weight in enumerate(weights) if weight), default=0)
 
 
 def _fitted(

@@ -6,6 +6,7 @@ of Python integers, slower, with room to tell the rational number that a residue
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import accumulate
 from math import isqrt
 
 import numpy as np
@@ -42,10 +43,22 @@ def power(value: Residues, n: int, prime: int) -> Residues:
 
 
 def inverse(value: Residues, prime: int) -> Residues:
-    """1 / value."""
+    """1 / value.
+
+    Raises:
+        ValueError: an entry is 0, modulo LARGE.
+    """
     if prime == SMALL:
         return power(value, prime - 2, prime)
-    return np.array([pow(x, -1, prime) for x in value], dtype=object)
+    # One inversion for all entries (Montgomery): that of their product.
+    products = list(accumulate(value.tolist(), lambda a, b: a * b % prime))
+    rest = pow(products[-1], -1, prime)
+    found = np.empty(len(products), dtype=object)
+    for i in range(len(products) - 1, 0, -1):
+        found[i] = rest * products[i - 1] % prime
+        rest = rest * value[i] % prime
+    found[0] = rest
+    return found
 
 
 def rational(number: Fraction, prime: int) -> int:
@@ -110,7 +123,8 @@ def row_echelon(matrix: np.ndarray, order: Sequence[int], prime: int) -> list[tu
         factors = matrix[:, column].copy()
         factors[rank] = 0
         used = np.nonzero(factors)[0]
-        lines = factors[used][:, None] * matrix[rank][None, :] % prime
-        matrix[used] = (matrix[used] - lines) % prime
+        touched = np.ix_(used, np.nonzero(matrix[rank])[0])
+        lines = factors[used][:, None] * matrix[rank][touched[1]] % prime
+        matrix[touched] = (matrix[touched] - lines) % prime
         pivots.append((rank, column))
     return pivots

@@ -43,21 +43,30 @@ def tied_relations(
         A basis: sum of coefficient * column = 0, the coefficient of one column of each being 1.
 
     Raises:
-        TooLarge: a coefficient is no simple function of few letters.
+        TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
     """
-    supports = _supports(geometry, columns, K, order, seed)
-    relations: list[dict[int, Element]] = [
-        {column: K.one} for column, support in supports.items() if not support
-    ]
-    dependent = {column: support for column, support in supports.items() if support}
-    if not dependent:
-        return relations
-    sampler = _Sampler(geometry, columns, K, dependent, seed)
+    try:
+        supports = _supports(geometry, columns, K, order, seed)
+        return _interpolated(geometry, columns, K, supports, seed)
+    except ValueError as error:  # a constant whose denominator is a multiple of a prime
+        raise TooLarge(f"a constant has no value modulo a prime ({error})") from None
+
+
+def _interpolated(
+    geometry: Geometry,
+    columns: Sequence[StandardColumn],
+    K: ExactField,
+    supports: Mapping[int, Sequence[int]],
+    seed: int,
+) -> list[dict[int, Element]]:
+    """The relation of each dependent column, from the kept columns that it involves."""
+    relations: list[dict[int, Element]] = []
+    sampler = _Sampler(geometry, columns, K, supports, seed)
     probes = Probes(len(K.letters), seed)
-    for column, support in dependent.items():
+    for column, support in supports.items():
         relation = {column: K.one}
-        for place, kept in enumerate(support):
-            relation[kept] = -coefficient(partial(sampler.values, (column, place)), K, probes)
+        for kept in support:
+            relation[kept] = -coefficient(partial(sampler.values, (column, kept)), K, probes)
         relations.append(relation)
     return relations
 
@@ -96,18 +105,19 @@ class _Sampler:
         geometry: Geometry,
         columns: Sequence[StandardColumn],
         K: ExactField,
-        dependent: Mapping[int, Sequence[int]],
+        supports: Mapping[int, Sequence[int]],
         seed: int,
     ) -> None:
-        self.geometry, self.K, self.dependent, self.seed = geometry, K, dependent, seed
-        used = sorted({c for c, support in dependent.items() for c in (c, *support)})
+        self.geometry, self.K, self.supports, self.seed = geometry, K, supports, seed
+        self.blocks = _blocks(supports)
+        used = sorted({c for kept, dependent in self.blocks for c in (*kept, *dependent)})
         self.place = {column: i for i, column in enumerate(used)}
         self.columns = [columns[i] for i in used]
-        self.points = max(len(support) for support in dependent.values()) + _POINTS
+        self.points = max((len(kept) for kept, _ in self.blocks), default=0) + _POINTS
         self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
     def values(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
-        """The coefficient `at` = (dependent column, place in its support) at the geometries.
+        """The coefficient `at` = (dependent column, kept column) at the geometries.
 
         Raises:
             TooLarge: there the column is not the combination that it was at one geometry.
@@ -126,20 +136,44 @@ class _Sampler:
         total = n * len(geometries)
         self.seed += 1
         state = ModularState(self.geometry, self.K, total, self.seed, LARGE, letters)
-        rows = state.energy_rows(self.columns)
+        rows = state.energy_rows(self.columns).reshape(2, len(geometries), n, -1)
         for i, geometry in enumerate(geometries):
-            part = np.concatenate(
-                [rows[i * n : (i + 1) * n], rows[total + i * n : total + (i + 1) * n]]
-            )
-            self._known[geometry] = self._solved(part)
+            self._known[geometry] = {}
+            for kept, dependent in self.blocks:
+                places = [self.place[column] for column in (*kept, *dependent)]
+                part = rows[:, i, : len(kept) + _POINTS, places].reshape(len(places), -1).T
+                self._known[geometry] |= self._solved(part.copy(), kept, dependent)
 
-    def _solved(self, rows: np.ndarray) -> dict[tuple[int, int], int]:
+    def _solved(
+        self, matrix: np.ndarray, kept: Sequence[int], dependent: Sequence[int]
+    ) -> dict[tuple[int, int], int]:
+        """Coefficients at one geometry, from its energy rows (rows, kept and then dependent)."""
+        size = len(kept)
+        pivots = row_echelon(matrix, range(size), LARGE)
         found = {}
-        for column, support in self.dependent.items():
-            matrix = rows[:, [self.place[c] for c in (*support, column)]].copy()
-            pivots = row_echelon(matrix, range(len(support)), LARGE)
-            if len(pivots) < len(support) or np.any(matrix[len(pivots) :, -1]):
+        for column, values in zip(dependent, matrix[:, size:].T, strict=True):
+            combination = {c for c, value in zip(kept, values, strict=False) if value}
+            if (
+                len(pivots) < size
+                or np.any(values[size:])
+                or combination != {*self.supports[column]}
+            ):
                 raise TooLarge("what depends on what at one geometry does not at another")
-            for place, (row, _) in enumerate(pivots):
-                found[column, place] = int(matrix[row, -1])
+            for c, value in zip(kept, values, strict=False):
+                found[column, c] = int(value)
         return found
+
+
+def _blocks(supports: Mapping[int, Sequence[int]]) -> list[tuple[list[int], list[int]]]:
+    """(kept, dependent) columns, apart where no dependent column involves kept ones of both."""
+    blocks: list[tuple[list[int], list[int]]] = []
+    for column, support in supports.items():
+        if not support:
+            continue
+        kept, dependent = list(support), [column]
+        for block in [block for block in blocks if set(block[0]) & set(support)]:
+            blocks.remove(block)
+            kept = [*block[0], *(c for c in kept if c not in block[0])]
+            dependent = [*block[1], *dependent]
+        blocks.append((kept, dependent))
+    return blocks

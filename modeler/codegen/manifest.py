@@ -59,6 +59,7 @@ def _closure(model: SymbolicModel) -> ClosureSpec | None:
         given=closure.given,
         platform=closure.platform or (),
         home=closure.home,
+        carrier=model.robot.platform[-1] if model.robot.platform else "",
     )
 
 

@@ -57,6 +57,7 @@ class ClosureSpec:
     given: tuple[int, ...]  # places in u of q
     platform: tuple[int, ...]  # places in u of x, the platform's coordinates; empty without one
     home: tuple[float, ...]  # the closed posture u from which loops are closed
+    carrier: str = ""  # row of the platform's link
 
 
 @dataclass(frozen=True)

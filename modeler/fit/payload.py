@@ -27,7 +27,7 @@ class Payload:
 
     Attributes:
         logs: names of those logs (`Log.name`).
-        link: row of the table; None: the last joint's link.
+        link: row of the table; None: the platform, or the last joint's link.
         mass: kg, if it is known; its weight and inertia go to the side of the measurement.
         name: suffix of its parameters.
     """
@@ -70,7 +70,7 @@ def _with_load(
     equations: Equations, model: "CompiledModel", observation: Observation, payload: Payload
 ) -> Equations:
     """The equations with the columns of a load that can be told apart, beside those there are."""
-    link = payload.link or model.spec.joints[-1].name
+    link = payload.link or _last_link(model)
     columns, labels, units = _load_columns(model, observation, payload, link)
     y = equations.y
     if payload.mass is not None:
@@ -85,6 +85,14 @@ def _with_load(
         units=(*equations.units, *(units[i] for i in kept)),
         sentences=(*equations.sentences, *remarks),
     )
+
+
+def _last_link(model: "CompiledModel") -> str:
+    """The platform of a parallel robot, else the link of the last joint."""
+    closure = model.spec.closure
+    if closure is not None and closure.carrier:
+        return closure.carrier
+    return model.spec.joints[-1].name
 
 
 def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:

@@ -1,0 +1,283 @@
+"""Joints that follow others: all relations, exactly, against papers and other ways to them."""
+
+import dataclasses
+import re
+
+import numpy as np
+import pytest
+import sympy
+
+from modeler.base import base_parameters
+from modeler.base.elimination import TooLarge, sparse_row_reduce
+from modeler.base.field import geometry_field
+from modeler.base.grouping import column_relations
+from modeler.base.numeric import random_states, regressor_values
+from modeler.base.proof import NotProved, certificate
+from modeler.base.tied import tied_relations
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.symbolic import derive_model
+from tests.base.ranks import seen
+from tests.robots import TREES
+
+TIES = '[relations]\nq4 = "-q3"\nq5 = "-q2 - pi/2"\nq7 = "q3"\n'
+
+
+def leg(gravity: str = "[0, 'g', 0]", effects: str = "", changes: tuple = (), links: str = ""):
+    """The open leg with its relations."""
+    text = re.sub(r"\[effects\](.*\n)*?(?=\[|\Z)", "", builtin_text("orthoglide-leg-tree"))
+    text = re.sub(r"^gravity = .*$", f"gravity = {gravity}", text, flags=re.M)
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return derive_model(robot_from_text(f"{text}\n{TIES}\n{links}\n{effects}", "leg"))
+
+
+def energetic(model) -> list[int]:
+    return [i for i, column in enumerate(model.columns) if column.kind != "friction"]
+
+
+def relations_of(model, seed: int = 3):
+    K = geometry_field(model.geometry)
+    order = range(len(model.columns))
+    return K, tied_relations(model.geometry, model.columns, K, order, seed)
+
+
+def grouping(model, text: str) -> sympy.Matrix:
+    """K of printed base parameters: beta = K chi."""
+    letters = {s: sympy.Symbol(s, real=True) for s in model.geometry.values}
+    chi = [sympy.Symbol(name) for name in model.names]
+    names = letters | {symbol.name: symbol for symbol in chi}
+    rows = [sympy.sympify(line, locals=names) for line in text.split("\n") if line.strip()]
+    return sympy.Matrix([[sympy.expand(row).coeff(symbol) for symbol in chi] for row in rows])
+
+
+def assert_groups_as(model, text: str) -> None:
+    """W = W_base K: the relations are the null space of K."""
+    printed = grouping(model, text)
+    K, relations = relations_of(model)
+    assert len(relations) == len(energetic(model)) - printed.rank()
+    for relation in relations:
+        vector = sympy.zeros(len(model.columns), 1)
+        for place, x in relation.items():
+            vector[place] = K.expression(x)
+        assert (printed * vector).applyfunc(sympy.simplify).is_zero_matrix
+
+
+EQUATION_18 = """
+Ia1 + M1 + M2 + M3 + M4 + M7
+ZZ2 + YY3 + YY4 + D4**2*M4 + YY7
+MX2
+MY2 + MZ3 + MZ4 + MZ7
+XX3 - YY3 - D4**2*M4 + XX7 - YY7
+XY3 + XY7
+XZ3 - D4*MZ4 + XZ7
+YZ3 + YZ7
+ZZ3 + D4**2*M4 + ZZ7
+MX3 + D4*M4 + MX7
+MY3 + MY7
+MX4
+"""
+ALONG_THE_SLIDE = EQUATION_18.replace("Ia1 + M1 + M2 + M3 + M4 + M7", "Ia1\nM1 + M2 + M3 + M4 + M7")
+NO_LINK_5 = {"links": "[links]\n5 = []\n", "effects": '[effects]\nrotor_inertia = ["1"]\n'}
+
+
+@pytest.mark.parametrize(
+    ("gravity", "printed", "rank"),
+    [
+        ("[0, 'g', 0]", EQUATION_18, 12),
+        ("['g', 0, 0]", EQUATION_18, 12),
+        ("[0, 0, 'g']", ALONG_THE_SLIDE, 13),
+        ("['g', 'g/3', '-g']", ALONG_THE_SLIDE, 13),
+    ],
+)
+def test_orthoglide_leg_groups_as_printed(gravity, printed, rank):
+    """Guegan, Khalil, Lemoine 2003, eq. (18): every term, and no other relation."""
+    model = leg(gravity, **NO_LINK_5)
+    assert grouping(model, printed).rank() == rank
+    assert_groups_as(model, printed)
+
+
+FOOTNOTE = """
+M1 + Ia1 + M2 + M3 + M4 + M5
+ZZ2 + Ia2 + YY3 + YY4 + Ia5 + D4**2*(M4 + M5)
+MX2
+MY2 + MZ3 + MZ4
+XX3 - YY3 - D4**2*(M4 + M5)
+XY3
+XZ3 - D4*MZ4
+YZ3
+ZZ3 + Ia3 + Ia4 + D4**2*(M4 + M5)
+MX3 + D4*(M4 + M5)
+MY3
+MX4
+"""
+
+
+def test_serial_leg_with_rotors_on_passive_joints():
+    """One leg of Briot, Gautier 2012: link 5 keeps its direction, so that it acts as a mass."""
+    rotors = '[effects]\nrotor_inertia = ["1", "2", "3", "4", "5"]\n'
+    assert_groups_as(leg(effects=rotors, links="[links]\n7 = []\n"), FOOTNOTE)
+
+
+def test_offset_of_a_slide_along_gravity():
+    """Power of a constant force and of weight along the slide: Off - g (all masses)."""
+    effects = '[effects]\nrotor_inertia = ["1"]\noffset = ["1"]\n'
+    model = leg("[0, 0, 'g']", effects, links=NO_LINK_5["links"])
+    assert_groups_as(
+        model,
+        EQUATION_18 + "Off1 - g*(M1 + M2 + M3 + M4 + M7)",
+    )
+
+
+def test_coefficients_of_a_shifted_and_tilted_link():
+    """Link 3 tilted by al and shifted by r3: a sum of squares times sin(al)**2."""
+    tilted = (
+        ('"b3", "-pi/2",   0,   "q3",     0]', '"b3", "al",   0,   "q3",     "r3"]'),
+        ("b3 = -0.04 ", "al = -1.2\nr3 = 0.05\nb3 = -0.04 "),
+    )
+    K, relations = relations_of(leg(changes=tilted, **NO_LINK_5))
+    names = leg(changes=tilted, **NO_LINK_5).names
+    (row,) = [r for r in relations if r.get(names.index("M4")) == K.one]
+    al, r3, D4 = (sympy.Symbol(n, real=True) for n in ("al", "r3", "D4"))
+    found = -K.expression(row[names.index("ZZ2")])
+    assert sympy.simplify(found - sympy.sin(al) ** 2 * (r3**2 + D4**2)) == 0
+
+
+# Joints 1 and 2 are turned over gears by motors that stand on the base, as on a surgical arm; the
+# tool at 3 slides on a screw that joint 2 turns, so that an angle and a travel go together.
+GEARED = """
+name = "geared"
+gravity = [0, "g*3/5", "-g*4/5"]
+[symbols]
+g = 9.81
+D2 = 0.15
+D3 = 0.4
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["m1", "0", 0, 0, 0, "q_m1", 0],
+  ["m2", "0", 0, 0, 0, "q_m2", 0],
+  ["1", "0", 0, 0, 0, "1.0186*q_m1 + 0.4", 0],
+  ["2", "1", 0, "pi/2", "D2", "q_m2/3 - 0.5*q_m1 + pi/2", 0],
+  ["3", "2", 1, "pi/2", "D3", 0, "0.012*q_m2 + 0.1"],
+]
+[links]
+m1 = []
+m2 = []
+[effects]
+rotor_inertia = ["m1", "m2"]
+viscous = ["m1", "m2"]
+offset = ["m1", "m2"]
+"""
+GEARED = GEARED.replace("q_m1", "qm1").replace("q_m2", "qm2")
+
+
+def numeric_columns(model) -> np.ndarray:
+    states = random_states(model, 200, np.random.default_rng(5))
+    return regressor_values(model, states).reshape(-1, len(model.columns))
+
+
+def test_gears_and_screws():
+    """Against the torques at random states, which know nothing of energies and primes."""
+    model = derive_model(robot_from_text(GEARED, "geared"))
+    K, relations = relations_of(model)
+    W = numeric_columns(model)
+    friction = len(model.columns) - len(energetic(model))
+    assert seen(model) == len(model.columns) - len(relations)
+    values = {sympy.Symbol(n, real=True): x for n, x in model.geometry.values.items()}
+    for relation in relations:
+        left = sum(float(K.expression(x).subs(values)) * W[:, i] for i, x in relation.items())
+        assert np.max(np.abs(left)) < 1e-10 * np.max(np.abs(W))
+    assert friction == 2
+    ratios = {K.expression(x) for relation in relations for x in relation.values()}
+    assert sympy.Rational(10186, 10000) ** 2 in {abs(x) for x in ratios}
+
+
+def test_gears_of_a_base_joint():
+    """Ia turns with the motor, ZZ1 with 1.0186 times its speed."""
+    model = derive_model(robot_from_text(GEARED, "geared"))
+    K, relations = relations_of(model)
+    (row,) = [r for r in relations if model.names.index("ZZ1") in r and len(r) == 2]
+    (other,) = set(row) - {model.names.index("ZZ1")}
+    assert model.names[other] == "Iam1"
+    assert K.expression(row[model.names.index("ZZ1")]) == 1
+    assert K.expression(row[other]) == -(sympy.Rational(10186, 10000) ** 2)
+
+
+@pytest.mark.parametrize("name", TREES)
+def test_plain_trees_give_what_link_by_link_elimination_gives(name):
+    """Two methods, sharing neither equations nor arithmetic: the same relations, to the letter."""
+    model = derive_model(read_robot(name))
+    K = geometry_field(model.geometry)
+    order = list(range(len(model.columns)))
+    wanted = [
+        row
+        for row in column_relations(model, model.geometry, K, 1).rows
+        if all(model.columns[i].kind != "friction" for i in row)
+    ]
+    found = tied_relations(model.geometry, model.columns, K, order, 8)
+    assert _reduced(found, order) == _reduced(wanted, order)
+
+
+def _reduced(rows, order):
+    reduced, pivots = sparse_row_reduce(rows, order)
+    return dict(zip(pivots, reduced, strict=True))
+
+
+def test_the_order_says_what_is_kept():
+    model = leg(**NO_LINK_5)
+    K = geometry_field(model.geometry)
+    forward = list(range(len(model.columns)))
+    last = tied_relations(model.geometry, model.columns, K, forward[::-1], 3)
+    dropped = {min(relation) for relation in last}
+    assert len(dropped) == len(last)
+    assert all(relation[min(relation)] == K.one for relation in last)
+    assert _reduced(last, forward) == _reduced(relations_of(model)[1], forward)
+
+
+def test_the_certificate_of_trees_agrees_and_can_say_no():
+    model = leg(effects='[effects]\nviscous = "all"\ncoulomb = "all"\n')
+    K = geometry_field(model.geometry)
+    relations = column_relations(model, model.geometry, K, 2)
+    assert certificate(model.geometry, model.columns, K, relations, 5).rank == len(relations.kept)
+    index = next(i for i, row in enumerate(relations.rows) if len(row) > 1)
+    row = dict(relations.rows[index])
+    row[relations.dropped[index]] = K.one * 2
+    rows = (*relations.rows[:index], row, *relations.rows[index + 1 :])
+    with pytest.raises(NotProved, match="does not hold"):
+        certificate(model.geometry, model.columns, K, dataclasses.replace(relations, rows=rows), 5)
+
+
+@pytest.mark.parametrize(
+    ("length", "message"),
+    [
+        ("2147483647", "what depends on what"),
+        ("1/2147483647", "no value modulo a prime"),
+    ],
+)
+def test_multiples_of_the_primes(length, message):
+    """A length that is zero, or infinite, modulo a prime must not pass for one that is."""
+    model = leg(changes=(('"D4"', f'"{length}"'),), **NO_LINK_5)
+    with pytest.raises(TooLarge, match=message):
+        relations_of(model)
+
+
+def test_coefficients_that_would_fill_pages_are_numbers():
+    """Four general twists between joints that go two by two."""
+    symbols = "".join(f"a{i} = {0.3 + 0.1 * i}\n" for i in range(1, 5))
+    rows = "".join(
+        f'["{j}", "{j - 1}", "a{j}", "L", "{"q1" if j == 3 else f"q{j}"}", "L"],\n'
+        for j in range(1, 5)
+    )
+    model = derive_model(
+        robot_from_text(
+            f'name = "t"\ngravity = [0, 0, "-g"]\n[symbols]\ng = 9.81\nL = 0.4\n{symbols}[mdh]\n'
+            f'columns = ["j", "a", "alpha", "d", "theta", "r"]\nrows = [\n{rows}]\n',
+            "t",
+        )
+    )
+    base = base_parameters(model)
+    assert base.proof.kind == "numeric"
+    assert re.search(r"No exact proof: a coefficient has up to \d+ terms", base.proof.statement)
+    assert base.rank == seen(model)
+    assert base.proof.agreement < 1e-9
