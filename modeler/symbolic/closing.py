@@ -104,29 +104,50 @@ class Closing:
         return u
 
 
-def closed_home(
+def closed_near(
     closing: Closing, start: np.ndarray, robot: Robot, owners: Sequence[str]
 ) -> np.ndarray:
-    """The posture [home], closed: passive joints first, and if that fails all joints move.
+    """A closed posture near `start`; all joints may move.
 
     Raises:
-        LoopError: no closed posture near; names the loop that stays open.
+        LoopError: there is none near; names the loop that stays open.
+    """
+    found = closing.closed(start[None], range(closing.unknowns))[0]
+    if np.all(np.isfinite(found)):
+        return found
+    f = np.abs(closing.residuals(start[None])[0])
+    worst = int(np.argmax(f))
+    raise LoopError(
+        f'{robot.name}: [home]: loop "{owners[worst]}" cannot close near that posture (open by '
+        f"{f[worst]:.3g}); state values near a closed one, and check the lengths"
+    )
+
+
+def closed_home(closing: Closing, start: np.ndarray, near: np.ndarray, robot: Robot) -> np.ndarray:
+    """The posture [home], closed by the passive joints.
+
+    Args:
+        closing: the loops.
+        start: [home] as stated.
+        near: a closed posture near it.
+        robot: for the message.
+
+    Raises:
+        LoopError: the passive joints cannot close it, or only with axes opposite.
     """
     home = _nearest(closing, start)
     if home is not None:
         return home
-    f = np.abs(closing.residuals(start[None])[0])
-    worst = int(np.argmax(f))
-    every = closing.closed(start[None], range(closing.unknowns))[0]
-    if np.all(np.isfinite(every)):
-        names = [joint.name for joint in robot.free]
-        near = ", ".join(f"q{names[k]} = {every[k]:.4g}" for k in closing.given)
-        advice = f"it closes with {near}"
-    else:
-        advice = "state values near a closed posture, and check the lengths"
+    names = [joint.name for joint in robot.free]
+    found = ", ".join(f"q{names[k]} = {near[k]:.4g}" for k in closing.given)
+    if closing.aligned(near[None])[0]:
+        raise LoopError(
+            f"{robot.name}: [home]: the loops do not close with the actuated joints as stated; "
+            f"they do with {found}"
+        )
     raise LoopError(
-        f'{robot.name}: [home]: loop "{owners[worst]}" does not close from there (open by '
-        f"{f[worst]:.3g}); {advice}"
+        f"{robot.name}: [home]: the loops close with axes opposite only; turn a passive joint of "
+        "[home] by pi"
     )
 
 

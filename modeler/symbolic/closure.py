@@ -17,7 +17,7 @@ import scipy.linalg
 
 from modeler.core.errors import LoopError
 from modeler.symbolic.algebra import GraphAlgebra
-from modeler.symbolic.closing import Closing, closed_home, moved_postures
+from modeler.symbolic.closing import Closing, closed_home, closed_near, moved_postures
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
@@ -72,10 +72,16 @@ def closure_of(
         return None
     closing, owners = _all_equations(geometry, graph, frames, algebra)
     start = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free])
-    home = closed_home(closing, start, robot, owners)
-    chosen = _independent(closing, home, geometry, owners)
+    if not closing.equations:
+        if closing.solved:
+            raise LoopError(_mobility(closing, geometry, np.zeros((1, len(start))), owners))
+        return None
+    near = closed_near(closing, start, robot, owners)
+    _check_mobility(closing, near, geometry, owners)
+    home = closed_home(closing, start, near, robot)
     if not closing.solved:
         return None
+    chosen = _independent(closing, home, geometry)
     jacobian = tuple(tuple(closing.jacobian[i]) for i in chosen)
     return Closure(
         given=closing.given,
@@ -128,25 +134,36 @@ def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Exp
     return derivatives(rates, {f"q[{k}]": speeds[k] for k in range(n)})
 
 
-def _independent(
-    closing: Closing, home: np.ndarray, geometry: Geometry, owners: Sequence[str]
-) -> list[int]:
+def _check_mobility(
+    closing: Closing, near: np.ndarray, geometry: Geometry, owners: Sequence[str]
+) -> None:
+    """The loops leave as much free as is actuated, and the actuated joints drive it.
+
+    Raises:
+        LoopError: they do not.
+    """
+    postures = moved_postures(closing, near, np.random.default_rng(_SEED), _SAMPLES)
+    J = closing.scaled_jacobian(postures)
+    ranks = [_rank(sample) for sample in J]
+    if closing.unknowns - max(ranks) != len(closing.given):
+        raise LoopError(_mobility(closing, geometry, J[int(np.argmax(ranks))], owners))
+    inner = J[:, :, list(closing.solved)]
+    best = inner[max(range(len(inner)), key=lambda i: _rank(inner[i]))]
+    if _rank(best) < len(closing.solved):
+        raise LoopError(
+            f"{geometry.robot.name}: {_moving_names(closing, geometry, best)} can move with all "
+            "actuated joints locked, and the actuated joints are tied to each other; actuate "
+            "others (mu 1)"
+        )
+
+
+def _independent(closing: Closing, home: np.ndarray, geometry: Geometry) -> list[int]:
     """Numbers of as many independent equations as there are variables to solve for.
 
     Raises:
-        LoopError: they leave more or less free than is actuated, or are singular at home.
+        LoopError: they are singular at home.
     """
-    postures = moved_postures(closing, home, np.random.default_rng(_SEED), _SAMPLES)
-    J = closing.scaled_jacobian(postures)
-    ranks = [_rank(sample) for sample in J]
-    free = closing.unknowns - max(ranks)
-    if free != len(closing.given):
-        raise LoopError(_mobility(closing, geometry, J[int(np.argmax(ranks))], free, owners))
-    inner = J[:, :, list(closing.solved)]
-    best = max(range(len(inner)), key=lambda i: _rank(inner[i]))
     at_home = closing.scaled_jacobian(home[None])[0][:, list(closing.solved)]
-    if _rank(inner[best]) < len(closing.solved):
-        raise LoopError(_undriven(closing, geometry, inner[best]))
     if _rank(at_home) < len(closing.solved):
         raise LoopError(
             f"{geometry.robot.name}: the loops are singular at [home]: "
@@ -164,8 +181,8 @@ def _rank(matrix: np.ndarray) -> int:
 
 def _moving_names(closing: Closing, geometry: Geometry, inner: np.ndarray) -> str:
     """The solved joints that take part in a motion which the equations do not stop."""
-    _, singular, vt = np.linalg.svd(inner, full_matrices=True)
-    rank = int(np.sum(singular > _RANK * singular[0]))
+    _, _, vt = np.linalg.svd(inner, full_matrices=True)
+    rank = _rank(inner)
     share = np.max(np.abs(vt[rank:]), axis=0)
     free = geometry.robot.free
     names = [
@@ -174,10 +191,8 @@ def _moving_names(closing: Closing, geometry: Geometry, inner: np.ndarray) -> st
     return f"joint{'s' if len(names) > 1 else ''} " + ", ".join(names)
 
 
-def _mobility(
-    closing: Closing, geometry: Geometry, J: np.ndarray, free: int, owners: Sequence[str]
-) -> str:
-    robot = geometry.robot
+def _mobility(closing: Closing, geometry: Geometry, J: np.ndarray, owners: Sequence[str]) -> str:
+    robot, free = geometry.robot, closing.unknowns - _rank(J)
     actuated = ", ".join(joint.name for joint in robot.coordinates)
     told = f"{robot.name}: the loops leave {free} degree{'s' if free != 1 else ''} of freedom"
     if free > len(closing.given):
@@ -200,14 +215,6 @@ def _strictest(closing: Closing, J: np.ndarray, owners: Sequence[str]) -> str:
     full = _rank(J)
     blamed = [name for name in names if _rank(J[[o != name for o in owners]]) < full]
     return ", ".join(f'"{name}"' for name in blamed or names)
-
-
-def _undriven(closing: Closing, geometry: Geometry, inner: np.ndarray) -> str:
-    return (
-        f"{geometry.robot.name}: {_moving_names(closing, geometry, inner)} can move with all "
-        "actuated joints locked, and the actuated joints are tied to each other; actuate others "
-        "(mu 1)"
-    )
 
 
 def _platform(closing: Closing, home: np.ndarray, geometry: Geometry) -> tuple[int, ...] | None:
