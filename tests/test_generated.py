@@ -4,7 +4,7 @@ import pytest
 
 from tests.modules import module
 
-KEPT = ("wrist", "orthoglide-leg-tree", "sr400-tree")
+KEPT = ("wrist", "orthoglide-leg-tree", "sr400-tree", "sr400", "orthoglide-2003", "five-bar")
 
 
 @pytest.mark.parametrize("name", KEPT)

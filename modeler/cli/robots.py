@@ -63,12 +63,15 @@ def run_robots(args: argparse.Namespace) -> Json:
     width = max(len(robot.name) for robot in robots)
     for robot in robots:
         effects = ", ".join(use.effect for use in robot.effects) or "rigid links only"
-        say(f"{robot.name:<{width}}  {len(robot.moving)} joints  {robot.title} ({effects})")
+        count = len(robot.coordinates)
+        tree = len(robot.moving)
+        joints = f"{count} joints" + (f" of {tree}" if tree > count else "")
+        say(f"{robot.name:<{width}}  {joints:<12}  {robot.title} ({effects})")
     return [
         {
             "name": robot.name,
             "title": robot.title,
-            "joints": [joint.name for joint in robot.moving],
+            "joints": [joint.name for joint in robot.coordinates],
             "effects": [use.effect for use in robot.effects],
         }
         for robot in robots

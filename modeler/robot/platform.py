@@ -30,7 +30,22 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
     """
     if value is None:
         return [], ()
-    table = table_at(value, place, _EXAMPLE)
+    name, motion = _stated(table_at(value, place, _EXAMPLE), place)
+    names = [name if len(step) == 1 else f"{name}{step[0]}" for step in _MOTIONS[motion]]
+    antecedents = ["0", *names]
+    rows = []
+    for step, own, antecedent in zip(_MOTIONS[motion], names, antecedents, strict=False):
+        sigma = int(step[-1])
+        row: Row = {
+            "j": own, "a": antecedent, "mu": 0, "sigma": sigma, "gamma": "pi/2", "alpha": "pi/2",
+            ("r" if sigma else "theta"): f"q{own}",
+        }  # fmt: skip
+        rows.append((row, place))
+    return rows, tuple(names)
+
+
+def _stated(table: dict[str, Any], place: Place) -> tuple[str, str]:
+    """Name and motion of the platform."""
     keys = ("name", "motion")
     for key in table:
         if key not in keys:
@@ -45,14 +60,4 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
     if motion not in _MOTIONS:
         hint = near(motion, _MOTIONS) if isinstance(motion, str) else ""
         raise place.at("motion").error(f"got {shown(motion)}{hint}; expected {listed(_MOTIONS)}")
-    names = [name if len(step) == 1 else f"{name}{step[0]}" for step in _MOTIONS[motion]]
-    antecedents = ["0", *names]
-    rows = []
-    for step, own, antecedent in zip(_MOTIONS[motion], names, antecedents, strict=False):
-        sigma = int(step[-1])
-        row: Row = {
-            "j": own, "a": antecedent, "mu": 0, "sigma": sigma, "gamma": "pi/2", "alpha": "pi/2",
-            ("r" if sigma else "theta"): f"q{own}",
-        }  # fmt: skip
-        rows.append((row, place))
-    return rows, tuple(names)
+    return name, motion

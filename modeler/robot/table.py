@@ -57,12 +57,7 @@ def table_rows(
         name = _row_name(row["j"], place.at(f"row {number}, column j"))
         here = place.at(f'row "{name}"')
         names = [earlier["j"] for earlier, _ in rows]
-        if name in names:
-            first = names.index(name) + 1 - len(platform)
-            where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
-            raise here.error(
-                f"the name {shown(name)} stands {where} {number}; give each row its own name"
-            )
+        _check_new(name, names, number, len(platform), here)
         row["j"] = name
         above = names[-1] if len(names) > len(platform) else "0"
         row["a"] = name_of(row.get("a", above))
@@ -73,6 +68,16 @@ def table_rows(
         )
     _check_antecedents(rows)
     return tuple(rows)
+
+
+def _check_new(name: str, names: list[str], number: int, platform: int, place: Place) -> None:
+    """Refuse a name that an earlier row has; `platform` rows stand before those of the table."""
+    if name in names:
+        first = names.index(name) + 1 - platform
+        where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
+        raise place.error(
+            f"the name {shown(name)} stands {where} {number}; give each row its own name"
+        )
 
 
 def table_joints(

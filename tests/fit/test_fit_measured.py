@@ -73,7 +73,7 @@ RUNS = {
             ("traj_2.parquet", "traj_4.parquet"),
             (28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9),
         ),
-        # Near the README's filter of 5.4 Hz; automatic processing gives 5.1 15.0 13.2 14.7 19.5 19.3 21.2.
+        # Near the README's filter of 5.4 Hz. Automatic: 5.1 15.0 13.2 14.7 19.5 19.3 21.2 %.
         Run(
             "dvrk-psm", "dvrk_psm", ("one.parquet",), ("two.parquet",),
             (4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5),

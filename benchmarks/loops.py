@@ -1,0 +1,68 @@
+"""Robots with loops: seconds to derive, emit and compile; microseconds per regressor in C.
+
+    python benchmarks/loops.py [ROBOT ...]
+
+`from home` closes the loops from the home posture for every sample, `from the last` from the sample
+before, as a controller does.
+"""
+
+import sys
+import time
+
+import numpy as np
+
+from modeler.base.numeric import random_states
+from modeler.compiled import CompiledModel, load
+from modeler.derivation import derive, generate
+from modeler.derivation import load as robot
+
+ROBOTS = (
+    "sr400", "dvrk-psm", "five-bar", "3rrr", "delta", "orthoglide-2003", "orthoglide-2012",
+    "stewart", "evra",
+)  # fmt: skip
+SAMPLES = 4000
+
+
+def motion(derivation, samples: int) -> list[np.ndarray]:
+    """A smooth motion around home: q, qd, qdd of the coordinates."""
+    model = derivation.model
+    states = random_states(model, 1, np.random.default_rng(1))
+    places = list(model.closure.given) if model.closure else range(states[0].shape[1])
+    q, qd, qdd = (x[0, list(places)] for x in states)
+    way = np.sin(np.linspace(0, 6 * np.pi, samples))[:, None]
+    return [np.ascontiguousarray(q + 0.01 * way), qd + 0 * way, qdd + 0 * way]
+
+
+def best(call, repeats: int = 3) -> float:
+    """Shortest time of a call, s."""
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def measure(name: str) -> None:
+    """One line of the table."""
+    start = time.perf_counter()
+    derivation = derive(robot(name))
+    derived = time.perf_counter()
+    emitted = generate(derivation)
+    written = time.perf_counter()
+    compiled: CompiledModel = load(emitted.spec, emitted.files)
+    built = time.perf_counter()
+    q, qd, qdd = motion(derivation, SAMPLES)
+    W = compiled.observation(q, qd, qdd)
+    cold = best(lambda: compiled.base_regressor(q, qd, qdd)) / SAMPLES
+    warm = best(lambda: compiled.observation(q, qd, qdd, W)) / SAMPLES
+    print(
+        f"{name:<16} {derivation.base.rank:>4} {derived - start:>9.2f} {written - derived:>8.2f} "
+        f"{built - written:>10.2f} {1e6 * cold:>10.2f} {1e6 * warm:>14.2f}"
+    )
+
+
+if __name__ == "__main__":
+    print(f"{'robot':<16} base  derive, s  emit, s  compile, s  from home, us  from the last, us")
+    for wanted in sys.argv[1:] or ROBOTS:
+        measure(wanted)

@@ -1,0 +1,105 @@
+"""Loops that leave too much or too little free, cannot close, or are singular: one line each."""
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError, LoopError, ModelerError, RobotError
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.simulate import SimulationSettings, simulate
+from modeler.symbolic import derive_model
+
+CRANK = """\
+name = "crank"
+gravity = [0, -9.81, 0]
+
+[symbols]
+R = 0.10
+L = 0.35
+
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 1, 0, 0, 0, 0, "q1", 0],
+  ["2", "1", 0, 0, 0, 0, "R", "q2", 0],
+  ["tip", "2", 0, 2, 0, 0, "L", 0, 0],
+  ["3", "0", 0, 1, "pi/2", "pi/2", 0, 0, "q3"],
+]
+
+[loops]
+rows = [["pin", "tip", "3", "position"]]
+
+[home]
+q1 = "pi/2"
+q2 = -1.86
+q3 = 0.33
+"""
+
+MISTAKES = [
+    ("two motors", '"3", "0", 0, 1', '"3", "0", 1, 1', "1 degree of freedom, 2 joints are actuated "
+     r"\(1, 3\): over-constrained by loop \"pin\"; close it by a joint that lets more free"),
+    ("loop that closes nothing", '"tip", "3", "position"', '"tip", "0", "planar"',
+     r"leave 3 degrees of freedom, 1 joints are actuated \(1\): under-constrained, joints 2, 3"),
+    ("home out of reach", "R = 0.10", "R = 0.45",
+     r"\[home\]: the loops do not close with the actuated joints as stated; they do with q1 = "),
+    ("lengths that never meet", '"R", "q2", 0]', '"R", "q2", 0.2]',
+     r'\[home\]: loop "pin" cannot close near that posture \(open by 0.2\); state values near'),
+    ("axes that never meet", '"position"', '"revolute"', 'loop "pin" cannot close near'),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "told"), [pytest.param(*m[1:], id=m[0]) for m in MISTAKES])
+def test_what_is_wrong_with_a_loop_is_told(old, new, told):
+    assert CRANK.count(old) == 1
+    with pytest.raises(LoopError, match=told) as caught:
+        derive_model(robot_from_text(CRANK.replace(old, new), "crank.toml"))
+    assert str(caught.value).startswith("crank: ") and "\n" not in str(caught.value)
+
+
+def test_the_crank_itself_is_right():
+    closure = derive_model(robot_from_text(CRANK, "crank.toml")).closure
+    assert closure is not None and len(closure.equations) == 2
+    q1, q2, q3 = closure.home
+    assert 0.10 * np.cos(q1) + 0.35 * np.cos(q1 + q2) == pytest.approx(q3, abs=1e-12)
+
+
+def test_a_singular_home_is_told():
+    """Forearms stretched over the tip: it could move across with the motors locked."""
+    text = builtin_text("five-bar").replace("L0 = 0.20 ", "L0 = 0.82 ")
+    for name, value in {"q11": "pi/2", "q21": "-pi/2", "q12": "pi/2", "q22": "pi/2"}.items():
+        old = next(line for line in text.splitlines() if line.startswith(f"{name} = "))
+        text = text.replace(old, f'{name} = "{value}"')
+    text = text.replace("L3 = 0.31 ", "L3 = 0.30 ")
+    with pytest.raises(LoopError, match=r"five-bar: the loops are singular at \[home\]: joints 21"):
+        derive_model(robot_from_text(text, "five-bar.toml"))
+
+
+def test_opposite_axes_are_not_a_closed_loop():
+    """The parallelogram's frames 9 and 10 must coincide, not stand back to back."""
+    text = builtin_text("sr400").replace('q9 = "1.3 + pi"', "q9 = 1.3")
+    relations = derive_model(robot_from_text(text, "sr400.toml")).robot.relations
+    assert relations["9"].text in ("-q2 + q7 + pi", "-q2 + q7 - pi")
+
+
+def test_motion_out_of_reach_is_told_by_the_simulator():
+    text = builtin_text("orthoglide-2003").replace("[0.10, 0.28, 0.8, 8]", "[-0.60, 0.98, 0.8, 8]")
+    robot = robot_from_text(text, "orthoglide.toml")
+    with pytest.raises(DataError, match=r"the loops of orthoglide-2003 do not close .* \[limits\]"):
+        simulate(robot, SimulationSettings(duration=4, rate=50))
+
+
+def test_free_joints_without_motor_are_told_by_the_simulator():
+    with pytest.raises(RobotError, match="joints 2, 3 move freely and have no motor"):
+        simulate(read_robot("orthoglide-leg"))
+
+
+def test_closed_forms_of_tied_robots_are_refused(capsys):
+    from modeler.cli import main
+
+    assert main(["derive", "five-bar", "--closed-form"]) == 1
+    assert (
+        "closed forms and coefficients are written for serial and tree" in capsys.readouterr().err
+    )
+
+
+def test_loop_errors_are_the_users():
+    assert issubclass(LoopError, ModelerError)
