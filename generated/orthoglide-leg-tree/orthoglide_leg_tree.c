@@ -39,7 +39,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "52c1df86014b50fa";
+    return "54318dadfeac6fce";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
@@ -71,23 +71,23 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = qd[1]*c5;
+    const double t1 = c5*qd[1];
     const double t2 = qd[5]*qd[5];
-    const double t3 = qd[1]*s5;
+    const double t3 = s5*qd[1];
     const double t4 = t3*t1;
     const double t5 = c5*((t1*t1 + t2)*beta[30] + (qdd[5] - t4)*beta[31]);
     const double t6 = qd[2] + qd[3];
-    const double t7 = qd[1]*s2;
-    const double t8 = qd[1]*c2;
+    const double t7 = s2*qd[1];
+    const double t8 = c2*qd[1];
     const double t9 = c3*t7 + s3*t8;
     const double t10 = c4*t6 + s4*t9;
     const double t11 = c3*t8 - s3*t7;
     const double t12 = qd[4] + t11;
     const double t13 = t12*t12;
     const double t14 = qd[2]*t7;
-    const double t15 = qdd[1]*c2 - t14;
+    const double t15 = c2*qdd[1] - t14;
     const double t16 = qd[2]*t8;
-    const double t17 = qdd[1]*s2 + t16;
+    const double t17 = s2*qdd[1] + t16;
     const double t18 = c3*t15 - s3*t17 - qd[3]*t9;
     const double t19 = qdd[4] + t18;
     const double t20 = c4*t9 - s4*t6;
@@ -113,9 +113,9 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     const double t40 = qd[1]*qd[1];
     const double t41 = t38 - s2*((t7*t7 + t33)*beta[10] - t37*beta[9] + t36) + t39;
     const double t42 = qd[5]*t3;
-    const double t43 = qdd[1]*c5 - t42;
+    const double t43 = c5*qdd[1] - t42;
     const double t44 = qd[5]*t1;
-    const double t45 = qdd[1]*s5 + t44;
+    const double t45 = s5*qdd[1] + t44;
     const double t46 = s4*t22 + c4*t23 + ((t28 + t11*t6)*beta[17] - (t18 - t9*t6)*beta[16]);
     const double t47 = t14 - t15;
     const double t48 = (t42 - t43)*beta[30] + (t44 + t45)*beta[31];
@@ -124,13 +124,13 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     tau[0] = t50 + c1*(t40*beta[3] - qdd[1]*beta[2] + t49) + qdd[0]*beta[0];
     const double t51 = t3*beta[27] + t1*beta[28] - qd[5]*beta[29];
     const double t52 = t3*beta[26] - qd[5]*beta[28];
-    const double t53 = qdd[0]*c1;
+    const double t53 = c1*qdd[0];
     const double t54 = t1*t51 + qd[5]*t52 + (qdd[5]*beta[27] - (t45*beta[25] + t43*beta[26]));
     const double t55 = t3*beta[25] + t1*beta[26] - qd[5]*beta[27];
     const double t56 = c5*(qd[5]*t55 + t3*t51 + (t45*beta[26] - qdd[5]*beta[28]) - t53*beta[30]);
     const double t57 = t20*beta[20] - t10*beta[21] - t12*beta[22];
     const double t58 = t20*beta[19] - t12*beta[21];
-    const double t59 = qdd[0]*s1;
+    const double t59 = s1*qdd[0];
     const double t60 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t59;
     const double t61 = t60 + ORTHOGLIDE_LEG_TREE_GEO_D4*t37;
     const double t62 = c2*t59 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
@@ -315,14 +315,14 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = qd[1]*c5;
+    const double t1 = c5*qd[1];
     const double t2 = qd[5]*qd[5];
-    const double t3 = qd[1]*s5;
+    const double t3 = s5*qd[1];
     const double t4 = t3*t1;
     const double t5 = c5*((t1*t1 + t2)*beta[30] - t4*beta[31]);
     const double t6 = qd[2] + qd[3];
-    const double t7 = qd[1]*s2;
-    const double t8 = qd[1]*c2;
+    const double t7 = s2*qd[1];
+    const double t8 = c2*qd[1];
     const double t9 = c3*t7 + s3*t8;
     const double t10 = c4*t6 + s4*t9;
     const double t11 = c3*t8 - s3*t7;
@@ -452,7 +452,7 @@ void orthoglide_leg_tree_base_parameters(const double *chi, double *restrict bet
     beta[31] = chi[57];
 }
 
-/* Pose of the frame of every joint, as in the robot's table.
+/* Poses of the frames of all moving rows of the table, in order.
  * 12 additions, 33 multiplications. */
 void orthoglide_leg_tree_forward_kinematics(const double *q, double *restrict T)
 {

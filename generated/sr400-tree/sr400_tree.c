@@ -51,7 +51,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "5a3bf3a0d4191c4d";
+    return "41e28af3cff9bc4a";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
@@ -87,17 +87,17 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
     double s7, c7;
     modeler_sincos(q[7], &s7, &c7);
 
-    const double t1 = qd[0]*c6;
-    const double t2 = qd[0]*s6;
+    const double t1 = c6*qd[0];
+    const double t2 = s6*qd[0];
     const double t3 = c7*t1 - s7*t2;
     const double t4 = c7*t2 + s7*t1;
     const double t5 = qd[6] + qd[7];
     const double t6 = t4*beta[45] + t3*beta[46] - t5*beta[47];
     const double t7 = t4*beta[44] - t5*beta[46];
     const double t8 = qd[6]*t1;
-    const double t9 = qdd[0]*s6 + t8;
+    const double t9 = s6*qdd[0] + t8;
     const double t10 = qd[6]*t2;
-    const double t11 = qdd[0]*c6 - t10;
+    const double t11 = c6*qdd[0] - t10;
     const double t12 = c7*t9 + s7*t11 + qd[7]*t3;
     const double t13 = c7*t11 - s7*t9 - qd[7]*t4;
     const double t14 = qdd[6] + qdd[7];
@@ -117,8 +117,8 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
     const double t28 = c6*(s7*t19 - c7*t21 - SR400_TREE_GEO_D8*t25 - t27);
     const double t29 = SR400_TREE_GEO_D2*(t25 - (t16*beta[41] + (t8 + t9)*beta[42]));
     const double t30 = qd[1] + qd[2];
-    const double t31 = qd[0]*s1;
-    const double t32 = qd[0]*c1;
+    const double t31 = s1*qd[0];
+    const double t32 = c1*qd[0];
     const double t33 = c2*t31 + s2*t32;
     const double t34 = c3*t30 - s3*t33;
     const double t35 = qd[4] + t34;
@@ -133,9 +133,9 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
     const double t44 = t41*beta[31] + t40*beta[32] - t43*beta[33];
     const double t45 = t41*beta[30] - t43*beta[32];
     const double t46 = qd[1]*t32;
-    const double t47 = qdd[0]*s1 + t46;
+    const double t47 = s1*qdd[0] + t46;
     const double t48 = qd[1]*t31;
-    const double t49 = qdd[0]*c1 - t48;
+    const double t49 = c1*qdd[0] - t48;
     const double t50 = c2*t47 + s2*t49 + qd[2]*t37;
     const double t51 = qdd[1] + qdd[2];
     const double t52 = c3*t50 + s3*t51 + qd[3]*t34;
@@ -511,8 +511,8 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
     double s7, c7;
     modeler_sincos(q[7], &s7, &c7);
 
-    const double t1 = qd[0]*c6;
-    const double t2 = qd[0]*s6;
+    const double t1 = c6*qd[0];
+    const double t2 = s6*qd[0];
     const double t3 = c7*t1 - s7*t2;
     const double t4 = qd[6] + qd[7];
     const double t5 = t3*t4;
@@ -534,8 +534,8 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
     const double t21 = s7*t12 + c7*t14 - SR400_TREE_GEO_D8*t19;
     const double t22 = SR400_TREE_GEO_D2*(2.0*t10*beta[41] + 2.0*t15*beta[42] + t19);
     const double t23 = qd[1] + qd[2];
-    const double t24 = qd[0]*s1;
-    const double t25 = qd[0]*c1;
+    const double t24 = s1*qd[0];
+    const double t25 = c1*qd[0];
     const double t26 = c2*t24 + s2*t25;
     const double t27 = c3*t23 - s3*t26;
     const double t28 = qd[4] + t27;
@@ -755,7 +755,7 @@ void sr400_tree_base_parameters(const double *chi, double *restrict beta)
     beta[49] = chi[77];
 }
 
-/* Pose of the frame of every joint, as in the robot's table.
+/* Poses of the frames of all moving rows of the table, in order.
  * 38 additions, 80 multiplications. */
 void sr400_tree_forward_kinematics(const double *q, double *restrict T)
 {

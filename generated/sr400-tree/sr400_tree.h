@@ -268,7 +268,7 @@ void sr400_tree_friction(const double *qd, const double *beta, double *tau);
  */
 void sr400_tree_base_parameters(const double *chi, double *beta);
 
-/* Pose of the frame of every joint, as in the robot's table.
+/* Poses of the frames of all moving rows of the table, in order.
  *
  * x0 = R x + p with T = [R | p], for a point x of the frame
  *

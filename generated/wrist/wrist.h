@@ -181,7 +181,7 @@ void wrist_friction(const double *qd, const double *beta, double *tau);
  */
 void wrist_base_parameters(const double *chi, double *beta);
 
-/* Pose of the frame of every joint, as in the robot's table.
+/* Poses of the frames of all moving rows of the table, in order.
  *
  * x0 = R x + p with T = [R | p], for a point x of the frame
  *

@@ -1,0 +1,230 @@
+/* Planar five-bar, two actuated joints at the base
+ *
+ * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
+ * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
+ *
+ * Joints, in the order of q, qd, qdd, tau: 11, 12.
+ * SI units. Matrices are row-major. Outputs must not overlap inputs.
+ *
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#ifndef FIVE_BAR_H
+#define FIVE_BAR_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FIVE_BAR_JOINTS 2
+#define FIVE_BAR_STANDARD_PARAMETERS 40
+#define FIVE_BAR_BASE_PARAMETERS 11
+#define FIVE_BAR_FREE_VARIABLES 4
+
+/* chi: standard parameters, columns of five_bar_regressor
+ *
+ *    0  XX11     kg m2
+ *    1  XY11     kg m2
+ *    2  XZ11     kg m2
+ *    3  YY11     kg m2
+ *    4  YZ11     kg m2
+ *    5  ZZ11     kg m2
+ *    6  MX11     kg m
+ *    7  MY11     kg m
+ *    8  MZ11     kg m
+ *    9  M11      kg
+ *   10  XX21     kg m2
+ *   11  XY21     kg m2
+ *   12  XZ21     kg m2
+ *   13  YY21     kg m2
+ *   14  YZ21     kg m2
+ *   15  ZZ21     kg m2
+ *   16  MX21     kg m
+ *   17  MY21     kg m
+ *   18  MZ21     kg m
+ *   19  M21      kg
+ *   20  XX12     kg m2
+ *   21  XY12     kg m2
+ *   22  XZ12     kg m2
+ *   23  YY12     kg m2
+ *   24  YZ12     kg m2
+ *   25  ZZ12     kg m2
+ *   26  MX12     kg m
+ *   27  MY12     kg m
+ *   28  MZ12     kg m
+ *   29  M12      kg
+ *   30  XX22     kg m2
+ *   31  XY22     kg m2
+ *   32  XZ22     kg m2
+ *   33  YY22     kg m2
+ *   34  YZ22     kg m2
+ *   35  ZZ22     kg m2
+ *   36  MX22     kg m
+ *   37  MY22     kg m
+ *   38  MZ22     kg m
+ *   39  M22      kg
+ */
+
+/* beta: base parameters, columns of five_bar_base_regressor
+ *
+ *    0  ZZ11R = ZZ11 + L1**2*M21 + L1**2/L4*MX22  [kg m2]
+ *    1  MX11R = MX11 + L1*M21 + L1/L4*MX22  [kg m]
+ *    2  MY11  [kg m]
+ *    3  ZZ21R = ZZ21 + L2**2/L4*MX22  [kg m2]
+ *    4  MX21R = MX21 + L2/L4*MX22  [kg m]
+ *    5  MY21  [kg m]
+ *    6  ZZ12R = ZZ12 - L3**2/L4*MX22 + L3**2*M22  [kg m2]
+ *    7  MX12R = MX12 - L3/L4*MX22 + L3*M22  [kg m]
+ *    8  MY12  [kg m]
+ *    9  ZZ22R = ZZ22 - L4*MX22  [kg m2]
+ *   10  MY22  [kg m]
+ */
+
+/* u: free variables of the opened tree: 11, 21, 12, 22
+ *
+ * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
+ * straight way from the home posture to these values; 2 singular posture; 3 a value is not finite.
+ * Outputs are NaN unless it is 0. The assembly mode is that of the home posture.
+ */
+
+/* Tells whether this code belongs to a manifest. */
+const char *five_bar_signature(void);
+
+/* Regressor of the standard parameters.
+ *
+ * tau = phi chi
+ *
+ * q      2        joint positions [rad]
+ * qd     2        joint velocities [rad/s]
+ * qdd    2        joint accelerations [rad/s2]
+ * phi    2 x 40   torque per unit of each standard parameter, row-major [SI]
+ */
+int five_bar_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* Regressor of the base parameters.
+ *
+ * tau = phi beta
+ *
+ * q      2        joint positions [rad]
+ * qd     2        joint velocities [rad/s]
+ * qdd    2        joint accelerations [rad/s2]
+ * phi    2 x 11   torque per unit of each base parameter, row-major [SI]
+ */
+int five_bar_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* Torques that move the closed robot so.
+ *
+ * tau = M qdd + c + g + f
+ *
+ * q      2        joint positions [rad]
+ * qd     2        joint velocities [rad/s]
+ * qdd    2        joint accelerations [rad/s2]
+ * beta   11       base parameters [SI]
+ * tau    2        joint torques or forces [N m]
+ */
+int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                              const double *beta, double *tau);
+
+/* Torques that hold the robot still, without friction.
+ *
+ * g(q) = tau(q, 0, 0) without effects
+ *
+ * q      2        joint positions [rad]
+ * beta   11       base parameters [SI]
+ * tau    2        joint torques or forces [N m]
+ */
+int five_bar_gravity(const double *q, const double *beta, double *tau);
+
+/* Coriolis and centripetal torques.
+ *
+ * c(q, qd) = tau(q, qd, 0) without gravity, friction and offsets
+ *
+ * q      2        joint positions [rad]
+ * qd     2        joint velocities [rad/s]
+ * beta   11       base parameters [SI]
+ * tau    2        joint torques or forces [N m]
+ */
+int five_bar_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+
+/* Torques of all effects but rotor inertias: friction, offsets.
+ *
+ * f(q, qd)
+ *
+ * q      2        joint positions [rad]
+ * qd     2        joint velocities [rad/s]
+ * beta   11       base parameters [SI]
+ * tau    2        joint torques or forces [N m]
+ */
+int five_bar_friction(const double *q, const double *qd, const double *beta, double *tau);
+
+/* Inertia matrix, rotor inertias included; symmetric.
+ *
+ * tau = M(q) qdd + ...
+ *
+ * q      2        joint positions [rad]
+ * beta   11       base parameters [SI]
+ * M      2 x 2    inertia matrix, row-major [kg m2, kg m or kg]
+ */
+int five_bar_inertia_matrix(const double *q, const double *beta, double *M);
+
+/* Pose of the frame of every moving row of the table.
+ *
+ * x0 = R x + p with T = [R | p], for a point x of the frame
+ *
+ * q      2         joint positions [rad]
+ * T      4 x 3 x 4 poses [R | p] of rows 11, 21, 12, 22 in frame 0, row-major [1 | m]
+ */
+int five_bar_forward_kinematics(const double *q, double *T);
+
+/* Closed posture, on a straight way from home.
+ *
+ * f(u) = 0
+ *
+ * q      2        joint positions [rad]
+ * u      4        free variables of the opened tree [rad or m]
+ */
+int five_bar_close(const double *q, double *u);
+
+/* Closed posture, on a straight way from another one, such as the last.
+ *
+ * f(u) = 0
+ *
+ * q      2        joint positions [rad]
+ * start  4        a closed posture to start from [rad or m]
+ * u      4        free variables of the opened tree [rad or m]
+ */
+int five_bar_close_from(const double *q, const double *start, double *u);
+
+/* Speeds of the free variables; rows of the platform are its Jacobian.
+ *
+ * ud = G qd
+ *
+ * q      2        joint positions [rad]
+ * G      4 x 2    d u / d q, row-major [SI]
+ */
+int five_bar_coupling(const double *q, double *G);
+
+/* Base parameters from standard ones: the grouping relations.
+ *
+ * beta = K chi
+ *
+ * chi    40       standard parameters [SI]
+ * beta   11       base parameters [SI]
+ */
+void five_bar_base_parameters(const double *chi, double *beta);
+
+/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+ *
+ * q qd qdd  samples x 2
+ * W         (samples*2) x 11
+ * status    samples
+ */
+void five_bar_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                          double *W, int *status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,239 @@
+/* Planar five-bar, two actuated joints at the base
+ *
+ * Closing the loops around the functions of the opened tree; see five_bar.h.
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#include "five_bar.h"
+
+#include "modeler_closure.h"
+#include "five_bar_tree.h"
+
+/* Free variables u: 11, 21, 12, 22. */
+static const double home[4] = {
+    2.2, -1.370417319700625, 0.9, 1.4635998467408846
+};
+static const double scale[4] = {
+    1.0, 1.0, 1.0, 1.0
+};
+static const int given[2] = { 0, 2 };
+static const int solved[2] = { 1, 3 };
+static const modeler_closure loops = {
+    4, 2, 2, given, solved, scale, five_bar_tree_closure
+};
+
+const char *five_bar_signature(void)
+{
+    return "ee629981fd707700";
+}
+
+/* Each sample starts from the one before; where that fails, from home. */
+void five_bar_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                          double *restrict W, int *status)
+{
+    double u[4], ud[4], udd[4];
+    double G[8], rows[4 * FIVE_BAR_BASE_PARAMETERS];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    const size_t width = (size_t)FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS;
+
+    for (size_t i = 0; i < samples; i++) {
+        const size_t at = i * FIVE_BAR_JOINTS;
+        int found = MODELER_OPEN;
+
+        if (i > 0 && status[i - 1] == MODELER_CLOSED)
+            found = modeler_close(&loops, q + at, u, u, work);
+        if (found != MODELER_CLOSED)
+            found = modeler_close(&loops, q + at, home, u, work);
+        if (found == MODELER_CLOSED)
+            found = modeler_follow(&loops, five_bar_tree_drift, u, qd + at, qdd + at, G, ud, udd, work);
+        if (found == MODELER_CLOSED) {
+            five_bar_tree_base_regressor(u, ud, udd, rows);
+            modeler_project(&loops, G, rows, FIVE_BAR_BASE_PARAMETERS, W + i * width);
+        } else {
+            modeler_nothing(W + i * width, width);
+        }
+        status[i] = found;
+    }
+}
+
+/* Regressor of the standard parameters. */
+int five_bar_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+{
+    double u[4], G[8], ud[4], udd[4], rows[160];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 80);
+        return status;
+    }
+    five_bar_tree_regressor(u, ud, udd, rows);
+    modeler_project(&loops, G, rows, 40, phi);
+    return MODELER_CLOSED;
+}
+
+/* Regressor of the base parameters. */
+int five_bar_base_regressor(const double *q, const double *qd, const double *qdd,
+                            double *restrict phi)
+{
+    double u[4], G[8], ud[4], udd[4], rows[44];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 22);
+        return status;
+    }
+    five_bar_tree_base_regressor(u, ud, udd, rows);
+    modeler_project(&loops, G, rows, 11, phi);
+    return MODELER_CLOSED;
+}
+
+/* Torques that move the closed robot so. */
+int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                              const double *beta, double *restrict tau)
+{
+    double u[4], G[8], ud[4], udd[4], rows[4];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 2);
+        return status;
+    }
+    five_bar_tree_inverse_dynamics(u, ud, udd, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Torques that hold the robot still, without friction. */
+int five_bar_gravity(const double *q, const double *beta, double *restrict tau)
+{
+    double u[4], G[8], rows[4];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 2);
+        return status;
+    }
+    five_bar_tree_gravity(u, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Coriolis and centripetal torques. */
+int five_bar_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+{
+    double u[4], G[8], ud[4], udd[4], rows[4];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    static const double standing[2] = {0.0};
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 2);
+        return status;
+    }
+    five_bar_tree_coriolis(u, ud, udd, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Torques of all effects but rotor inertias: friction, offsets. */
+int five_bar_friction(const double *q, const double *qd, const double *beta, double *restrict tau)
+{
+    double u[4], G[8], ud[4], udd[4], rows[4];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    static const double standing[2] = {0.0};
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 2);
+        return status;
+    }
+    five_bar_tree_friction(ud, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Inertia matrix, rotor inertias included; symmetric. */
+int five_bar_inertia_matrix(const double *q, const double *beta, double *restrict M)
+{
+    double u[4], G[8], rows[16];
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double half[8];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(M, 4);
+        return status;
+    }
+    five_bar_tree_inertia_matrix(u, beta, rows);
+    modeler_project(&loops, G, rows, 4, half);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 4; k++)
+            rows[k * 2 + i] = half[i * 4 + k];
+    modeler_project(&loops, G, rows, 2, M);
+    return MODELER_CLOSED;
+}
+
+/* Pose of the frame of every moving row of the table. */
+int five_bar_forward_kinematics(const double *q, double *restrict T)
+{
+    double u[4], work[MODELER_CLOSURE_WORK(4, 2)];
+    const int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        five_bar_tree_forward_kinematics(u, T);
+    else
+        modeler_nothing(T, 48);
+    return status;
+}
+
+/* Closed posture, on a straight way from home. */
+int five_bar_close(const double *q, double *restrict u)
+{
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    const int status = modeler_close(&loops, q, home, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 4);
+    return status;
+}
+
+/* Closed posture, on a straight way from another one, such as the last. */
+int five_bar_close_from(const double *q, const double *start, double *restrict u)
+{
+    double work[MODELER_CLOSURE_WORK(4, 2)];
+    const int status = modeler_close(&loops, q, start, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 4);
+    return status;
+}
+
+/* Speeds of the free variables; rows of the platform are its Jacobian. */
+int five_bar_coupling(const double *q, double *restrict G)
+{
+    double u[4], work[MODELER_CLOSURE_WORK(4, 2)];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED)
+        modeler_nothing(G, 8);
+    return status;
+}

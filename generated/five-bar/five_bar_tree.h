@@ -1,0 +1,23 @@
+/* Planar five-bar, two actuated joints at the base
+ *
+ * Functions of the opened tree, for five_bar_loops.c: q, qd, qdd are here the free variables
+ * u = 11, 21, 12, 22.
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#ifndef FIVE_BAR_TREE_H
+#define FIVE_BAR_TREE_H
+
+void five_bar_tree_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void five_bar_tree_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void five_bar_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                                    const double *beta, double *tau);
+void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *M);
+void five_bar_tree_gravity(const double *q, const double *beta, double *tau);
+void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd,
+                            const double *beta, double *tau);
+void five_bar_tree_friction(const double *qd, const double *beta, double *tau);
+void five_bar_tree_forward_kinematics(const double *q, double *T);
+void five_bar_tree_closure(const double *q, double *values);
+void five_bar_tree_drift(const double *q, const double *qd, double *values);
+
+#endif

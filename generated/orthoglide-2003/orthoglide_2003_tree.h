@@ -1,0 +1,25 @@
+/* Orthoglide, three translations (Guegan, Khalil, Lemoine 2003)
+ *
+ * Functions of the opened tree, for orthoglide_2003_loops.c: q, qd, qdd are here the free variables
+ * u = Px, Py, P, 11, 12, 13, 21, 31, 22, 32, 23, 33.
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#ifndef ORTHOGLIDE_2003_TREE_H
+#define ORTHOGLIDE_2003_TREE_H
+
+void orthoglide_2003_tree_regressor(const double *q, const double *qd, const double *qdd,
+                                    double *phi);
+void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, const double *qdd,
+                                         double *phi);
+void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                                           const double *beta, double *tau);
+void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta, double *M);
+void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *tau);
+void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const double *qdd,
+                                   const double *beta, double *tau);
+void orthoglide_2003_tree_friction(const double *qd, const double *beta, double *tau);
+void orthoglide_2003_tree_forward_kinematics(const double *q, double *T);
+void orthoglide_2003_tree_closure(const double *q, double *values);
+void orthoglide_2003_tree_drift(const double *q, const double *qd, double *values);
+
+#endif

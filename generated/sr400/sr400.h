@@ -1,0 +1,281 @@
+/* SR400, 6R arm with a parallelogram
+ *
+ * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
+ * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
+ *
+ * Joints, in the order of q, qd, qdd, tau: 1, 2, 4, 5, 6, 7.
+ * SI units. Matrices are row-major. Outputs must not overlap inputs.
+ *
+ * Emitted by modeler; changes are lost when it is emitted again.
+ */
+#ifndef SR400_H
+#define SR400_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SR400_JOINTS 6
+#define SR400_STANDARD_PARAMETERS 80
+#define SR400_BASE_PARAMETERS 39
+#define SR400_NONZEROS 126
+
+/* chi: standard parameters, columns of sr400_regressor
+ *
+ *    0  XX1      kg m2
+ *    1  XY1      kg m2
+ *    2  XZ1      kg m2
+ *    3  YY1      kg m2
+ *    4  YZ1      kg m2
+ *    5  ZZ1      kg m2
+ *    6  MX1      kg m
+ *    7  MY1      kg m
+ *    8  MZ1      kg m
+ *    9  M1       kg
+ *   10  XX2      kg m2
+ *   11  XY2      kg m2
+ *   12  XZ2      kg m2
+ *   13  YY2      kg m2
+ *   14  YZ2      kg m2
+ *   15  ZZ2      kg m2
+ *   16  MX2      kg m
+ *   17  MY2      kg m
+ *   18  MZ2      kg m
+ *   19  M2       kg
+ *   20  XX3      kg m2
+ *   21  XY3      kg m2
+ *   22  XZ3      kg m2
+ *   23  YY3      kg m2
+ *   24  YZ3      kg m2
+ *   25  ZZ3      kg m2
+ *   26  MX3      kg m
+ *   27  MY3      kg m
+ *   28  MZ3      kg m
+ *   29  M3       kg
+ *   30  XX4      kg m2
+ *   31  XY4      kg m2
+ *   32  XZ4      kg m2
+ *   33  YY4      kg m2
+ *   34  YZ4      kg m2
+ *   35  ZZ4      kg m2
+ *   36  MX4      kg m
+ *   37  MY4      kg m
+ *   38  MZ4      kg m
+ *   39  M4       kg
+ *   40  XX5      kg m2
+ *   41  XY5      kg m2
+ *   42  XZ5      kg m2
+ *   43  YY5      kg m2
+ *   44  YZ5      kg m2
+ *   45  ZZ5      kg m2
+ *   46  MX5      kg m
+ *   47  MY5      kg m
+ *   48  MZ5      kg m
+ *   49  M5       kg
+ *   50  XX6      kg m2
+ *   51  XY6      kg m2
+ *   52  XZ6      kg m2
+ *   53  YY6      kg m2
+ *   54  YZ6      kg m2
+ *   55  ZZ6      kg m2
+ *   56  MX6      kg m
+ *   57  MY6      kg m
+ *   58  MZ6      kg m
+ *   59  M6       kg
+ *   60  XX7      kg m2
+ *   61  XY7      kg m2
+ *   62  XZ7      kg m2
+ *   63  YY7      kg m2
+ *   64  YZ7      kg m2
+ *   65  ZZ7      kg m2
+ *   66  MX7      kg m
+ *   67  MY7      kg m
+ *   68  MZ7      kg m
+ *   69  M7       kg
+ *   70  XX8      kg m2
+ *   71  XY8      kg m2
+ *   72  XZ8      kg m2
+ *   73  YY8      kg m2
+ *   74  YZ8      kg m2
+ *   75  ZZ8      kg m2
+ *   76  MX8      kg m
+ *   77  MY8      kg m
+ *   78  MZ8      kg m
+ *   79  M8       kg
+ */
+
+/* beta: base parameters, columns of sr400_base_regressor
+ *
+ *    0  ZZ1R = ZZ1 + YY2 + D2**2*M2 + YY3 + (D2**2 + D3**2)*M3 + (D2**2 + D3**2 + D4**2)*M4 +
+ *         (D2**2 + D3**2 + D4**2)*M5 + (D2**2 + D3**2 + D4**2)*M6 + XX7 + D2**2*M7 + YY8 +
+ *         D2**2*M8  [kg m2]
+ *    1  XX2R = XX2 - YY2 - D3**2*M3 - D3**2*M4 - D3**2*M5 - D3**2*M6 + XX8 - YY8  [kg m2]
+ *    2  XY2R = XY2 + XY8  [kg m2]
+ *    3  XZ2R = XZ2 - D3*MZ3 + XZ8  [kg m2]
+ *    4  YZ2R = YZ2 + YZ8  [kg m2]
+ *    5  ZZ2R = ZZ2 + D3**2*M3 + D3**2*M4 + D3**2*M5 + D3**2*M6 + ZZ8  [kg m2]
+ *    6  MX2R = MX2 + D3*M3 + D3*M4 + D3*M5 + D3*M6 + MX8  [kg m]
+ *    7  MY2  [kg m]
+ *    8  XX3R = XX3 - YY3 + YY4 + 2*RL4*MZ4 + (-D4**2 + RL4**2)*M4 + (-D4**2 + RL4**2)*M5 + (-D4**2
+ *         + RL4**2)*M6 - XX7 + YY7 + D8**2*M8  [kg m2]
+ *    9  XY3R = XY3 - D4*MZ4 - D4*RL4*M4 - D4*RL4*M5 - D4*RL4*M6 - XY7  [kg m2]
+ *   10  XZ3R = XZ3 + YZ7  [kg m2]
+ *   11  YZ3R = YZ3 - XZ7 + D8*MZ8  [kg m2]
+ *   12  ZZ3R = ZZ3 + YY4 + 2*RL4*MZ4 + (D4**2 + RL4**2)*M4 + (D4**2 + RL4**2)*M5 + (D4**2 +
+ *         RL4**2)*M6 + ZZ7 + D8**2*M8  [kg m2]
+ *   13  MX3R = MX3 + D4*M4 + D4*M5 + D4*M6  [kg m]
+ *   14  MY3R = MY3 + MZ4 + RL4*M4 + RL4*M5 + RL4*M6 - D8/D3*MX8  [kg m]
+ *   15  XX4R = XX4 - YY4 + YY5  [kg m2]
+ *   16  XY4  [kg m2]
+ *   17  XZ4  [kg m2]
+ *   18  YZ4  [kg m2]
+ *   19  ZZ4R = ZZ4 + YY5  [kg m2]
+ *   20  MX4  [kg m]
+ *   21  MY4R = MY4 - MZ5  [kg m]
+ *   22  XX5R = XX5 - YY5 + YY6  [kg m2]
+ *   23  XY5  [kg m2]
+ *   24  XZ5  [kg m2]
+ *   25  YZ5  [kg m2]
+ *   26  ZZ5R = ZZ5 + YY6  [kg m2]
+ *   27  MX5  [kg m]
+ *   28  MY5R = MY5 + MZ6  [kg m]
+ *   29  XX6R = XX6 - YY6  [kg m2]
+ *   30  XY6  [kg m2]
+ *   31  XZ6  [kg m2]
+ *   32  YZ6  [kg m2]
+ *   33  ZZ6  [kg m2]
+ *   34  MX6  [kg m]
+ *   35  MY6  [kg m]
+ *   36  MX7R = MX7 - D8/D3*MX8 + D8*M8  [kg m]
+ *   37  MY7  [kg m]
+ *   38  MY8  [kg m]
+ */
+
+/* Where the values of sr400_base_regressor_nonzeros stand: joint and column. */
+extern const int sr400_nonzero_row[SR400_NONZEROS];
+extern const int sr400_nonzero_column[SR400_NONZEROS];
+
+/* Tells whether this code belongs to a manifest. */
+const char *sr400_signature(void);
+
+/* Regressor of the standard parameters.
+ *
+ * tau = phi chi
+ *
+ * q      6        joint positions [rad]
+ * qd     6        joint velocities [rad/s]
+ * qdd    6        joint accelerations [rad/s2]
+ * phi    6 x 80   torque per unit of each standard parameter, row-major [SI]
+ */
+void sr400_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* Regressor of the base parameters.
+ *
+ * tau = phi beta
+ *
+ * q      6        joint positions [rad]
+ * qd     6        joint velocities [rad/s]
+ * qdd    6        joint accelerations [rad/s2]
+ * phi    6 x 39   torque per unit of each base parameter, row-major [SI]
+ */
+void sr400_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* The entries of the base regressor that are not always 0.
+ *
+ * values[k] = phi[nonzero_row[k]][nonzero_column[k]]
+ *
+ * q      6        joint positions [rad]
+ * qd     6        joint velocities [rad/s]
+ * qdd    6        joint accelerations [rad/s2]
+ * values 126      entries, row after row [SI]
+ */
+void sr400_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
+                                   double *values);
+
+/* Joint torques, by the Newton-Euler recursion.
+ *
+ * tau = M(q) qdd + c(q, qd) + g(q) + f(qd)
+ *
+ * q      6        joint positions [rad]
+ * qd     6        joint velocities [rad/s]
+ * qdd    6        joint accelerations [rad/s2]
+ * beta   39       base parameters [SI]
+ * tau    6        joint torques or forces [N m]
+ */
+void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                            const double *beta, double *tau);
+
+/* Inertia matrix, rotor inertias included; symmetric.
+ *
+ * tau = M(q) qdd + ...
+ *
+ * q      6        joint positions [rad]
+ * beta   39       base parameters [SI]
+ * M      6 x 6    inertia matrix, row-major [kg m2, kg m or kg]
+ */
+void sr400_inertia_matrix(const double *q, const double *beta, double *M);
+
+/* Torques that hold the robot still, without friction.
+ *
+ * g(q) = tau(q, 0, 0) without effects
+ *
+ * q      6        joint positions [rad]
+ * beta   39       base parameters [SI]
+ * tau    6        joint torques or forces [N m]
+ */
+void sr400_gravity(const double *q, const double *beta, double *tau);
+
+/* Coriolis and centripetal torques.
+ *
+ * c(q, qd) = tau(q, qd, 0) without gravity and effects
+ *
+ * q      6        joint positions [rad]
+ * qd     6        joint velocities [rad/s]
+ * beta   39       base parameters [SI]
+ * tau    6        joint torques or forces [N m]
+ */
+void sr400_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+
+/* Torques of all effects but rotor inertias: friction, offsets.
+ *
+ * f(qd)
+ *
+ * qd     6        joint velocities [rad/s]
+ * beta   39       base parameters [SI]
+ * tau    6        joint torques or forces [N m]
+ */
+void sr400_friction(const double *qd, const double *beta, double *tau);
+
+/* Base parameters from standard ones: the grouping relations.
+ *
+ * beta = K chi
+ *
+ * chi    80       standard parameters [SI]
+ * beta   39       base parameters [SI]
+ */
+void sr400_base_parameters(const double *chi, double *beta);
+
+/* Poses of the frames of all moving rows of the table, in order.
+ *
+ * x0 = R x + p with T = [R | p], for a point x of the frame
+ *
+ * q      6         joint positions [rad]
+ * T      9 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
+ */
+void sr400_forward_kinematics(const double *q, double *T);
+
+/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+ *
+ * q qd qdd  samples x 6
+ * W         (samples*6) x 39
+ */
+void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                       double *W);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
