@@ -7,6 +7,7 @@ from modeler.cli.console import Json, progress, say
 from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.simulate import (
+    MOTIONS,
     SimulationSettings,
     check_suffix,
     simulate,
@@ -21,8 +22,8 @@ def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
         "simulate",
         help="measurements by forward simulation in closed loop",
         description="Simulates ROBOT under a controller that sees quantised encoders, and writes "
-        "the log that its logger would have written. Parameters that the robot file leaves open "
-        "are drawn from the seed.",
+        "the log that its logger would have written; a robot with loops carries out the commanded "
+        "motion exactly. Parameters that the robot file leaves open are drawn from the seed.",
         epilog="example: modeler simulate demo-arm --duration 30 --seed 1 --out run1.parquet",
     )
     add_robot(parser)
@@ -31,6 +32,11 @@ def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
     )
     parser.add_argument("--truth", metavar="FILE", help="write the true parameters as JSON")
     default = SimulationSettings()
+    parser.add_argument(
+        "--motion", choices=MOTIONS, default=default.motion,
+        help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
+        "[limits] allow (default %(default)s)",
+    )  # fmt: skip
     add_number(parser, "--duration", "S", float, "seconds", default.duration)
     add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)
     add_number(parser, "--seed", "N", int, "of motion and noise", default.seed)
@@ -55,6 +61,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
     check_suffix(Path(args.out))
     robot = robot_of(args)
     settings = SimulationSettings(
+        motion=args.motion,
         duration=args.duration,
         rate=args.rate,
         seed=args.seed,

@@ -1,7 +1,8 @@
 """Simulated measurements, by physics that share nothing with the regressor.
 
 Rigid links in the world frame, effects as torques on shafts, a controller that sees a quantised
-encoder: `simulate` gives a log as a machine would, and the truth beside it. Serial and tree robots.
+encoder: `simulate` gives a log as a machine would, and the truth beside it. Robots with loops carry
+out the commanded motion exactly, closed by equations that the modeling stages do not share.
 """
 
 from modeler.simulate.limits import motion_limits as motion_limits
@@ -13,4 +14,5 @@ from modeler.simulate.log import write_truth as write_truth
 from modeler.simulate.parameters import PlantParameters as PlantParameters
 from modeler.simulate.parameters import plant_parameters as plant_parameters
 from modeler.simulate.run import simulate as simulate
+from modeler.simulate.settings import MOTIONS as MOTIONS
 from modeler.simulate.settings import SimulationSettings as SimulationSettings

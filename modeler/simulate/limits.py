@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 
 from modeler.core.errors import RobotError
-from modeler.robot import Limits, Robot
+from modeler.robot import Joint, Limits, Robot
 
 REVOLUTE = Limits(lower=-1.5, upper=1.5, speed=2.0, acceleration=8.0)
 """Where the robot file says nothing: rad, rad/s, rad/s2."""
@@ -13,8 +13,13 @@ PRISMATIC = Limits(lower=-0.3, upper=0.3, speed=0.5, acceleration=3.0)
 """Where the robot file says nothing: m, m/s, m/s2."""
 
 
+_AROUND_HOME = 0.2  # of the defaults' range, for robots with loops
+
+
 def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> tuple[Limits, ...]:
     """Limits in the order of `robot.moving`: `changes`, else the robot file, else the defaults.
+
+    A robot with loops moves around its home by default, and less: it could not close far away.
 
     Raises:
         RobotError: limits of a joint that is not there, or an empty range.
@@ -26,9 +31,15 @@ def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> 
         if name not in names:
             raise RobotError(f"{where}: no such moving joint; expected one of {', '.join(names)}")
         _check(limits, where)
-    return tuple(
-        stated.get(joint.name, REVOLUTE if joint.angular else PRISMATIC) for joint in robot.moving
-    )
+    return tuple(stated.get(joint.name, _default(robot, joint)) for joint in robot.moving)
+
+
+def _default(robot: Robot, joint: Joint) -> Limits:
+    usual = REVOLUTE if joint.angular else PRISMATIC
+    if not robot.loops:
+        return usual
+    home, reach = robot.home.get(joint.name, 0.0), _AROUND_HOME * usual.upper
+    return Limits(home - reach, home + reach, usual.speed, usual.acceleration)
 
 
 def _check(limits: Limits, where: str) -> None:

@@ -49,33 +49,49 @@ def link_parameters(
             names the link.
     """
     drawn = _drawn_bodies(robot, pose, rng)
-    links, names = {}, []
+    links: dict[str, dict[str, float]] = {}
+    names: list[str] = []
     for joint in robot.moving:
         stated = stated_inertia(robot, joint.name)
         own = robot.inertial(joint.name)
         if len(own) < len(INERTIAL):
             guess = standard_from_body(drawn[joint.name])
             links[joint.name] = {p: stated.get(p, guess[p] if p in own else 0.0) for p in INERTIAL}
+            _check_few(robot, joint.name, links[joint.name])
             names += [f"{prefix}{joint.name}" for prefix in own if prefix not in stated]
             continue
         completion = completed(stated, standard_from_body(drawn[joint.name]))
         values = completion.values
         if values is None:
-            numbers = ", ".join(f"{prefix}{joint.name} = {v:g}" for prefix, v in stated.items())
-            where = f"robot {robot.name}, link {joint.name}"
-            if completion.impossible:
-                raise RobotError(
-                    f"{where}: no rigid body has the stated {numbers}; expected a mass above 0 "
-                    "and inertias that some distribution of that mass can have; correct them, or "
-                    "leave out what you do not know"
-                )
-            raise RobotError(
-                f"{where}: found no rigid body with the stated {numbers}, nor a proof that there "
-                "is none; state all ten parameters of the link, or fewer"
-            )
+            raise _no_body(robot, joint.name, stated, completion.impossible)
         links[joint.name] = {prefix: values[prefix] for prefix in INERTIAL}
         names += [f"{prefix}{joint.name}" for prefix in INERTIAL if prefix not in stated]
     return links, tuple(names)
+
+
+def _no_body(robot: Robot, link: str, stated: dict[str, float], impossible: bool) -> RobotError:
+    numbers = ", ".join(f"{prefix}{link} = {v:g}" for prefix, v in stated.items())
+    where = f"robot {robot.name}, link {link}"
+    if impossible:
+        return RobotError(
+            f"{where}: no rigid body has the stated {numbers}; expected a mass above 0 and "
+            "inertias that some distribution of that mass can have; correct them, or leave out "
+            "what you do not know"
+        )
+    return RobotError(
+        f"{where}: found no rigid body with the stated {numbers}, nor a proof that there is none; "
+        "state all ten parameters of the link, or fewer"
+    )
+
+
+def _check_few(robot: Robot, link: str, values: dict[str, float]) -> None:
+    """Nothing, unless a link without mass has first moments."""
+    moments = [f"{prefix}{link}" for prefix in ("MX", "MY", "MZ") if values[prefix]]
+    if moments and not values["M"]:
+        raise RobotError(
+            f"robot {robot.name}, link {link}: {', '.join(moments)} without a mass, which no body "
+            f"has; add M{link} under [links] and [parameters]"
+        )
 
 
 def _drawn_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> dict[str, Body]:
@@ -85,8 +101,11 @@ def _drawn_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> d
     weights = (lengths + 0.2 * lengths.mean()) * _THINNING ** np.array(
         [depth[name] for name in tips]
     )
-    total = _DENSITY * lengths.sum() ** 2
-    masses = total * weights / weights.sum()
+    # The longest chain weighs what an arm of its reach weighs; other branches as this one.
+    chain = _longest_chain(robot, dict(zip(tips, lengths, strict=True)))
+    on_it = np.array([name in chain for name in tips])
+    total = _DENSITY * lengths[on_it].sum() ** 2
+    masses = total * weights / weights[on_it].sum()
     return {
         name: _box(mass * rng.uniform(0.8, 1.2), tip, rng)
         for (name, tip), mass in zip(tips.items(), masses, strict=True)
@@ -136,6 +155,16 @@ def _owners(robot: Robot) -> dict[str, str]:
     for joint in robot.joints:
         owner[joint.name] = joint.name if joint.moves else owner[joint.antecedent]
     return owner
+
+
+def _longest_chain(robot: Robot, lengths: dict[str, float]) -> set[str]:
+    """The moving links from the base to the farthest tip, bars straightened out."""
+    reach, path = {BASE: 0.0}, {BASE: frozenset[str]()}
+    for joint in robot.joints:
+        own = {joint.name} if joint.moves else set()
+        reach[joint.name] = reach[joint.antecedent] + lengths.get(joint.name, 0.0)
+        path[joint.name] = path[joint.antecedent] | own
+    return set(path[max(reach, key=lambda name: reach[name])])
 
 
 def _depths(robot: Robot) -> dict[str, int]:

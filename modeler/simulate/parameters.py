@@ -12,8 +12,11 @@ from modeler.simulate.body import Body, body_from_standard
 from modeler.simulate.links import link_parameters
 from modeler.simulate.physics import PHYSICS, EffectPhysics, JointScale
 from modeler.simulate.rigid import rigid_dynamics
+from modeler.simulate.sharing import alike, unshared
 
 _STATES = 64  # random states from which the typical torque of a joint is taken
+_IDLE = 1e-9  # of the largest torque: joints below it move no mass
+_OF_LARGEST = 0.02  # their scale instead
 
 
 @dataclass(frozen=True)
@@ -21,8 +24,8 @@ class PlantParameters:
     """What the simulated robot is made of.
 
     Attributes:
-        standard: every standard parameter by name, row after row of the table, SI units: the ten of
-            the link, then those of the joint's effects.
+        standard: every standard parameter by name, row after row of the table, SI units: those of
+            the link, then those of the joint's effects; of all legs, also where they share some.
         bodies: the same links as mass, centre and inertia about the centre, by joint name.
         drawn: names that the robot file leaves open and that were drawn.
     """
@@ -42,6 +45,7 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
         RobotError: numbers that no rigid body has, a negative friction or rotor inertia, or an
             effect that cannot be simulated; names the link or joint.
     """
+    robot, similar = unshared(robot), robot
     rng = np.random.default_rng([seed, 1])
     middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
     links, drawn_links = link_parameters(robot, middle, rng)
@@ -59,6 +63,7 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
                     drawn.append(prefix + name)
                 standard[prefix + name] = float(value if stated is None else stated)
                 _check_sign(robot, effect, prefix + name, prefix, standard[prefix + name])
+    standard, bodies = alike(similar, standard, bodies)
     return PlantParameters(standard, bodies, tuple(name for name in standard if name in drawn))
 
 
@@ -107,9 +112,12 @@ def _scales(
         poses, 0.5 * speed * rng.uniform(-1, 1, shape), 0.5 * lift * rng.uniform(-1, 1, shape)
     ).full()
     inertias = diagonal.map(_STATES)(poses).full()
+    rms, inertia = np.sqrt(np.mean(torques**2, axis=1)), np.median(inertias, axis=1)
+    # A motor that stands on the base and turns joints by gears moves no link of its own.
+    idle = rms <= _IDLE * rms.max()
+    rms[idle] = _OF_LARGEST * rms.max()
+    inertia[idle] = rms[idle] / lift[idle, 0]
     return [
-        JointScale(float(rms), limit.speed, float(inertia))
-        for rms, inertia, limit in zip(
-            np.sqrt(np.mean(torques**2, axis=1)), np.median(inertias, axis=1), limits, strict=True
-        )
+        JointScale(float(torque), limit.speed, float(mass))
+        for torque, mass, limit in zip(rms, inertia, limits, strict=True)
     ]

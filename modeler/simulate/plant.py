@@ -9,7 +9,8 @@ from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
 from modeler.simulate.parameters import PlantParameters, effects_of
 from modeler.simulate.physics import EffectPhysics, Shaft
-from modeler.simulate.rigid import RigidDynamics, rigid_dynamics
+from modeler.simulate.rigid import RigidDynamics, rigid_dynamics, tied_dynamics
+from modeler.simulate.ties import tree_from_free, untied
 
 _CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
 
@@ -52,15 +53,23 @@ class _Effects:
 
 
 def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits, ...]) -> Plant:
-    """The plant with these parameters; `limits` set the speed scale of dry friction.
+    """The plant with these parameters, in the coordinates of the free joints.
+
+    Args:
+        robot: without loops.
+        parameters: of its links and effects.
+        limits: in the order of `robot.moving`; they set the speed scale of dry friction.
 
     Raises:
         RobotError: a joint that nothing gives an inertia, or an effect that cannot be simulated.
     """
     links = rigid_dynamics(robot, parameters.bodies)
-    effects = _effects(robot, parameters, limits, links)
+    tie = tree_from_free(robot)
+    if robot.relations:
+        links = tied_dynamics(links, *tie)
+    effects = _effects(robot, parameters, limits, links, tie)
     q, qd, z = links.q, links.qd, effects.state
-    n = len(limits)
+    n = len(robot.free)
     tau, qdd = ca.SX.sym("tau", n), ca.SX.sym("qdd", n)
     inertia = links.inertia + ca.SX(effects.inertia)
     load = links.bias + effects.torque
@@ -68,8 +77,8 @@ def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits,
     solved = ca.ldl_solve(tau - load, diagonal, lower, order)
     rotors = ca.dot(qd, ca.SX(effects.inertia) @ qd) / 2
     plant = Plant(
-        joints=tuple(joint.name for joint in robot.moving),
-        driven=np.array([joint.actuated for joint in robot.moving]),
+        joints=tuple(joint.name for joint in robot.free),
+        driven=np.array([joint.actuated for joint in robot.free]),
         states=z.shape[0],
         acceleration=ca.Function("acceleration", [q, qd, z, tau], [ca.cse(solved), effects.rate]),
         torque=ca.Function("torque", [q, qd, qdd, z], [inertia @ qdd + load]),
@@ -77,20 +86,26 @@ def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits,
         resistance=ca.Function("resistance", [q, qd, z], [effects.torque]),
         energy=ca.Function("energy", [q, qd], [links.kinetic + rotors, links.potential]),
     )
-    _check_inertia(robot, plant, limits)
+    _check_inertia(robot, plant, of_free(robot, limits))
     return plant
 
 
 def torque_function(
     robot: Robot, parameters: PlantParameters, limits: tuple[Limits, ...]
 ) -> tuple[ca.Function, int]:
-    """(q, qd, qdd, z) -> tau of all moving rows, loops left open, and the number of states z."""
+    """(q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
     links = rigid_dynamics(robot, parameters.bodies)
-    effects = _effects(robot, parameters, limits, links)
+    effects = _effects(robot, parameters, limits, links, untied(robot))
     qdd = ca.SX.sym("qdd", len(limits))
     torque = (links.inertia + ca.SX(effects.inertia)) @ qdd + links.bias + effects.torque
     inputs = [links.q, links.qd, qdd, effects.state]
     return ca.Function("torque", inputs, [ca.cse(torque)]), effects.state.shape[0]
+
+
+def of_free(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:
+    """Those of `robot.free` among limits in the order of `robot.moving`."""
+    pairs = zip(robot.moving, limits, strict=True)
+    return tuple(limit for joint, limit in pairs if joint.name not in robot.relations)
 
 
 def sample_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
@@ -106,15 +121,18 @@ def _effects(
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
     links: RigidDynamics,
+    tie: tuple[np.ndarray, np.ndarray],
 ) -> _Effects:
-    n = len(limits)
+    turns, offset = tie
+    n = turns.shape[1]
     torque, inertia = ca.SX.zeros(n), np.zeros((n, n))
     states, rates = [ca.SX(0, 1)], [ca.SX(0, 1)]
     for joint, limit in zip(robot.moving, limits, strict=True):
         for physics in effects_of(robot, joint.name):
-            row = _shaft_row(robot, joint.name, physics)
+            all_joints = _shaft_row(robot, joint.name, physics)
+            row = all_joints @ turns
             shaft = Shaft(
-                position=ca.dot(ca.SX(row), links.q),
+                position=ca.dot(ca.SX(row), links.q) + float(all_joints @ offset),
                 speed=ca.dot(ca.SX(row), links.qd),
                 settling=_CORE * limit.speed,
                 name=f"{physics.effect}_{joint.name}",

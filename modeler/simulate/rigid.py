@@ -67,6 +67,20 @@ def rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynamics:
     )
 
 
+def tied_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
+    """The same in fewer coordinates u of which all joints follow: q = turns u + offset.
+
+    M_u = turns^T M turns, h_u = turns^T h (the principle of virtual work).
+    """
+    F = ca.SX(turns)
+    u, ud = (ca.SX.sym(name, turns.shape[1]) for name in ("u", "ud"))
+    tree = [links.inertia, links.bias, links.kinetic, links.potential]
+    inertia, bias, kinetic, potential = ca.substitute(
+        tree, [links.q, links.qd], [F @ u + offset, F @ ud]
+    )
+    return RigidDynamics(u, ud, F.T @ inertia @ F, F.T @ bias, kinetic, potential)
+
+
 def _motions(
     robot: Robot, frames: Mapping[str, Frame], qd: ca.SX, qdd: ca.SX
 ) -> dict[str, _Motion]:

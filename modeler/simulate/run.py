@@ -15,10 +15,11 @@ from modeler.simulate.limits import motion_limits
 from modeler.simulate.log import SimulatedLog, Truth
 from modeler.simulate.native import FastFunction
 from modeler.simulate.parameters import PlantParameters, plant_parameters
-from modeler.simulate.plant import Plant, build_plant
+from modeler.simulate.plant import Plant, build_plant, of_free
 from modeler.simulate.sensors import encoder_resolution, quantised
 from modeler.simulate.settings import SimulationSettings, check_settings
-from modeler.simulate.trajectory import Reference, exciting_reference
+from modeler.simulate.sharing import told_once
+from modeler.simulate.trajectory import Reference, reference_motion
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
 _LOST = 0.5  # tracking error, in ranges of motion, at which the controller has lost the robot
@@ -38,7 +39,7 @@ def simulate(
     settings: SimulationSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SimulatedLog:
-    """A measurement of `robot` under closed-loop control; with tied joints see `simulate.closed`.
+    """A measurement of `robot` under closed-loop control; with loops see `simulate.closed`.
 
     The robot's effects are simulated as physics; effects that a model of it lacks are given by
     simulating a robot that has more of them. The same robot and settings give the same bits.
@@ -54,16 +55,19 @@ def simulate(
             what to change.
     """
     settings = settings or SimulationSettings()
-    check_settings(settings, tuple(joint.name for joint in robot.moving))
-    if robot.relations or robot.loops:
+    check_settings(settings, tuple(joint.name for joint in robot.coordinates))
+    if robot.loops:
         return simulate_closed(robot, settings, progress)
-    limits = motion_limits(robot, settings.limits)
-    reference = exciting_reference(limits, settings.duration, settings.rate, settings.seed)
-    parameters = plant_parameters(robot, limits, settings.parameter_seed)
-    plant = build_plant(robot, parameters, limits)
+    every = motion_limits(robot, settings.limits)
+    limits = of_free(robot, every)
+    reference = reference_motion(
+        settings.motion, limits, settings.duration, settings.rate, settings.seed
+    )
+    parameters = plant_parameters(robot, every, settings.parameter_seed)
+    plant = build_plant(robot, parameters, every)
     highest = _torque_limits(plant, reference, settings)
     gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
-    resolution = encoder_resolution(robot.moving, settings)
+    resolution = encoder_resolution(robot.free, settings)
     run = _closed_loop(plant, gains, reference, resolution, limits, progress)
     return _log(robot, plant, parameters, reference, settings, run)
 
@@ -153,6 +157,7 @@ def _log(
     mean = (before + run.torques) / 2
     rms = np.sqrt(np.mean(mean**2, axis=0))
     noise = np.random.default_rng([settings.seed, 3]).normal(size=(ticks, n))
+    values, drawn = told_once(robot, parameters.standard, parameters.drawn)
     return SimulatedLog(
         robot=robot.name,
         joints=plant.joints,
@@ -162,7 +167,7 @@ def _log(
         qc=reference.q,
         tau=mean + settings.torque_noise * rms * noise,
         settings=settings,
-        truth=Truth(q, qd, qdd, run.torques, parameters.standard, parameters.drawn),
+        truth=Truth(q, qd, qdd, run.torques, values, drawn),
     )
 
 

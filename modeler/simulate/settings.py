@@ -8,6 +8,9 @@ from types import MappingProxyType
 from modeler.core.errors import DataError
 from modeler.robot import Limits
 
+MOTIONS = ("exciting", "point-to-point")
+"""What the commanded motion may be."""
+
 _EMPTY: Mapping = MappingProxyType({})
 _MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 
@@ -17,6 +20,8 @@ class SimulationSettings:
     """Motion, controller and sensors of a simulated measurement.
 
     Attributes:
+        motion: "exciting" (moves at several speeds, then a Fourier series) or "point-to-point"
+            (moves between random points, as fast as the limits allow).
         duration: s.
         rate: control ticks and samples per second.
         seed: of motion and noise; another seed is another measurement of the same robot.
@@ -32,6 +37,7 @@ class SimulationSettings:
             commanded motion needs.
     """
 
+    motion: str = "exciting"
     duration: float = 20.0
     rate: float = 1000.0
     seed: int = 0
@@ -51,6 +57,10 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
     Raises:
         DataError: names the setting, what was got and what is expected.
     """
+    if settings.motion not in MOTIONS:
+        raise DataError(
+            f"simulation, motion: got {settings.motion}; expected one of {', '.join(MOTIONS)}"
+        )
     for name in ("duration", "rate", "bandwidth"):
         value = getattr(settings, name)
         if not (math.isfinite(value) and value > 0):

@@ -13,6 +13,7 @@ _LONGEST = 1.4  # s, of one move: slow moves are short ones
 _PAUSE = 0.05  # s, between moves
 _HARMONICS = 6
 _LOWEST = 0.1  # Hz, fundamental of the series
+_AS_FAST_AS_CAN_BE = (1.0,)
 _PEAK_SPEED = 15 / 8  # of a quintic move of unit length and duration
 _PEAK_ACCELERATION = 10 / np.sqrt(3)
 
@@ -30,6 +31,35 @@ class Reference:
     q: np.ndarray
     qd: np.ndarray
     qdd: np.ndarray
+
+
+def reference_motion(
+    motion: str, limits: tuple[Limits, ...], duration: float, rate: float, seed: int
+) -> Reference:
+    """`exciting_reference`, or `point_to_point_reference` if `motion` is "point-to-point"."""
+    make = point_to_point_reference if motion == "point-to-point" else exciting_reference
+    return make(limits, duration, rate, seed)
+
+
+def point_to_point_reference(
+    limits: tuple[Limits, ...], duration: float, rate: float, seed: int
+) -> Reference:
+    """Quintic moves of all joints between random points, as fast as the limits allow.
+
+    The motion of Guegan, Khalil and Lemoine 2003 (ICRA, section 5). Arguments as those of
+    `exciting_reference`.
+
+    Raises:
+        DataError: no time for a move there and back, or what `exciting_reference` refuses.
+    """
+    path, time = _at_rest(limits, duration, rate)
+    rng = np.random.default_rng([seed, 4])
+    if _add_moves(path, time, limits, float(time[-1]), rng, exciting=False) == 0.0:
+        raise DataError(
+            f"reference motion: got duration {duration} s, too short for a move and back; expected "
+            "more, or faster [limits]"
+        )
+    return Reference(time, *path)
 
 
 def exciting_reference(
@@ -51,6 +81,17 @@ def exciting_reference(
     Raises:
         DataError: duration too short for one sample, or a rate not above 0.
     """
+    path, time = _at_rest(limits, duration, rate)
+    rng = np.random.default_rng([seed, 2])
+    start = _add_moves(path, time, limits, duration / 2, rng)
+    _add_series(path, time, limits, start, float(time[-1]), rng)
+    return Reference(time, *path)
+
+
+def _at_rest(
+    limits: tuple[Limits, ...], duration: float, rate: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """(3, n, joints) positions in the middle of the range and their derivatives, and (n,) time."""
     if not rate > 0 or not duration > 0 or not np.isfinite(duration * rate):
         raise DataError(
             f"reference motion: got duration {duration} s at {rate} samples per second; "
@@ -63,13 +104,10 @@ def exciting_reference(
             "expected at least 2"
         )
     time = np.arange(count) / rate
-    rng = np.random.default_rng([seed, 2])
     middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
     path = np.zeros((3, count, len(limits)))
     path[0] = middle
-    start = _add_moves(path, time, limits, duration / 2, rng)
-    _add_series(path, time, limits, start, float(time[-1]), rng)
-    return Reference(time, *path)
+    return path, time
 
 
 def _add_moves(
@@ -78,18 +116,23 @@ def _add_moves(
     limits: tuple[Limits, ...],
     until: float,
     rng: np.random.Generator,
+    exciting: bool = True,
 ) -> float:
-    """Moves from the middle and back to it; gives the time at which they end."""
+    """Moves from the middle and back to it; gives the time at which they end, 0 without any.
+
+    Exciting ones are of several speeds, some of only some joints, and none takes long.
+    """
+    speeds, longest = (_SPEEDS, _LONGEST) if exciting else (_AS_FAST_AS_CAN_BE, np.inf)
     middle = path[0, 0].copy()
     reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
     now, here, turn = _PAUSE, middle.copy(), 0
     while True:
-        level = _SPEEDS[turn % len(_SPEEDS)]
-        joins = rng.random(len(limits)) < (0.5 if turn % 3 == 2 else 1.1)
+        level = speeds[turn % len(speeds)]
+        joins = rng.random(len(limits)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
         joins[rng.integers(len(limits))] = True
         target = np.where(joins, middle + reach * rng.uniform(-1, 1, len(limits)), here)
         needed = _move_time(target - here, limits, level)
-        target = here + (target - here) * min(1.0, _LONGEST / max(needed, 1e-9))
+        target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
         lasts = _move_time(target - here, limits, level)
         home = _move_time(middle - target, limits, 1.0)
         if now + lasts + home + 2 * _PAUSE > until:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from modeler.core.errors import DataError, LoopError, ModelerError, RobotError
-from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.core.errors import DataError, LoopError, ModelerError
+from modeler.robot import builtin_text, robot_from_text
 from modeler.simulate import SimulationSettings, simulate
 from modeler.symbolic import derive_model
 
@@ -85,11 +85,6 @@ def test_motion_out_of_reach_is_told_by_the_simulator():
     robot = robot_from_text(text, "orthoglide.toml")
     with pytest.raises(DataError, match=r"the loops of orthoglide-2003 do not close .* \[limits\]"):
         simulate(robot, SimulationSettings(duration=4, rate=50))
-
-
-def test_free_joints_without_motor_are_told_by_the_simulator():
-    with pytest.raises(RobotError, match="joints 2, 3 move freely and have no motor"):
-        simulate(read_robot("orthoglide-leg"))
 
 
 def test_closed_forms_of_tied_robots_are_refused(capsys):
