@@ -1,0 +1,348 @@
+"""Simulated robots with relations and loops: laws, ties, limits, mistakes."""
+
+import dataclasses
+import re
+
+import casadi as ca
+import numpy as np
+import pytest
+from simulated_robots import robot
+
+from modeler.core.errors import DataError, RobotError
+from modeler.robot import INERTIAL, Limits, builtin_text, read_robot, robot_from_text
+from modeler.simulate import SimulationSettings, motion_limits, plant_parameters, simulate
+from modeler.simulate.body import body_from_standard
+from modeler.simulate.closing import _same_mode, followed, motor_torques, rates
+from modeler.simulate.constraints import constraints_of, sampled
+from modeler.simulate.geometry import gravity_vector, world_frames
+from modeler.simulate.plant import build_plant, of_free
+from modeler.simulate.ties import tree_from_free
+from tests.modules import compiled, module
+from tests.robots import TIED
+
+LOOPS = [name for name in TIED if read_robot(name).loops]
+RELATIONS = [name for name in TIED if name not in LOOPS]
+IDEAL = SimulationSettings(
+    duration=1.5, rate=400, encoder_counts=0, linear_resolution=0, torque_noise=0
+)
+
+# A crank that drives a slider, without relations or limits; every length is known in closed form.
+CRANK = """
+name = "crank"
+gravity = [0, "-g", 0]
+[symbols]
+g = 9.81
+R = 0.10
+L = 0.35
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1",   "0", 1, 0, 0,      0,      0,   "q1", 0],
+  ["2",   "1", 0, 0, 0,      0,      "R", "q2", 0],
+  ["tip", "2", 0, 2, 0,      0,      "L", 0,    0],
+  ["3",   "0", 0, 1, "pi/2", "pi/2", 0,   0,    "q3"],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["pin", "tip", "3", "position"]]
+[home]
+q1 = "pi/2"
+q2 = -1.86
+q3 = 0.33
+"""
+
+
+def without_effects(name):
+    """The robot with rotor inertias only, so that no energy is lost."""
+    source = read_robot(name)
+    kept = tuple(use for use in source.effects if use.effect == "rotor_inertia")
+    return dataclasses.replace(source, effects=kept)
+
+
+def energies(source, parameters, v, vd):
+    """(n,) T + U summed over the bodies, of positions and speeds of all joints of the tree."""
+    x, xd = (ca.SX.sym(n, v.shape[1]) for n in ("x", "xd"))
+    total, gravity = ca.SX(0), ca.SX(gravity_vector(source))
+    frames = world_frames(source, x)
+    for k, joint in enumerate(source.moving):
+        ten = {p: parameters.standard.get(p + joint.name, 0.0) for p in INERTIAL}
+        body, frame = body_from_standard(ten), frames[joint.name]
+        centre = frame.position + frame.rotation @ body.centre
+        velocity = ca.jtimes(centre, x, xd)
+        turning = ca.reshape(ca.jtimes(ca.vec(frame.rotation), x, xd), 3, 3)
+        spin = ca.inv_skew(frame.rotation.T @ turning)
+        total += body.mass * (ca.dot(velocity, velocity) / 2 - ca.dot(gravity, centre))
+        total += ca.dot(spin, ca.SX(body.inertia) @ spin) / 2
+        total += parameters.standard.get(f"Ia{joint.name}", 0.0) * xd[k] ** 2 / 2
+    return sampled(ca.Function("energy", [x, xd], [ca.densify(total)]), v, vd)[:, 0, 0]
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_the_motors_power_is_what_the_energy_gains(name):
+    """Central differences at two sampling times: their error falls with the square."""
+    source = without_effects(name)
+    errors = []
+    for rate in (400.0, 800.0):
+        settings = dataclasses.replace(IDEAL, rate=rate)
+        truth = simulate(source, settings).truth
+        parameters = plant_parameters(source, motion_limits(source))
+        constraints = constraints_of(source)
+        v = followed(source, constraints, truth.q)
+        vd, _ = rates(constraints, v, truth.qd, truth.qdd)
+        total = energies(source, parameters, v, vd)
+        power = np.sum(truth.tau * truth.qd, axis=1)
+        gained = (total[2:] - total[:-2]) * rate / 2
+        errors.append(np.abs(gained - power[1:-1]).max() / np.abs(power).max())
+    assert errors[1] < 1e-3 and errors[1] < 0.3 * errors[0]
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
+    source, rate = read_robot(name), 2000.0
+    truth = simulate(source, dataclasses.replace(IDEAL, rate=rate, duration=1.0)).truth
+    constraints = constraints_of(source)
+    v = followed(source, constraints, truth.q)
+    assert np.array_equal(v[:, constraints.given], truth.q)
+    assert np.abs(sampled(constraints.value, v)).max() < 1e-10
+    vd, vdd = rates(constraints, v, truth.qd, truth.qdd)
+    for low, high in ((v, vd), (vd, vdd)):
+        difference = (low[2:] - low[:-2]) * rate / 2
+        # The jerk jumps where a move begins or ends.
+        assert np.abs(difference - high[1:-1]).max() < 0.01 * np.abs(high).max()
+
+
+@pytest.mark.parametrize("name", LOOPS)
+@pytest.mark.parametrize("motion", ["exciting", "point-to-point"])
+def test_the_limits_are_kept(name, motion):
+    source = read_robot(name)
+    log = simulate(source, dataclasses.replace(IDEAL, motion=motion, duration=6.0, rate=50))
+    limits = dict(zip((j.name for j in source.moving), motion_limits(source), strict=True))
+    assert log.joints == tuple(joint.name for joint in source.coordinates)
+    assert np.all(log.driven)
+    for i, joint in enumerate(log.joints):
+        limit, truth = limits[joint], log.truth
+        assert limit.lower <= truth.q[:, i].min() and truth.q[:, i].max() <= limit.upper
+        assert np.ptp(truth.q[:, i]) > 0.1 * (limit.upper - limit.lower)
+        assert np.abs(truth.qd[:, i]).max() <= limit.speed
+        assert np.abs(truth.qdd[:, i]).max() <= limit.acceleration
+
+
+def test_a_crank_by_hand():
+    """Point masses on crank and slider: the torque from the slider's position in closed form."""
+    masses = {p + row: 0.0 for row in "123" for p in INERTIAL} | {"M3": 2.0, "M1": 1.0}
+    masses |= {"XX1": 0.015, "YY1": 0.015, "ZZ1": 0.03}
+    source = dataclasses.replace(robot(CRANK), parameters=masses)
+    truth = simulate(source, IDEAL).truth
+    R, L = 0.10, 0.35
+    q = ca.SX.sym("q")
+    x = R * ca.cos(q) + ca.sqrt(L**2 - (R * ca.sin(q)) ** 2)
+    slope = ca.jacobian(x, q)
+    by_hand = ca.Function("x", [q], [ca.vertcat(x, slope, ca.jacobian(slope, q))])
+    _, dx, ddx = sampled(by_hand, truth.q)[:, :, 0].T
+    qd, qdd = truth.qd[:, 0], truth.qdd[:, 0]
+    expected = 0.03 * qdd + 2.0 * dx * (dx * qdd + ddx * qd**2)
+    assert np.abs(expected).max() > 0.05
+    np.testing.assert_allclose(truth.tau[:, 0], expected, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "orthoglide-2003", "sr400"])
+def test_multipliers_agree_with_a_least_squares_solution(name):
+    """S tau + J^T lambda = load as one system, redundant equations included."""
+    source = read_robot(name)
+    truth = simulate(source, dataclasses.replace(IDEAL, duration=0.5, rate=50)).truth
+    constraints = constraints_of(source)
+    v = followed(source, constraints, truth.q)
+    load = np.random.default_rng(1).normal(size=v.shape)
+    tau = motor_torques(constraints, v, load)
+    S = np.eye(v.shape[1])[:, constraints.given]
+    for i, J in enumerate(sampled(constraints.slope, v)):
+        system = np.hstack([S, J.T])
+        found, _, _, _ = np.linalg.lstsq(system, load[i], rcond=1e-10)
+        np.testing.assert_allclose(system @ found, load[i], atol=1e-9)
+        np.testing.assert_allclose(found[: len(S.T)], tau[i], atol=1e-8)
+
+
+@pytest.mark.parametrize("name", RELATIONS)
+def test_relations_are_kept_by_the_controlled_robot(name):
+    """Torques as the model's wherever no joint creeps; joints without motor swing."""
+    source = read_robot(name)
+    log = simulate(source, dataclasses.replace(IDEAL, duration=3.0, rate=1000))
+    truth, c = log.truth, compiled(name)
+    assert log.joints == tuple(joint.name for joint in source.free)
+    assert list(log.driven) == [joint.actuated for joint in source.free]
+    assert np.all(truth.tau[:, ~log.driven] == 0)
+    assert np.all(np.sqrt(np.mean(truth.tau[:, log.driven] ** 2, axis=0)) > 0)
+    chi = np.array([truth.parameters[column.name] for column in module(name).base.columns])
+    tau = c.inverse_dynamics(truth.q, truth.qd, truth.qdd, c.base_parameters(chi))
+    turns, _ = tree_from_free(source)
+    couplings = [[row.get(j.name, 0.0) for j in source.free] for row in source.coupling.values()]
+    shafts = truth.qd @ np.vstack([turns, *([couplings] if couplings else [])]).T
+    core = 1e-3 * 2.0 * 20
+    moving = np.all(np.abs(shafts) > core, axis=1)
+    assert moving.mean() > 0.15
+    error = np.abs(tau - truth.tau)[moving]
+    assert error.max() < 1e-9 * np.abs(truth.tau).max()
+
+
+@pytest.mark.parametrize("name", RELATIONS)
+def test_energy_of_robots_with_relations(name):
+    """The motors' work over each tick, with held torques, is what T + U gains."""
+    source = without_effects(name)
+    # Rotors that no effect gives an inertia would have none: light links where the file has none.
+    source = dataclasses.replace(source, links={})
+    log = simulate(source, dataclasses.replace(IDEAL, duration=2.0, rate=1000))
+    truth = log.truth
+    turns, offset = tree_from_free(source)
+    v, vd = truth.q @ turns.T + offset, truth.qd @ turns.T
+    parameters = plant_parameters(source, motion_limits(source))
+    total = energies(source, parameters, v, vd)
+    work = np.cumsum(np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0), axis=1))
+    np.testing.assert_allclose(total[1:] - total[0], work, rtol=0, atol=1e-7 * np.ptp(total))
+    assert np.ptp(total) > 0.01
+    plant = build_plant(source, parameters, motion_limits(source))
+    own = sum(plant.energy.map(len(v))(truth.q.T, truth.qd.T)).full().ravel()
+    np.testing.assert_allclose(own - own[0], total - total[0], atol=1e-9 * np.ptp(total))
+    assert len(of_free(source, motion_limits(source))) == len(source.free)
+
+
+def test_relations_of_relations():
+    text = """
+    name = "chain"
+    gravity = [0, 0, -9.81]
+    [mdh]
+    columns = ["j", "a", "mu", "d", "theta"]
+    rows = [["1", "0", 1, 0, "q1"], ["2", "1", 0, 0.3, "2*q1 - q3 + 0.1"],
+            ["3", "2", 0, 0.2, "q3"], ["4", "3", 1, 0.2, "q4"], ["5", "4", 0, 0.1, "q5"]]
+    [relations]
+    q3 = "q5/2 + 0.4"
+    q5 = "-q4 + q1 + pi"
+    """
+    source = robot_from_text(re.sub(r"^ {4}", "", text, flags=re.M), "chain")
+    turns, offset = tree_from_free(source)
+    q1, q4 = 0.3, -0.7
+    q5 = -q4 + q1 + np.pi
+    q3 = q5 / 2 + 0.4
+    expected = [q1, 2 * q1 - q3 + 0.1, q3, q4, q5]
+    np.testing.assert_allclose(turns @ [q1, q4] + offset, expected, atol=1e-14)
+
+
+def test_sensors():
+    source = read_robot("orthoglide-2003")
+    settings = dataclasses.replace(IDEAL, linear_resolution=1e-5, torque_noise=0.03, duration=6.0)
+    log = simulate(source, settings)
+    np.testing.assert_allclose(log.q / 1e-5, np.round(log.q / 1e-5), atol=1e-6)
+    assert 0.9 * 5e-6 < np.abs(log.q - log.truth.q).max() <= 5e-6 * (1 + 1e-9)
+    noise = (log.tau - log.truth.tau) / np.sqrt(np.mean(log.truth.tau**2, axis=0))
+    np.testing.assert_allclose(noise.std(axis=0), 0.03, rtol=0.06)
+    ideal = simulate(source, dataclasses.replace(IDEAL, duration=0.5))
+    assert np.array_equal(ideal.q, ideal.truth.q) and np.array_equal(ideal.tau, ideal.truth.tau)
+
+
+def test_seeds_and_progress():
+    source, shares = read_robot("five-bar"), []
+    first = simulate(source, dataclasses.replace(IDEAL, rate=2000), shares.append)
+    again = simulate(source, dataclasses.replace(IDEAL, rate=2000))
+    other = simulate(source, dataclasses.replace(IDEAL, seed=1, parameter_seed=1))
+    assert np.array_equal(first.tau, again.tau) and np.array_equal(first.q, again.q)
+    assert np.abs(first.truth.q[: len(other.time)] - other.truth.q).max() > 0.01
+    drawn = first.truth.drawn
+    assert drawn == other.truth.drawn and "ZZ11" not in drawn
+    assert all(first.truth.parameters[n] != other.truth.parameters[n] for n in drawn)
+    assert shares == sorted(shares) and shares[-1] == 1.0 and len(shares) > 1
+
+
+def test_sampling_does_not_change_the_motion():
+    """Chunks and postures found all at once: the same answer as one after the other."""
+    source = read_robot("delta")
+    constraints = constraints_of(source)
+    q = simulate(source, dataclasses.replace(IDEAL, rate=2000, duration=1.2)).truth.q
+    thin = slice(None, None, 7)
+    np.testing.assert_allclose(
+        followed(source, constraints, q)[thin], followed(source, constraints, q[thin]), atol=1e-9
+    )
+
+
+def test_legs_that_share_parameters_are_alike_and_told_once():
+    source = read_robot("orthoglide-2003-similar-legs")
+    parameters = plant_parameters(source, motion_limits(source))
+    for shared in source.shared:
+        assert len({parameters.standard[member] for member in shared.members}) == 1
+    for row in ("21", "22", "23"):
+        assert np.array_equal(parameters.bodies[row].inertia, parameters.bodies["21"].inertia)
+    truth = simulate(source, dataclasses.replace(IDEAL, duration=0.2)).truth
+    assert list(truth.parameters) == [c.name for c in module(source.name).base.columns]
+    assert set(truth.drawn) <= set(truth.parameters)
+    stated = dataclasses.replace(source, parameters={"M2": 0.7, "M3": 0.2})
+    values = plant_parameters(stated, motion_limits(stated)).standard
+    assert [values[f"M2{leg}"] for leg in "123"] == [0.7] * 3
+
+
+def test_a_motor_that_turns_joints_by_gears_has_friction_and_inertia():
+    source = read_robot("dvrk-psm")
+    standard = plant_parameters(source, motion_limits(source)).standard
+    assert all(standard[f"{p}{row}"] > 0 for p in ("Ia", "Fv", "Fs") for row in "567")
+    assert standard["Ia5"] < 1.0
+
+
+def test_without_limits_a_closed_robot_moves_around_home():
+    source = robot(CRANK)
+    limit = motion_limits(source)[0]
+    assert (limit.lower, limit.upper) == pytest.approx((np.pi / 2 - 0.3, np.pi / 2 + 0.3))
+    assert motion_limits(dataclasses.replace(source, loops=()))[0].lower == -1.5
+
+
+LOOSE = CRANK.replace('["3",   "0"', '["4",   "1", 0, 0, 0, 0, 0.2, "q4", 0],\n  ["3",   "0"')
+MISTAKES = [
+    (robot(CRANK.replace("L = 0.35", "L = 0.095")), RobotError,
+     r"loops of crank do not close at \[home\]; state values near a closed posture"),
+    (dataclasses.replace(read_robot("orthoglide-2003"), limits={"11": Limits(0.1, 1.4, 4, 40)}),
+     DataError, r"orthoglide-2003 do not close .*, joints 11, 12, 13 at .*; shrink \[limits\]"),
+    (robot(LOOSE), RobotError,
+     r"joints 4 of crank can move at \[home\] with the actuated joints locked; actuate one"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("source", "error", "message"), MISTAKES)
+def test_mistakes(source, error, message):
+    with pytest.raises(error, match=message):
+        simulate(source, dataclasses.replace(IDEAL, duration=8.0, rate=100))
+
+
+def test_the_assembly_mode_is_kept_where_modes_meet():
+    """Rod shorter than crank: the slider's two places meet where R sin(q1) = L, and end there."""
+    text = CRANK.replace("L = 0.35", "L = 0.09").replace('q1 = "pi/2"', "q1 = 0.5")
+    text = text.replace("q2 = -1.86", "q2 = -1.1").replace("q3 = 0.33", "q3 = 0.16")
+    source = robot(text, limits="1 = [0.5, 1.1, 2, 8]")
+    constraints = constraints_of(source)
+    q = np.linspace(0.5, np.arcsin(0.9) - 1e-3, 50)
+    right = followed(source, constraints, q[:, None])
+    rod = -np.arcsin(0.1 * np.sin(q) / 0.09)
+    np.testing.assert_allclose(right[:, 1], rod - q, atol=1e-9)
+    np.testing.assert_allclose(right[:, 2], 0.1 * np.cos(q) + 0.09 * np.cos(rod), atol=1e-9)
+    left = right[-1].copy()
+    left[1:] = -np.pi - rod[-1] - q[-1], 0.1 * np.cos(q[-1]) - 0.09 * np.cos(rod[-1])
+    assert np.abs(constraints.value(left).full()).max() < 1e-9
+    assert np.abs(left - right[-1]).max() < 0.2  # near, and another mode all the same
+    assert not _same_mode(constraints, right[-1], left)
+    assert _same_mode(constraints, right[-2], right[-1])
+    with pytest.raises(DataError, match=r"do not close at sample \d+, joints 1 at 1\.\d+; shrink"):
+        simulate(dataclasses.replace(source, limits={"1": Limits(0.5, 1.5, 2, 8)}),
+                 dataclasses.replace(IDEAL, duration=8.0))  # fmt: skip
+
+
+def test_moments_without_mass_are_refused():
+    text = builtin_text("five-bar").replace("[limits]", '[links]\n21 = ["ZZ", "MX"]\n\n[limits]')
+    text = text.replace("M21 = 0.6\n", "")
+    source = robot_from_text(text, "five-bar")
+    with pytest.raises(RobotError, match=r"link 21: MX21 without a mass, .*; add M21 under"):
+        simulate(source, IDEAL)
+
+
+def test_motions_by_name():
+    with pytest.raises(DataError, match="motion: got fast; expected one of exciting, point-to-po"):
+        simulate(read_robot("five-bar"), dataclasses.replace(IDEAL, motion="fast"))
+    with pytest.raises(DataError, match=r"duration 0.05 s, too short for a move and back"):
+        simulate(
+            read_robot("five-bar"),
+            dataclasses.replace(IDEAL, motion="point-to-point", duration=0.05),
+        )
