@@ -27,6 +27,8 @@ from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate
 from modeler.derivation import load as load
+from modeler.diagnose import Diagnosis
+from modeler.diagnose import diagnose as find_missing
 from modeler.fit import FitResult, IdentifiedModel, identify, provenance
 from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
@@ -117,3 +119,16 @@ def compare(model: IdentifiedModel, logs: Sequence[str | Path | Log]) -> Compari
     compiled = recompile(model)
     prediction, _ = predict(model, read_logs(compiled, logs), compiled)
     return compare_prediction(prediction)
+
+
+def diagnose(
+    model: IdentifiedModel,
+    logs: Sequence[str | Path | Log],
+    holdout: Sequence[str | Path | Log] = (),
+    without: Sequence[str] = (),
+) -> Diagnosis:
+    """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
+    compiled = recompile(model)
+    return find_missing(
+        model, compiled, read_logs(compiled, logs), read_logs(compiled, holdout), without
+    )

@@ -6,18 +6,22 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
-SOUTH = ("compiled", "observation", "fit", "compare")
+SOUTH = ("compiled", "observation", "fit", "compare", "diagnose")
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
-# and the simulator shares no dynamics with what it is there to test.
+# and of the north the catalogue of effects, which imports nothing but the core: columns of an
+# effect are evaluated from the same definition that is emitted. The simulator shares no dynamics
+# with what it is there to test.
 STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
+    "diagnose": {"core", "effects", *SOUTH[:-1]},
     "simulate": {"core", "robot"},
     "derivation": {"core", *NORTH},
-    "api": {"core", *NORTH, *SOUTH, "derivation"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "derivation", "api"},
+    "improve": {"core", *NORTH, *SOUTH, "derivation"},
+    "api": {"core", *NORTH, *SOUTH, "derivation", "improve"},
+    "cli": {"core", *NORTH, *SOUTH, "simulate", "derivation", "improve", "api"},
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -34,8 +38,10 @@ PACKAGES: dict[str, set[str]] = {
     "observation": {"numpy", "scipy", "pyarrow"},
     "fit": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
+    "diagnose": {"numpy", "scipy"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "derivation": set(),
+    "improve": {"numpy"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }

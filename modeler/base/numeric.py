@@ -62,6 +62,9 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
         for kind, array in (("q", q), ("qd", qd), ("qdd", qdd))
         for i in range(q.shape[1])
     }
+    generator = np.random.default_rng(len(q))
+    for k in range(len(model.signals)):
+        inputs[f"s[{k}]"] = generator.uniform(0.1, 1.0, len(q))
     entries = model.regressor
     phi = np.zeros((*q.shape, len(model.columns)))
     found = model.graph.evaluate(list(entries.values()), {**values, **inputs})

@@ -87,5 +87,9 @@ def _modular_rank(
         c for c in (columns[i] for i in kept)
         if c.column is not None and c.column.block is EnergyBlock.COULOMB
     ]  # fmt: skip
+    own = sum(
+        c.column is not None and c.column.block is EnergyBlock.OWN
+        for c in (columns[i] for i in kept)
+    )
     # Columns |v| of pairwise non-proportional speeds are independent: see `modeler.base.shafts`.
-    return energy + rayleigh + len(dry) - len(friction_relations(dry))
+    return energy + rayleigh + own + len(dry) - len(friction_relations(dry))

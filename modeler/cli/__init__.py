@@ -29,6 +29,14 @@ def _fitting(commands: _Commands) -> None:
     add_compare(commands)
 
 
+def _diagnosing(commands: _Commands) -> None:
+    from modeler.cli.add import add_add
+    from modeler.cli.diagnose import add_diagnose
+
+    add_diagnose(commands)
+    add_add(commands)
+
+
 def _simulating(commands: _Commands) -> None:
     from modeler.cli.simulate import add_simulate
 
@@ -57,6 +65,7 @@ def _showing(commands: _Commands) -> None:
 _GROUPS = {
     ("derive", "generate"): _deriving,
     ("fit", "compare"): _fitting,
+    ("diagnose", "add"): _diagnosing,
     ("simulate",): _simulating,
     ("robots", "effects"): _listing,
     ("reproduce",): _reproducing,

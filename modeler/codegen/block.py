@@ -18,6 +18,7 @@ from modeler.codegen.printer import (
     call_text,
     negative,
     number_text,
+    power_text,
     product_text,
     quotient_text,
     sum_text,
@@ -28,7 +29,7 @@ from modeler.symbolic import Expr, Graph
 _LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
 _LEAVES = ("num", "pi", "sym")  # nodes without arguments of their own
 _PAIR = {"sin": "s", "cos": "c"}
-_HOISTED = (*_PAIR, "tan", "exp", "tanh")
+_HOISTED = (*_PAIR, "tan", "exp", "tanh", "pow")
 
 
 @dataclass(frozen=True)
@@ -223,8 +224,10 @@ class _Writer:
         if node.op in ("mul", "div"):
             assert all(arg > 0 for arg in node.args), "the graph takes signs out of products"
             return (product_text if node.op == "mul" else quotient_text)(*args)
-        argument = args[0] if node.args[0] > 0 else negative(args[0])
-        return call_text(node.op, argument)
+        signed = [a if arg > 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
+        if node.op == "pow":
+            return power_text(*signed)
+        return call_text(node.op, signed[0])
 
     def _place(self, symbol: str) -> str:
         if symbol not in self.places:

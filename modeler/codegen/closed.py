@@ -16,9 +16,11 @@ from modeler.codegen.functions import (
     beta_symbols,
     entries_of,
     grouping_function,
+    reads_more,
     tree_functions,
 )
 from modeler.core.contract import ArgumentSpec
+from modeler.core.errors import EmitError
 from modeler.symbolic import Closure, SymbolicModel
 
 
@@ -97,6 +99,11 @@ def closed_functions(
     assert closure is not None
     given = arguments_of(model.robot.coordinates, model, base)
     frame = _Frame("", "loops", given, closure, prefix)
+    if model.signals or reads_more(model):
+        raise EmitError(
+            f"{model.robot.name} has loops, and effects that read more than speeds and "
+            "accelerations; these have no C there; leave them out of [effects]"
+        )
     public = [
         *_regressors(frame, model, base), *_dynamics(frame, base),
         _inertia_matrix(frame), _kinematics(frame, model), *_postures(frame),

@@ -51,6 +51,7 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
+    parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
     places = graph_places(model.geometry.coordinates, macros, parameters)
     closed = model.closure is not None
     functions = closed_functions(model, base, prefix) if closed else tree_functions(model, base)
@@ -149,8 +150,11 @@ def _values(spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written]) -
         "joints": ", ".join(joint.name for joint in spec.joints),
         "relations": [layout.relation(parameter) for parameter in spec.base],
         "functions": functions,
+        "signals": layout.signal_lines(spec),
         "observation": [
-            layout.observation_prototype(spec.prefix, r, spec.closure is not None)
+            layout.observation_prototype(
+                spec.prefix, r, spec.closure is not None, bool(spec.signals)
+            )
             for r in ("", "restrict ")
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),

@@ -2,11 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from modeler.base.result import BaseParameters
 from modeler.core.contract import ArgumentSpec
+from modeler.effects import Acts
 from modeler.robot import Joint
 from modeler.symbolic import Expr, SymbolicModel
+from modeler.symbolic.signals import Signal
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,12 @@ class Arguments:
     chi: ArgumentSpec
     beta: ArgumentSpec
     tau: ArgumentSpec
+    signals: tuple[ArgumentSpec, ...]  # s, where effects read any
+
+    @property
+    def motion(self) -> tuple[ArgumentSpec, ...]:
+        """All that a regressor reads."""
+        return (self.q, self.qd, self.qdd, *self.signals)
 
 
 def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
@@ -65,6 +74,7 @@ def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function
         *_dynamics(model, beta, given),
         grouping_function(model, base, given),
         _kinematics(model, given),
+        *_advance(model, given),
     )
 
 
@@ -74,6 +84,8 @@ def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParame
     angle = _either([joint.unit for joint in joints])
     effort = _either([joint.effort_unit for joint in joints])
     rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
+    s = ArgumentSpec("s", (len(model.signals),), "see above", "signals of effects")
+    signals = (s,) if model.signals else ()
     return Arguments(
         q=ArgumentSpec("q", n, angle, "joint positions"),
         qd=ArgumentSpec("qd", n, rate, "joint velocities"),
@@ -81,6 +93,7 @@ def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParame
         chi=ArgumentSpec("chi", (len(model.columns),), "SI", "standard parameters"),
         beta=ArgumentSpec("beta", (base.rank,), "SI", "base parameters"),
         tau=ArgumentSpec("tau", n, effort, "joint torques or forces"),
+        signals=signals,
     )
 
 
@@ -98,7 +111,7 @@ def _regressors(
         (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
     }
     kept = [(joint * c + i, value) for (joint, i), value in sorted(values.items(), key=_by_place)]
-    inputs = (given.q, given.qd, given.qdd)
+    inputs = given.motion
     per = "torque per unit of each"
     return (
         Function(
@@ -130,7 +143,8 @@ def _dynamics(
     model: SymbolicModel, beta: dict[int, Expr], given: Arguments
 ) -> tuple[Function, ...]:
     joints = model.geometry.coordinates
-    q, qd, qdd, b = given.q, given.qd, given.qdd, given.beta
+    q, qd, b = given.q, given.qd, given.beta
+    losing = (*given.motion, b) if reads_more(model) else (qd, b)
     matrix = [value for row in model.inertia_matrix(beta) for value in row]
     losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
     gravity = model.torque(beta, speeds=False, accelerations=False, effects=False)
@@ -144,7 +158,7 @@ def _dynamics(
     return (
         function(
             "inverse_dynamics", "Joint torques, by the Newton-Euler recursion.",
-            "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)", (q, qd, qdd, b), model.torque(beta),
+            "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)", (*given.motion, b), model.torque(beta),
         ),
         Function(
             "", "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
@@ -157,8 +171,60 @@ def _dynamics(
         function("coriolis", "Coriolis and centripetal torques.",
                  "c(q, qd) = tau(q, qd, 0) without gravity and effects", (q, qd, b), coriolis),
         function("friction", "Torques of all effects but rotor inertias: friction, offsets.",
-                 "f(qd)", (qd, b), friction),
+                 "f(qd)", losing, friction),
     )  # fmt: skip
+
+
+def reads_more(model: SymbolicModel) -> bool:
+    """True if an effect reads more than the speed and acceleration of its joint."""
+    return any(
+        part.column is not None
+        and (
+            part.acts is Acts.POSITION or not part.column.equation.names <= {"v", "a", *part.shapes}
+        )
+        for column in model.columns
+        for part in column.parts
+    )
+
+
+def _advance(model: SymbolicModel, given: Arguments) -> list[Function]:
+    """The signals one sample later: time goes on, bristles turn; temperatures are measured."""
+    if not model.signals:
+        return []
+    graph, n = model.graph, model.geometry.coordinates
+    travel = ArgumentSpec(
+        "dq", (n,), given.q.unit, "joint positions, less those of the last sample"
+    )
+    step = ArgumentSpec("dt", (1,), "s", "time since the last sample")
+    values = []
+    for k, signal in enumerate(model.signals):
+        s = graph.symbol(f"s[{k}]")
+        if signal.kind == "time":
+            s = s + graph.symbol("dt[0]")
+        elif signal.kind == "slip":
+            s = _turned(model, signal, s)
+        values.append(s)
+    after = ArgumentSpec("after", (len(values),), "see above", "signals now")
+    return [
+        Function(
+            "", "advance", "The signals one sample later; write temperatures yourself.",
+            "z = sign(dq) + (z - sign(dq)) exp(-|dq|/d) for bristles",
+            (travel, step, *given.signals), after, entries_of(values),
+        )
+    ]  # fmt: skip
+
+
+def _turned(model: SymbolicModel, signal: Signal, z: Expr) -> Expr:
+    """The bristle of Dahl's friction after a small travel: exact for constant direction."""
+    graph = model.graph
+    index = next(row.index for k, row in enumerate(model.geometry.rows) if k == signal.row)
+    assert index is not None
+    travel = graph.constant(0)
+    for k, coefficient in model.geometry.forms[index].items():
+        travel = travel + graph.symbol(f"dq[{k}]") * coefficient
+    way = graph.call("sign", travel)
+    share = graph.call("abs", travel) / graph.constant(Fraction(repr(signal.value)))
+    return way + (z - way) * graph.call("exp", -share)
 
 
 def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> Function:

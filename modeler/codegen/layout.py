@@ -101,9 +101,25 @@ def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> st
     ).replace(chr(160), " ")
 
 
-def observation_prototype(prefix: str, restrict: str, status: bool = False) -> str:
+def signal_lines(spec: ModuleSpec) -> list[str]:
+    """Comment lines that say what each entry of the input s is."""
+    meaning = {
+        "time": "time since the start",
+        "temperature": "temperature of joint {joint}",
+        "slip": "bristle of joint {joint}, which turns over {value:g}; start with 0",
+    }
+    return [
+        f"{k:4d}  {meaning[s.kind].format(joint=s.joint, value=s.value)} [{s.unit}]"
+        for k, s in enumerate(spec.signals)
+    ]
+
+
+def observation_prototype(
+    prefix: str, restrict: str, status: bool = False, signals: bool = False
+) -> str:
     """Prototype of the loop over samples that fills W."""
     states = ["const double *q", "const double *qd", "const double *qdd"]
+    states += ["const double *s"] if signals else []
     outputs = [f"double *{restrict}W", *(["int *status"] if status else [])]
     return prototype(f"{prefix}_observation", ["size_t samples", *states, *outputs])
 

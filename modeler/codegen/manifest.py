@@ -16,11 +16,13 @@ from modeler.core.contract import (
     JointSpec,
     ModuleSpec,
     ParameterSpec,
+    SignalSpec,
     SymbolSpec,
     TermSpec,
 )
 from modeler.robot import Joint, Robot
 from modeler.symbolic import StandardColumn, SymbolicModel
+from modeler.symbolic.signals import Signal
 
 
 def module_spec(
@@ -46,7 +48,14 @@ def module_spec(
             if not function.internal
         ),
         closure=_closure(model),
+        signals=tuple(_signal(model, signal) for signal in model.signals),
     )
+
+
+def _signal(model: SymbolicModel, signal: Signal) -> SignalSpec:
+    joint = model.robot.joints[signal.row].name if signal.row >= 0 else ""
+    unit = {"time": "s", "temperature": "K or degC", "slip": "1"}[signal.kind]
+    return SignalSpec(signal.kind, joint, unit, signal.value)
 
 
 def _closure(model: SymbolicModel) -> ClosureSpec | None:

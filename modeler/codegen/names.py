@@ -50,5 +50,6 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
 
 def graph_places(joints: int, macros: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
     """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
-    inputs = [f"{kind}[{i}]" for kind in ("q", "qd", "qdd") for i in range(joints)]
+    kinds = ("q", "qd", "qdd", "dq")
+    inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]
     return {**macros, **{name: name for name in (*inputs, *arrays)}}

@@ -85,6 +85,11 @@ def quotient_text(a: Text, b: Text) -> Text:
     return Text(f"{a.within(PRODUCT)}/{b.within(ATOM)}", PRODUCT)
 
 
+def power_text(base: Text, exponent: Text) -> Text:
+    """base to the power of exponent."""
+    return Text(f"pow({base.text}, {exponent.text})", ATOM)
+
+
 def call_text(name: str, argument: Text) -> Text:
     """name(argument); the argument of `sign` must be a name, because it is written twice.
 

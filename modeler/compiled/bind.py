@@ -30,12 +30,16 @@ PLATFORM_FUNCTIONS = {
 }  # fmt: skip
 """Those of a robot with loops and a platform besides."""
 
+READ_SIGNALS = ("regressor", "base_regressor", "base_regressor_nonzeros", "inverse_dynamics")
+"""Functions with one input more where effects read signals."""
+
 _RUNTIME = """
 typedef struct { const double *data; size_t step; } modeler_input;
 void modeler_batch_1(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_2(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_3(void *, size_t, const modeler_input *, double *, size_t);
 void modeler_batch_4(void *, size_t, const modeler_input *, double *, size_t);
+void modeler_batch_5(void *, size_t, const modeler_input *, double *, size_t);
 """
 
 _LOOP_RUNTIME = """
@@ -100,13 +104,13 @@ class Library:
         """Call `function` for every sample.
 
         Args:
-            function: of the manifest, with 1 to 4 inputs.
+            function: of the manifest, with 1 to 5 inputs.
             inputs: C-contiguous float64; (n, length) per sample, or (length,) the same for all.
             out: C-contiguous float64, (n, ...).
             status: (n,) C int, of a function that returns one.
         """
         assert (status is not None) == function.status
-        assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4)
+        assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4, 5)
         given = self._ffi.new("modeler_input[]", len(inputs))
         for place, array in zip(given, inputs, strict=True):
             assert array.flags.c_contiguous and array.dtype == np.float64
@@ -129,9 +133,13 @@ class Library:
         qdd: np.ndarray,
         W: np.ndarray,
         status: np.ndarray | None = None,
+        s: np.ndarray | None = None,
     ) -> None:
-        """Fill W, (n*joints, columns), from (n, joints) arrays; (n,) `status` with loops."""
-        arguments = [self._doubles(array) for array in (q, qd, qdd, W)]
+        """Fill W, (n*joints, columns), from (n, joints) arrays; (n,) `status` with loops.
+
+        s: (n, signals), for effects that read any.
+        """
+        arguments = [self._doubles(a) for a in (q, qd, qdd, s, W) if a is not None]
         if status is not None:
             arguments.append(self._integers(status))
         self._function("observation")(len(q), *arguments)
@@ -164,8 +172,12 @@ def check_names(spec: ModuleSpec) -> None:
     wanted = FUNCTIONS
     if spec.closure is not None:
         wanted = LOOP_FUNCTIONS | (PLATFORM_FUNCTIONS if spec.closure.platform else {})
+    more = int(bool(spec.signals))
     for role, count in wanted.items():
         got = inputs.get(f"{spec.prefix}_{role}")
+        count += more if role in READ_SIGNALS else 0
+        if role == "friction" and got == 4 + more:  # effects that read positions or loads
+            continue
         if got != count:
             raise ManifestError(
                 f"{spec.robot}: the manifest names {got or 'no'} inputs of {role}, expected "
@@ -175,10 +187,11 @@ def check_names(spec: ModuleSpec) -> None:
 
 def _declarations(spec: ModuleSpec) -> str:
     status = ", int *" if spec.closure is not None else ""
+    signals = "const double *, " if spec.signals else ""
     lines = [
         f"const char *{spec.prefix}_signature(void);",
         f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
-        f"double *{status});",
+        f"{signals}double *{status});",
     ]
     for function in spec.functions:
         inputs = ", ".join("const double *" for _ in function.inputs)

@@ -39,15 +39,17 @@ class CompiledModel:
         }
         self._joints = len(spec.joints)
 
-    def base_regressor(self, q: Any, qd: Any, qdd: Any) -> np.ndarray:
+    def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Phi of the base parameters, (n, joints, c): tau = phi beta."""
-        return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd})
+        return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
-    def regressor(self, q: Any, qd: Any, qdd: Any) -> np.ndarray:
+    def regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Phi of the standard parameters, (n, joints, p): tau = phi chi."""
-        return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd})
+        return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
-    def observation(self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None) -> np.ndarray:
+    def observation(
+        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None
+    ) -> np.ndarray:
         """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
 
         Args:
@@ -56,18 +58,20 @@ class CompiledModel:
             qdd: accelerations.
             out: is filled and returned if given; saves most of the time of a large W, which goes
                 into fresh memory pages.
+            s: signals of effects, where there are any.
         """
         states = self._states({"q": q, "qd": qd, "qdd": qdd})
         shape = (len(states["q"]) * self._joints, len(self.spec.base))
         W = np.empty(shape) if out is None else _checked_out(out, shape)
         status = self._no_status(len(states["q"]))
-        self._library.observation(states["q"], states["qd"], states["qdd"], W, status)
+        signals = self._signals(s, len(states["q"]))
+        self._library.observation(states["q"], states["qd"], states["qdd"], W, status, signals)
         self._check(status, states["q"])
         return W
 
-    def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any) -> np.ndarray:
+    def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
         """Tau, (n, joints), by the Newton-Euler recursion."""
-        return self._evaluate("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta)
+        return self._evaluate("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
 
     def inertia_matrix(self, q: Any, beta: Any) -> np.ndarray:
         """M(q), (n, joints, joints), rotor inertias included."""
@@ -81,11 +85,20 @@ class CompiledModel:
         """c(q, qd), (n, joints): Coriolis and centripetal torques."""
         return self._evaluate("coriolis", {"q": q, "qd": qd}, beta)
 
-    def friction(self, qd: Any, beta: Any, q: Any = None) -> np.ndarray:
+    def friction(
+        self, qd: Any, beta: Any, q: Any = None, qdd: Any = None, s: Any = None
+    ) -> np.ndarray:
         """f(qd), (n, joints): all effects but rotor inertias, offsets included.
 
-        With loops f(q, qd): passive joints rub too, and how fast they move depends on q.
+        With loops f(q, qd): passive joints rub too, and how fast they move depends on q. Effects
+        that read positions, loads or signals need q, qdd and s.
         """
+        if len(self._functions["friction"].inputs) > 3:
+            if q is None or qdd is None:
+                raise ShapeError(
+                    f"{self.spec.robot}: its effects depend on positions and loads; give q and qdd"
+                )
+            return self._evaluate("friction", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
         if self.spec.closure is None:
             return self._evaluate("friction", {"qd": qd}, beta)
         if q is None:
@@ -150,7 +163,42 @@ class CompiledModel:
         same_samples(checked)
         return checked
 
-    def _evaluate(self, role: str, states: Mapping[str, Any], beta: Any = None) -> np.ndarray:
+    def advance(self, dq: Any, dt: float, s: Any) -> np.ndarray:
+        """The signals of effects one sample later, (m,): time and bristles; see the header.
+
+        Args:
+            dq: (joints,) travel since the last sample.
+            dt: s since then.
+            s: (m,) signals then.
+        """
+        function = self._functions.get("advance")
+        if function is None:
+            raise ManifestError(f"{self.spec.robot} has no effects that read signals")
+        given = [
+            as_samples([dq], "dq", self._joints),
+            as_samples([[dt]], "dt", 1),
+            as_samples([s], "s", len(self.spec.signals)),
+        ]
+        out = np.empty((1, len(self.spec.signals)))
+        self._library.batch(function, given, out)
+        return out[0]
+
+    def _signals(self, s: Any, samples: int) -> np.ndarray | None:
+        """(n, m) signals of effects; None where the robot has none."""
+        wanted = len(self.spec.signals)
+        if not wanted:
+            return None
+        if s is None:
+            names = ", ".join(f"{x.kind} {x.joint}".strip() for x in self.spec.signals)
+            raise ShapeError(f"{self.spec.robot}: its effects read signals; give s ({names})")
+        checked = as_samples(s, "s", wanted)
+        if len(checked) != samples:
+            raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
+        return checked
+
+    def _evaluate(
+        self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None
+    ) -> np.ndarray:
         if role not in self._functions:
             raise ManifestError(f"{self.spec.robot} has no {role}: it has no platform in a loop")
         function: FunctionSpec = self._functions[role]
@@ -158,6 +206,10 @@ class CompiledModel:
         samples = len(next(iter(given.values())))
         if beta is not None:
             given["beta"] = as_vector(beta, "beta", len(self.spec.base))
+        if any(argument.name == "s" for argument in function.inputs):
+            signals = self._signals(s, samples)
+            assert signals is not None
+            given["s"] = signals
         out = np.empty((samples, *function.outputs[0].shape))
         status = self._no_status(samples) if function.status else None
         self._library.batch(function, [given[a.name] for a in function.inputs], out, status)

@@ -119,6 +119,16 @@ class SymbolSpec:
 
 
 @dataclass(frozen=True)
+class SignalSpec:
+    """One entry of the input `s`: what effects read besides the motion."""
+
+    kind: str  # "time" | "temperature" | "slip"
+    joint: str  # whose temperature or bristle; "" for the time
+    unit: str
+    value: float  # travel over which the bristle turns, rad or m; 0 for the others
+
+
+@dataclass(frozen=True)
 class ModuleSpec:
     """The manifest of one robot."""
 
@@ -133,6 +143,7 @@ class ModuleSpec:
     unidentifiable: tuple[str, ...]
     functions: tuple[FunctionSpec, ...]
     closure: ClosureSpec | None = None
+    signals: tuple[SignalSpec, ...] = ()
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -207,6 +218,7 @@ _NESTED: dict[str, type] = {
     "ModuleSpec.standard": ParameterSpec,
     "ModuleSpec.base": BaseSpec,
     "ModuleSpec.functions": FunctionSpec,
+    "ModuleSpec.signals": SignalSpec,
     "FunctionSpec.inputs": ArgumentSpec,
     "FunctionSpec.outputs": ArgumentSpec,
     "BaseSpec.terms": TermSpec,

@@ -2,6 +2,10 @@
 
 from modeler.effects.catalogue import CATALOGUE as CATALOGUE
 from modeler.effects.catalogue import effect_named as effect_named
+from modeler.effects.effect import Acts as Acts
 from modeler.effects.effect import Effect as Effect
 from modeler.effects.effect import EffectColumn as EffectColumn
 from modeler.effects.effect import EnergyBlock as EnergyBlock
+from modeler.effects.effect import Form as Form
+from modeler.effects.effect import Memory as Memory
+from modeler.effects.effect import Shape as Shape

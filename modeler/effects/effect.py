@@ -2,6 +2,7 @@
 
 import enum
 from dataclasses import dataclass
+from typing import Literal
 
 from modeler.core.expression import Expression
 
@@ -17,6 +18,64 @@ class EnergyBlock(enum.Enum):
     POWER = "v: power of a constant force"
     RAYLEIGH = "v**2: Rayleigh dissipation function"
     COULOMB = "|v|: dissipated power of dry friction"
+    OWN = "of no other column: it never groups"
+
+
+class Acts(enum.Enum):
+    """On what an effect acts; the meaning of the equations of its columns."""
+
+    JOINT = "adds equation * parameter to the torque of its joint"
+    MOTOR = "the same on the shaft of a motor that turns with several joints ([coupling])"
+    POSITION = "moves the position that the links have by equation * parameter from the measured"
+    TORQUE = "adds equation * parameter to the torques of all joints alike"
+    PASSIVE = "adds equation * parameter to the torque of a joint without motor, in a loop"
+    GRAVITY = "turns the direction of gravity"
+    LINK = "adds a body to a link"
+    WINDOW = "pushes on the last link for a while"
+
+
+Scale = Literal["speed", "travel", "load", "number", "angle", "seconds", "hertz"]
+"""Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
+travel (for a prismatic joint, thirds of its range of motion); plain numbers, radians, seconds,
+hertz."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A parameter that enters a column nonlinearly; found on a grid, then refined.
+
+    Attributes:
+        name: in the equations.
+        scale: what the grid is measured in.
+        grid: values tried first.
+        limits: least and largest value that make sense; equal where only those of the grid do.
+        meaning: plain language.
+    """
+
+    name: str
+    scale: Scale
+    grid: tuple[float, ...]
+    limits: tuple[float, float]
+    meaning: str
+
+    @property
+    def smooth(self) -> bool:
+        """True if values between those of the grid make sense."""
+        return self.limits[0] < self.limits[1]
+
+
+@dataclass(frozen=True)
+class Memory:
+    """The inner state z of an effect that remembers.
+
+    Attributes:
+        kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
+            load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f.
+        shape: name of the shape parameter that sets it (d or f).
+    """
+
+    kind: Literal["slip", "resonance"]
+    shape: str
 
 
 @dataclass(frozen=True)
@@ -25,10 +84,10 @@ class EffectColumn:
 
     Attributes:
         prefix: parameter name without the joint, e.g. "Fv".
-        equation: in v and a, speed and acceleration of the shaft.
+        equation: in `VARIABLES` and the shape parameters of its form.
         unit_revolute: unit of the parameter on a revolute joint.
         unit_prismatic: the same on a prismatic joint.
-        kind: rotor_inertia | friction | offset: how base parameters are counted.
+        kind: rotor_inertia | friction | offset | other: how base parameters are counted.
         block: its energy function, for grouping.
         nonnegative: physics allows no negative value.
     """
@@ -42,6 +101,47 @@ class EffectColumn:
     nonnegative: bool
 
 
+VARIABLES = {
+    "q": "position of the joint or shaft, rad or m",
+    "v": "its speed",
+    "a": "its acceleration",
+    "load": "torque that the links ask of the joint, inertia and gravity together",
+    "static": "the part of it that gravity asks",
+    "torque": "torque of the whole model on the joint",
+    "rate": "d torque / dt",
+    "t": "time of the log, s",
+    "T": "temperature of the joint less its mean over the logs, K",
+    "z": "inner state of the effect",
+}
+"""What the equation of a column may use; SI units."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """One way to write an effect: its columns and what shapes them.
+
+    Attributes:
+        columns: what it adds to the regressor.
+        shapes: nonlinear parameters of all its columns.
+        memory: of the inner state z, if there is one.
+    """
+
+    columns: tuple[EffectColumn, ...]
+    shapes: tuple[Shape, ...] = ()
+    memory: Memory | None = None
+
+    @property
+    def free(self) -> tuple[Shape, ...]:
+        """Shapes that a robot file must state: those whose grid does not fix them."""
+        return tuple(shape for shape in self.shapes if len(shape.grid) != 1)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Variables of `VARIABLES` that its equations use."""
+        used = frozenset().union(*(column.equation.names for column in self.columns))
+        return used & VARIABLES.keys()
+
+
 @dataclass(frozen=True)
 class Effect:
     """A physical effect, defined once.
@@ -51,11 +151,14 @@ class Effect:
         aliases: other names of the same column, by algebra.
         title: plain language.
         equation: for people.
-        columns: what it adds to the regressor.
-        coupled: True if it acts on the shaft of a motor that turns with several joints
-            (`[coupling]` in the robot file), False if on the joint itself.
+        forms: how it may be written; the first is the usual one.
+        acts: on what.
+        family: friction | load | transmission | measurement | inertia: leftovers of one family on
+            one joint refine each other.
+        timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         look_alikes: what it is mistaken for, and which motion tells them apart.
+        same_as: ids of effects that no data tell from it.
         range: sign and range that physics allows.
         source: where it is described.
     """
@@ -64,9 +167,31 @@ class Effect:
     aliases: tuple[str, ...]
     title: str
     equation: str
-    columns: tuple[EffectColumn, ...]
-    coupled: bool
+    forms: tuple[Form, ...]
+    acts: Acts
+    family: str
     signature: str
     look_alikes: str
     range: str
     source: str
+    same_as: tuple[str, ...] = ()
+    timing: bool = False
+
+    @property
+    def columns(self) -> tuple[EffectColumn, ...]:
+        """Of its usual form."""
+        return self.forms[0].columns
+
+    @property
+    def written(self) -> bool:
+        """True if a robot file may name it: its columns are functions of the joints' motion."""
+        acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION)
+        names = frozenset().union(*(form.names for form in self.forms))
+        remembers = any(form.memory and form.memory.kind != "slip" for form in self.forms)
+        moved = self.acts is Acts.POSITION and not names.isdisjoint({"load", "z"})
+        return acts and not remembers and not moved and "rate" not in names
+
+    @property
+    def coupled(self) -> bool:
+        """True if it acts on the shaft of a motor that turns with several joints."""
+        return self.acts is Acts.MOTOR

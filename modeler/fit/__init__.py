@@ -4,6 +4,7 @@ from modeler.fit.doubts import doubts as doubts
 from modeler.fit.essential import Essential as Essential
 from modeler.fit.identify import identify as identify
 from modeler.fit.least_squares import Method as Method
+from modeler.fit.model_file import Addition as Addition
 from modeler.fit.model_file import IdentifiedModel as IdentifiedModel
 from modeler.fit.model_file import LogProvenance as LogProvenance
 from modeler.fit.model_file import load_model as load_model

@@ -46,6 +46,42 @@ class LogProvenance:
         return shared_rows(log, self.content, self.start, self.end)
 
 
+@dataclass(frozen=True)
+class Addition:
+    """One effect that was added to a model.
+
+    Attributes:
+        effect: id; "" for the model as it was first fitted.
+        joint: name; None for an effect of the whole robot.
+        shapes: values of its shape parameters, SI.
+        error: relative error on held-out logs with it; on the fitted logs where none were given.
+        training_error: relative error on the fitted logs.
+        held_out: names of the held-out logs.
+        robot_text: the robot file with it.
+        delay: s, of the processing with it.
+    """
+
+    effect: str
+    joint: str | None
+    shapes: Mapping[str, float]
+    error: float
+    training_error: float
+    held_out: tuple[str, ...]
+    robot_text: str
+    delay: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data, without the robot file."""
+        return {
+            "effect": self.effect or None,
+            "joint": self.joint,
+            "error": self.error,
+            "training_error": self.training_error,
+            "shapes": dict(self.shapes),
+            "held_out": list(self.held_out),
+        }
+
+
 @dataclass(frozen=True, eq=False)
 class IdentifiedModel:
     """A robot with values.
@@ -56,6 +92,7 @@ class IdentifiedModel:
         sources: C sources by file name.
         fit: the estimate; `fit.processing` is how its data were processed.
         logs: what it was fitted on.
+        history: the model as first fitted and every effect added since; empty before the first.
     """
 
     robot_text: str
@@ -63,6 +100,7 @@ class IdentifiedModel:
     sources: Mapping[str, str]
     fit: FitResult
     logs: tuple[LogProvenance, ...]
+    history: tuple[Addition, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
@@ -124,6 +162,7 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
         "covariance": model.fit.covariance.tolist(),
         "logs": [vars(log) for log in model.logs],
         "robot_text": model.robot_text,
+        "history": [vars(step) for step in model.history],
         "manifest": json.loads(model.spec.to_json()),
         "sources": dict(model.sources),
     }
@@ -146,6 +185,7 @@ def load_model(path: str | Path) -> IdentifiedModel:
         )
     try:
         covariance = np.array(_entry(raw, "covariance", list, path), dtype=float)
+        history = tuple(_addition(entry) for entry in raw.get("history", []))
         logs = tuple(_provenance_from_json(entry) for entry in _entry(raw, "logs", list, path))
         fit = fit_from_json(_entry(raw, "fit", dict, path), covariance)
     except (TypeError, ValueError) as error:
@@ -164,7 +204,15 @@ def load_model(path: str | Path) -> IdentifiedModel:
         sources=_entry(raw, "sources", dict, path),
         fit=fit,
         logs=logs,
+        history=history,
     )
+
+
+def _addition(raw: Any) -> Addition:
+    step = Addition(**{**raw, "held_out": tuple(raw["held_out"])})
+    if not isinstance(step.robot_text, str) or not isinstance(step.error, int | float):
+        raise ValueError("a step of the history is not as saved")
+    return step
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -10,7 +10,8 @@ from modeler.core.errors import DataError
 from modeler.fit.identify import Equations, base_equations, fit_equations
 from modeler.fit.least_squares import Method
 from modeler.fit.result import FitResult
-from modeler.observation import Observation
+from modeler.observation import Observation, Segment
+from modeler.observation.signals import signals_of
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -130,9 +131,13 @@ def _load_columns(
     labels = [label for label in _ORDER if f"{label}{link}" in place]
     columns = [place[f"{label}{link}"] for label in labels]
     runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
-    everywhere = observation.filtered(
-        lambda s, w: model.regressor(s.q[w], s.qd[w], s.qdd[w])[:, :, columns]
-    )
+
+    def evaluate(s: Segment, w: slice) -> np.ndarray:
+        read = signals_of(model.spec, s)
+        part = None if read is None else read[w]
+        return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, columns]
+
+    everywhere = observation.filtered(evaluate)
     rows = everywhere[observation.used]
     rows[~np.isin(observation.row_run, runs)] = 0.0
     return rows, labels, [model.spec.standard[i].unit for i in columns]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.core.contract import JointSpec
 from modeler.observation.motion import Segment
 from modeler.observation.processing import Processing
 
@@ -50,8 +51,10 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
     state = np.tile(generator.uniform(0.2, 1.0, (1, joints)), (joints, 1))
     creep = _CREEP * np.eye(joints)
     still = np.zeros((joints, joints))
-    forwards = model.base_regressor(state, creep, still)
-    leap = 0.5 * (forwards - model.base_regressor(state, -creep, still))  # (moved, row, column)
+    signals = np.full((joints, len(model.spec.signals)), 0.5) if model.spec.signals else None
+    forwards = model.base_regressor(state, creep, still, signals)
+    backwards = model.base_regressor(state, -creep, still, signals)
+    leap = 0.5 * (forwards - backwards)  # (moved, row, column)
     found: dict[tuple[float, ...], Shaft] = {}
     scale = np.max(np.abs(leap), axis=(0, 1))
     for column in np.flatnonzero(scale > 1e-3):
@@ -68,6 +71,20 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
         names = "+".join(model.spec.joints[j].name for j in moved)
         found[key] = Shaft(names, key, acted, model.spec.joints[moved[0]].unit)
     return tuple(found.values())
+
+
+def with_every_joint(parts: Sequence[Shaft], joints: Sequence[JointSpec]) -> tuple[Shaft, ...]:
+    """The shafts, and every joint with a motor that is none of them.
+
+    For looking at dry friction that the model lacks.
+    """
+    found = list(parts)
+    names = {part.name for part in parts}
+    for j, joint in enumerate(joints):
+        if joint.actuated and joint.name not in names:
+            own = tuple(float(i == j) for i in range(len(joints)))
+            found.append(Shaft(joint.name, own, (j,), joint.unit))
+    return tuple(found)
 
 
 def floors_of(

@@ -92,9 +92,18 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     if edge:
         whole[:edge] = whole[-edge:] = False
     valid, lost = _counted(piece, whole, edge, cutoff, processing.keep_saturated)
+    tau = _later(piece, processing.delay)
     return Segment(
-        piece.run, piece.time, piece.step, q, qd, qdd, piece.tau, piece.extra, whole, valid, lost
+        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, valid, lost
     )
+
+
+def _later(piece: Piece, delay: float) -> np.ndarray:
+    """(n, joints) torques of the log `delay` seconds before each sample."""
+    if delay == 0.0:
+        return piece.tau
+    moved = piece.time - delay
+    return np.column_stack([np.interp(moved, piece.time, tau) for tau in piece.tau.T])
 
 
 def _counted(

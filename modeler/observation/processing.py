@@ -30,6 +30,8 @@ class Processing:
         keep_saturated: use rows whose torque is stuck at the drive's limit.
         keep_contradicted: use samples whose logged qd or qdd is not the derivative of q or qd,
             and do not refuse columns that are wrong throughout.
+        delay: s by which torques are logged before the motion that they belong to; they are moved
+            later by it.
         edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
             `position_cutoff`, where the filter's start-up has faded below 1 %.
     """
@@ -43,12 +45,15 @@ class Processing:
     keep_saturated: bool = False
     edge: float | None = None
     keep_contradicted: bool = False
+    delay: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):
             value = getattr(self, name)
             if value is not None and not 0.0 <= value < float("inf"):
                 raise DataError(f"{name} is {value}; expected a number that is not negative")
+        if not abs(self.delay) < 1.0:
+            raise DataError(f"delay is {self.delay}; expected less than 1 s either way")
         if self.low_speed >= 1.0:
             raise DataError(f"low_speed is {self.low_speed}; expected a fraction below 1")
         if self.decimation is not None and self.decimation < 1:

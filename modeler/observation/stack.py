@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts
+from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, with_every_joint
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
@@ -15,6 +15,7 @@ from modeler.observation.prepare import Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport, JointReport, LogReport
 from modeler.observation.row_filter import row_filter
+from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch, stretch
 
 if TYPE_CHECKING:
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
 
 
 def observe(
-    model: "CompiledModel", logs: Sequence[Log], processing: Processing | None = None
+    model: "CompiledModel",
+    logs: Sequence[Log],
+    processing: Processing | None = None,
+    every_joint: bool = False,
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
@@ -34,12 +38,15 @@ def observe(
         model: the compiled robot.
         logs: read with the same manifest.
         processing: None: all automatic. For held-out logs pass `report.processing` of the fit.
+        every_joint: mask low speeds also on joints whose dry friction the model lacks.
 
     Raises:
         DataError: no logs, a log of another robot, or no usable row.
     """
     prepared = prepare(model.spec, logs, processing or Processing())
     parts = shafts(model)
+    if every_joint:
+        parts = with_every_joint(parts, model.spec.joints)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
     stretches = tuple(_stretch(segment, parts, chosen) for segment in prepared.segments)
@@ -86,6 +93,12 @@ def _stack(
             [part.rows.means(getattr(part.segment, name), part.segment.whole) for part in stretches]
         )
 
+    signals = {id(part.segment): signals_of(model.spec, part.segment) for part in stretches}
+
+    def regressor(s: Segment, w: slice) -> np.ndarray:
+        read = signals[id(s)]
+        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
+
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
         robot=model.spec.robot,
@@ -100,7 +113,7 @@ def _stack(
         qd=plain("qd"),
         qdd=plain("qdd"),
         torque=gather(lambda s, w: s.tau[w]),
-        columns=gather(lambda s, w: model.base_regressor(s.q[w], s.qd[w], s.qdd[w])),
+        columns=gather(regressor),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
         report=report,

@@ -2,14 +2,75 @@
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, effect_named
 from modeler.robot.robot import INERTIAL
 
-Effects = Mapping[str, str | list[str]]
-"""Effect id or alias -> "all" or the names of the joints that have it."""
+Effects = Mapping[str, str | list]
+"""Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
+
+
+def with_effect(text: str, effect: str, joint: str, shapes: Mapping[str, float]) -> str:
+    """The robot file with an effect on one joint more.
+
+    Raises:
+        RobotError: see `with_effects`.
+    """
+    effects: dict[str, str | list] = dict(tomllib.loads(text).get("effects", {}))
+    known = effect_named(effect)
+    assert known is not None
+    name = next((n for n in effects if effect_named(n) is known), effect)
+    before = effects.get(name, [])
+    shaped = any(form.free for form in known.forms) and bool(shapes)
+    entry = {"joint": joint, **{k: float(f"{v:.6g}") for k, v in shapes.items()}}
+    if before == "all":
+        raise RobotError(f"[effects], {effect}: every joint has it already")
+    if joint in before:
+        raise RobotError(f"[effects], {effect}: joint {joint} has it already")
+    effects[name] = [*before, entry if shaped else joint]
+    return with_effects(text, effects)
+
+
+def with_reference(text: str, values: Mapping[str, float]) -> str:
+    """The robot file with another table [reference]."""
+    lines = _without_table(text, "[reference]")
+    lines += ["", "[reference]", *(f'"{name}" = {value!r}' for name, value in values.items())]
+    return "\n".join(lines) + "\n"
+
+
+def with_gravity(text: str, gravity: Sequence[float]) -> str:
+    """The robot file with another gravity, m/s^2 in frame 0.
+
+    Raises:
+        RobotError: the file's own entry does not stand on one line.
+    """
+    entry = f"gravity = [{', '.join(repr(float(f'{g:.8g}')) for g in gravity)}]"
+    changed, count = re.subn(r"(?m)^gravity\s*=\s*\[[^\]\n]*\]", entry, text, count=1)
+    if count != 1:
+        raise RobotError("gravity cannot be replaced; write it on one line, as in [0, 0, -9.81]")
+    return changed
+
+
+def with_coupling(text: str, joint: str, speed: str) -> str:
+    """The robot file with one motor more that turns with several joints."""
+    lines = text.splitlines()
+    entry = f'"{joint}" = "{speed}"'
+    for place, line in enumerate(lines):
+        if line.split("#")[0].strip() == "[coupling]":
+            return "\n".join([*lines[: place + 1], entry, *lines[place + 1 :]]) + "\n"
+    return "\n".join([*lines, "", "[coupling]", entry]) + "\n"
+
+
+def _without_table(text: str, name: str) -> list[str]:
+    kept, table = [], ""
+    for line in text.splitlines():
+        if line.startswith("["):
+            table = line.split("#")[0].strip()
+        if table != name:
+            kept.append(line)
+    return kept
 
 
 def with_effects(text: str, effects: Effects) -> str:
@@ -58,7 +119,7 @@ def _key(line: str) -> str:
 
 def _belongs(parameter: str, effects: Effects) -> bool:
     """True if the parameter is a link's, or one of these effects'; the longest prefix tells."""
-    owners = {column.prefix: effect.id for effect in CATALOGUE for column in effect.columns}
+    owners = {c.prefix: e.id for e in CATALOGUE for form in e.forms for c in form.columns}
     prefixes = [p for p in (*INERTIAL, *owners) if parameter.startswith(p)]
     prefix = max(prefixes, key=len, default="")
     if prefix not in owners:
@@ -66,11 +127,18 @@ def _belongs(parameter: str, effects: Effects) -> bool:
     for name, joints in effects.items():
         effect = effect_named(name)
         if effect is not None and effect.id == owners[prefix]:
-            return joints == "all" or parameter[len(prefix) :] in joints
+            return joints == "all" or any(
+                parameter[len(prefix) :] == (entry["joint"] if isinstance(entry, dict) else entry)
+                for entry in joints
+            )
     return False
 
 
-def _toml(joints: str | list[str]) -> str:
-    if isinstance(joints, str):
-        return f'"{joints}"'
-    return "[" + ", ".join(f'"{joint}"' for joint in joints) + "]"
+def _toml(value: object) -> str:
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(_toml(entry) for entry in value) + "]"
+    return repr(value)

@@ -13,22 +13,23 @@ from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE, effect_named
+from modeler.effects import CATALOGUE
 from modeler.robot.builtin import builtin_names, builtin_text
 from modeler.robot.cells import form_at, list_at, plain_number, table_at, text_at
+from modeler.robot.effects import needs_reference, read_effects
 from modeler.robot.joint import Joint
 from modeler.robot.legs import expanded, leg_names
 from modeler.robot.loops import read_home, read_loops
 from modeler.robot.place import Place, listed, near, shown
 from modeler.robot.platform import read_platform
 from modeler.robot.relations import read_relations
-from modeler.robot.robot import EffectUse, Loop, Robot
+from modeler.robot.robot import Loop, Robot
 from modeler.robot.sections import (
     read_coupling,
     read_drive_gains,
-    read_effects,
     read_limits,
     read_physical,
+    read_reference,
 )
 from modeler.robot.sharing import read_links, read_shared, shared_names
 from modeler.robot.symbols import read_gravity, read_symbols
@@ -37,7 +38,7 @@ from modeler.robot.table import Row, table_joints, table_rows
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "links", "effects", "coupling", "parameters",
-    "drive_gains", "limits", "physical", "terms",
+    "reference", "drive_gains", "limits", "physical", "terms",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -121,8 +122,8 @@ def _with_tables(
     effects = read_effects(document.get("effects", {}), moving, coupling, place.at("[effects]"))
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= read_links(document.get("links", {}), moving, place.at("[links]"))
-    robot = dataclasses.replace(robot, links=links)
-    every = _parameter_names(robot, moving, effects, place)
+    robot = dataclasses.replace(robot, links=links, effects=effects)
+    every = _parameter_names(robot, moving, place)
     legs = leg_names(document.get("legs"), place.at("legs"))
     shared = read_shared(document.get("shared", []), every, legs, place.at("shared"))
     known = shared_names(every, shared)
@@ -131,7 +132,7 @@ def _with_tables(
         loops=_loops(document.get("loops"), robot, place.at("[loops]")),
         home=read_home(document.get("home", {}), moving, values, place.at("[home]")),
         shared=shared,
-        effects=effects,
+        reference=_reference(document, robot, known, place.at("[reference]")),
         coupling=coupling,
         priority=_priority(document.get("priority", []), known, moving, place.at("priority")),
         parameters=_parameters(document.get("parameters", {}), known, place.at("[parameters]")),
@@ -227,9 +228,7 @@ def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:
     return columns
 
 
-def _parameter_names(
-    robot: Robot, moving: Mapping[str, Joint], effects: tuple[EffectUse, ...], place: Place
-) -> tuple[str, ...]:
+def _parameter_names(robot: Robot, moving: Mapping[str, Joint], place: Place) -> tuple[str, ...]:
     """Names of the standard parameters.
 
     Raises:
@@ -238,13 +237,10 @@ def _parameter_names(
     names: dict[str, str] = {}
     for name in moving:
         prefixes = list(robot.inertial(name))
-        for use in effects:
-            effect = effect_named(use.effect)
-            assert effect is not None
-            if name in use.joints:
-                prefixes += [column.prefix for column in effect.columns]
-        for prefix in prefixes:
-            parameter = f"{prefix}{name}"
+        own = [f"{prefix}{name}" for prefix in prefixes]
+        for _, form, instance in robot.effects_on(name):
+            own += [f"{column.prefix}{name}{instance.label}" for column in form.columns]
+        for parameter in own:
             if parameter in robot.symbols:
                 raise place.at("[symbols]").error(
                     f"{shown(parameter)} is the name of a standard parameter; choose another name"
@@ -264,12 +260,25 @@ def _parameter_names(
     return tuple(names)
 
 
+def _reference(
+    document: Mapping[str, Any], robot: Robot, known: tuple[str, ...], place: Place
+) -> dict[str, float]:
+    """The table, which effects need that depend on what the links ask of the joints."""
+    needed = [use.effect for use in robot.effects for i in use.instances if needs_reference(use, i)]
+    if needed and "reference" not in document:
+        raise place.error(
+            f"is missing; {needed[0]} depends on the torques of the links: state their parameters "
+            "there, as `modeler add` does"
+        )
+    return read_reference(document.get("reference", {}), known, place)
+
+
 def _priority(
     value: Any, known: tuple[str, ...], moving: Mapping[str, Joint], place: Place
 ) -> tuple[str, ...]:
     """The patterns that match a parameter; those of effects that the robot lacks are left out."""
     patterns = list_at(value, place, '["ZZ*", "Ia?"]')
-    prefixes = [column.prefix for effect in CATALOGUE for column in effect.columns]
+    prefixes = [c.prefix for effect in CATALOGUE for form in effect.forms for c in form.columns]
     possible = [*known, *(prefix + name for prefix in prefixes for name in moving)]
     for pattern in patterns:
         pattern = text_at(pattern, place, '"ZZ*"')

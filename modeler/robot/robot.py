@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from modeler.core.expression import Expression
+from modeler.effects import Effect, Form, effect_named
 from modeler.robot.joint import Joint
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
@@ -15,11 +16,40 @@ _EMPTY: Mapping = MappingProxyType({})
 
 
 @dataclass(frozen=True)
+class EffectInstance:
+    """An effect on one joint.
+
+    Attributes:
+        joint: name.
+        form: place among the forms of the effect.
+        shapes: values of its shape parameters, SI.
+        label: after the names of its parameters; "" but for a second instance on the same joint.
+    """
+
+    joint: str
+    form: int = 0
+    shapes: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    label: str = ""
+
+
+@dataclass(frozen=True)
 class EffectUse:
-    """An effect of the catalogue, and the joints that have it."""
+    """An effect of the catalogue, and where the robot has it.
+
+    Attributes:
+        effect: id.
+        joints: that have it, each once.
+        shaped: with their shapes; empty for an effect without.
+    """
 
     effect: str
     joints: tuple[str, ...]
+    shaped: tuple[EffectInstance, ...] = ()
+
+    @property
+    def instances(self) -> tuple[EffectInstance, ...]:
+        """The effect on every joint, as often as it stands there."""
+        return self.shaped or tuple(EffectInstance(joint) for joint in self.joints)
 
 
 @dataclass(frozen=True)
@@ -110,6 +140,7 @@ class Robot:
             assembly mode is meant.
         links: inertial parameters of rows that have not all ten: row -> prefixes.
         shared: parameters that similar legs have in common.
+        reference: standard parameters at which effects that depend on the load are linearised.
         notes: source of the table and remarks, for people.
         text: the TOML text it was read from.
     """
@@ -133,6 +164,7 @@ class Robot:
     home: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     links: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: _EMPTY)
     shared: tuple[SharedParameter, ...] = ()
+    reference: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     notes: str = ""
     text: str = ""
 
@@ -173,6 +205,18 @@ class Robot:
     def joint(self, name: str) -> Joint:
         """Row of that name."""
         return next(joint for joint in self.joints if joint.name == name)
+
+    def effects_on(self, joint: str) -> list[tuple[Effect, Form, EffectInstance]]:
+        """The effects of a joint, in catalogue order."""
+        found = []
+        for use in self.effects:
+            effect = effect_named(use.effect)
+            if effect is None:  # one that only the simulator would refuse
+                continue
+            for instance in use.instances:
+                if instance.joint == joint:
+                    found.append((effect, effect.forms[instance.form], instance))
+        return found
 
     def has_effect(self, effect: str, joint: str) -> bool:
         """True if that joint carries that effect."""

@@ -4,7 +4,6 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from modeler.core.expression import Expression
-from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot.cells import (
     check_declared,
     expression_at,
@@ -17,7 +16,7 @@ from modeler.robot.cells import (
 )
 from modeler.robot.joint import Joint
 from modeler.robot.place import Place, listed, near, shown
-from modeler.robot.robot import EffectUse, Limits, PhysicalLink
+from modeler.robot.robot import Limits, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
 
@@ -72,62 +71,21 @@ def read_coupling(
     return coupling
 
 
-def read_effects(
-    value: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
-) -> tuple[EffectUse, ...]:
-    """Effects and their joints, in catalogue order.
-
-    "all" means every actuated joint, and every motor of `[coupling]` for effects of coupled
-    motors; passive joints have an effect only if they are named.
+def read_reference(value: Any, known: Collection[str], place: Place) -> dict[str, float]:
+    """Standard parameters about which effects that depend on the load are linearised.
 
     Raises:
-        RobotError: unknown effects or joints.
+        RobotError: an unknown parameter, or no number.
     """
-    uses: dict[str, EffectUse] = {}
-    for name, cell in table_at(value, place, '[effects] viscous = "all"').items():
-        effect = effect_named(name)
-        if effect is None:
-            names = [known for e in CATALOGUE for known in (e.id, *e.aliases)]
+    found = {}
+    for name, cell in table_at(value, place, "[reference] ZZ1 = 0.5").items():
+        if name not in known:
             raise place.error(
-                f"there is no effect {shown(name)}{near(name, names)}; expected one of "
-                f"{listed(e.id for e in CATALOGUE)}"
+                f"there is no parameter {shown(name)}{near(name, known)}; expected names of "
+                "standard parameters, such as ZZ1"
             )
-        if effect.id in uses:
-            raise place.error(
-                f"{shown(name)} is {effect.id}, which stands there already; keep one of them"
-            )
-        here = place.at(name)
-        uses[effect.id] = EffectUse(effect.id, _effect_joints(effect, cell, moving, coupling, here))
-    return tuple(uses[e.id] for e in CATALOGUE if e.id in uses and uses[e.id].joints)
-
-
-def _effect_joints(
-    effect: Effect, cell: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
-) -> tuple[str, ...]:
-    if effect.coupled and not coupling:
-        raise place.error(
-            "acts on motors that turn with several joints, and the file couples none; add a "
-            'table [coupling] with a line such as "6" = "q5 + q6"'
-        )
-    if cell == "all":
-        return tuple(
-            name
-            for name, joint in moving.items()
-            if (name in coupling if effect.coupled else joint.actuated)
-        )
-    example = '"all" or ["1", "2"]'
-    if not isinstance(cell, list):
-        raise place.error(f"got {shown(cell)}; expected the joints that have it: {example}")
-    named = [joint_at(entry, moving, place).name for entry in cell]
-    for name in named:
-        if named.count(name) > 1:
-            raise place.error(f"joint {shown(name)} stands there twice; name it once")
-        if effect.coupled and name not in coupling:
-            raise place.error(
-                f"joint {shown(name)} has no line in [coupling], which has {listed(coupling)}; "
-                "add one, or take the joint out"
-            )
-    return tuple(name for name in moving if name in named)
+        found[name] = plain_number(cell, place.at(name), "0.5")
+    return found
 
 
 def read_drive_gains(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[str, float]:

@@ -1,10 +1,10 @@
 """The standard parameters of a robot: which columns the regressor has, and in which order."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from modeler.effects import CATALOGUE, EffectColumn
+from modeler.effects import Acts, EffectColumn, Memory
 from modeler.robot import Joint, Robot
 from modeler.symbolic.geometry import Geometry
 
@@ -27,6 +27,9 @@ class StandardColumn:
         column: the effect's column; None for the ten inertial parameters.
         shaft: for an effect, {k: coefficient}; the speed of the shaft is v = sum of coefficient *
             ud[k] over the free variables, and it turns them back with the same coefficients.
+        acts: on what the effect acts.
+        shapes: values of the effect's shape parameters.
+        memory: of its inner state.
         others: columns of the same parameter on other rows, which similar legs share; the
             parameter's column is the sum of its `parts`.
     """
@@ -39,6 +42,9 @@ class StandardColumn:
     effect: str
     column: EffectColumn | None = None
     shaft: Mapping[int, Fraction] | None = None
+    acts: Acts = Acts.JOINT
+    shapes: Mapping[str, float] = field(default_factory=dict)
+    memory: Memory | None = None
     others: tuple["StandardColumn", ...] = ()
 
     @property
@@ -78,21 +84,23 @@ def _inertial(prefix: str, row: int, joint: Joint) -> StandardColumn:
 
 def _effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[StandardColumn]:
     found = []
-    for effect in CATALOGUE:
-        if geometry.robot.has_effect(effect.id, joint.name):
-            for column in effect.columns:
-                found.append(
-                    StandardColumn(
-                        name=column.prefix + joint.name,
-                        row=row,
-                        prefix=column.prefix,
-                        unit=column.unit_revolute if joint.angular else column.unit_prismatic,
-                        kind=column.kind,
-                        effect=effect.id,
-                        column=column,
-                        shaft=_shaft(geometry, joint, effect.coupled),
-                    )
+    for effect, form, instance in geometry.robot.effects_on(joint.name):
+        for column in form.columns:
+            found.append(
+                StandardColumn(
+                    name=column.prefix + joint.name + instance.label,
+                    row=row,
+                    prefix=column.prefix,
+                    unit=column.unit_revolute if joint.angular else column.unit_prismatic,
+                    kind=column.kind,
+                    effect=effect.id,
+                    column=column,
+                    shaft=_shaft(geometry, joint, effect.coupled),
+                    acts=effect.acts,
+                    shapes=instance.shapes,
+                    memory=form.memory,
                 )
+            )
     return found
 
 

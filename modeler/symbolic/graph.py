@@ -82,6 +82,14 @@ class Graph:
             return self.constant(1 if name in ("cos", "exp") else 0)
         return Expr(self, sign * self._node(name, (ref,), self.nodes[abs(ref)].static))
 
+    def power(self, base: "Expr", exponent: "Expr") -> "Expr":
+        """base**exponent for any constant exponent; the base is not negative."""
+        node = self.nodes[abs(exponent.ref)]
+        if exponent.ref > 0 and node.op == "num" and node.args[0].denominator == 1:
+            return base ** int(node.args[0])
+        static = self.nodes[abs(base.ref)].static and node.static
+        return Expr(self, self._node("pow", (base.ref, exponent.ref), static))
+
     def _node(self, op: str, args: tuple[Any, ...], static: bool) -> int:
         """Reference of the operation: a known one of the same value, or a new node."""
         key = (op, args)
@@ -123,7 +131,7 @@ class Graph:
         if op in ("sin", "cos"):
             c, s = self._unit(args[0])
             return s if op == "sin" else c
-        return _random_residue(f"{op} {values[0] % PRIME}")
+        return _random_residue(f"{op} {[value % PRIME for value in values]}")
 
     def _unit(self, ref: int) -> tuple[int, int]:
         """(cos, sin) of an angle modulo the prime; those of sums and multiples are composed."""
@@ -297,6 +305,8 @@ def _evaluate(node: Node, values: Mapping[str, Any], found: Mapping[int, Any]) -
         return args[0] * args[1]
     if node.op == "div":
         return args[0] / args[1]
+    if node.op == "pow":
+        return np.power(args[0], args[1])
     return _FUNCTIONS[node.op](args[0])
 
 
@@ -338,7 +348,9 @@ class Expr:
     def __rtruediv__(self, other: Operand) -> "Expr":
         return self.graph.lift(other) / self
 
-    def __pow__(self, exponent: int) -> "Expr":
+    def __pow__(self, exponent: "int | Expr") -> "Expr":
+        if isinstance(exponent, Expr):
+            return self.graph.power(self, exponent)
         if not isinstance(exponent, int):
             raise TypeError(f"only integer powers, got exponent {exponent!r}")
         result = self.graph.constant(1)

@@ -9,6 +9,7 @@ from modeler.robot import Robot
 from modeler.symbolic.algebra import GraphAlgebra
 from modeler.symbolic.closure import Closure, closure_of
 from modeler.symbolic.columns import StandardColumn
+from modeler.symbolic.effects import effect_entries
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.inertia_matrix import inertia_matrix
@@ -29,6 +30,10 @@ from modeler.symbolic.newton_euler import (
     project,
     wrench_columns,
 )
+from modeler.symbolic.signals import Signal, signals_of
+
+_REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
+"""Effects whose parameters `[reference]` may state: those that depend on nothing else."""
 
 Entries = Mapping[tuple[int, int], Expr]
 """Structural nonzeros of a regressor: (joint, column) -> expression."""
@@ -117,7 +122,7 @@ class SymbolicModel:
         for place, column in enumerate(self.columns):
             for part in column.parts:
                 if part.column is not None:
-                    values = self._effect_entries(part)
+                    values = effect_entries(self, part)
                 else:
                     force, moment = wrenches[part.row][part.prefix]
                     values = {
@@ -144,25 +149,26 @@ class SymbolicModel:
             found.append(total)
         return found
 
-    def _effect_entries(self, column: StandardColumn) -> dict[int, Expr]:
-        assert column.column is not None and column.shaft is not None
-        speed, acceleration = (self._shaft(column.shaft, kind) for kind in ("qd", "qdd"))
-        functions = {
-            name: lambda x, name=name: self.graph.call(name, x)
-            for name in ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
-        }
-        torque = self.graph.lift(
-            column.column.equation.fold(
-                {"v": speed, "a": acceleration}, functions, None, self.graph.constant
-            )
-        )
-        return {k: torque * coefficient for k, coefficient in column.shaft.items()}
+    @cached_property
+    def signals(self) -> tuple[Signal, ...]:
+        """What effects read besides the motion: the input `s`, in order."""
+        return signals_of(self.columns)
 
-    def _shaft(self, shaft: Mapping[int, Fraction], kind: str) -> Expr:
-        total = self.graph.constant(0)
-        for k, coefficient in shaft.items():
-            total = total + self.inputs(kind)[k] * coefficient
-        return total
+    def reference_torque(self, kind: str) -> list[Expr]:
+        """Torques along the free variables at the parameters of `[reference]`.
+
+        Args:
+            kind: "load", of the links; "static", of gravity; "torque", of the textbook effects too.
+        """
+        known = {
+            place: self.graph.constant(Fraction(repr(float(self.robot.reference[column.name]))))
+            for place, column in enumerate(self.columns)
+            if column.name in self.robot.reference and column.effect in _REFERRED
+        }
+        still = kind == "static"
+        return self.torque(
+            known, speeds=not still, accelerations=not still, effects=kind == "torque"
+        )
 
     def torque(
         self, parameters: Mapping[int, Expr], *, speeds: bool = True,
@@ -188,10 +194,11 @@ class SymbolicModel:
             rows = self.link_parameters(parameters)
             torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
             tau = self._free_efforts(torques)
-        if effects:
-            for (joint, place), value in self.regressor.items():
-                if self.columns[place].column is not None and place in parameters:
-                    tau[joint] = tau[joint] + value * parameters[place]
+        for place in parameters if effects else ():
+            for part in self.columns[place].parts:
+                if part.column is not None:
+                    for joint, value in effect_entries(self, part).items():
+                        tau[joint] = tau[joint] + value * parameters[place]
         return tau
 
     def link_parameters(self, parameters: Mapping[int, Expr]) -> list[dict[str, Expr]]:

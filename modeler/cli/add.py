@@ -1,0 +1,79 @@
+"""`modeler add MODEL EFFECT LOG... --out MODEL2`."""
+
+import argparse
+from pathlib import Path
+
+from modeler.api import read_logs, recompile
+from modeler.cli.console import Json, say, working
+from modeler.core.errors import DataError
+from modeler.core.files import write_atomically
+from modeler.diagnose import diagnose
+from modeler.fit import IdentifiedModel, load_model, save_model
+from modeler.improve import Logs, add_effect, add_findings, undone
+
+_WIDTH = 40  # characters of the longest bar
+
+
+def add_add(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler add`."""
+    parser = commands.add_parser(
+        "add",
+        help="put a physical effect into a model and watch the error fall",
+        description="Adds EFFECT to the robot of MODEL, derives and emits it anew, fits it to the "
+        "logs and shows the error before and after. EFFECT may also be `auto`: all that `modeler "
+        "diagnose` names, or `undo`: without the last one.",
+        epilog="example: modeler add arm.model.json load_friction --joint 2 train.parquet "
+        "--holdout other.parquet --out arm2.model.json",
+    )
+    parser.add_argument("model", metavar="MODEL", help="a model file of `modeler fit`")
+    parser.add_argument("effect", metavar="EFFECT", help="see `modeler effects`; auto; undo")
+    parser.add_argument("logs", metavar="LOG", nargs="+", help="logs to fit to")
+    parser.add_argument("--joint", metavar="J", help="default: where it explains most")
+    parser.add_argument("--out", metavar="MODEL2", required=True, help="model file to write")
+    parser.add_argument(
+        "--holdout", metavar="LOG", nargs="+", default=[], help="logs of other motion to judge on"
+    )
+    parser.add_argument("--robot", metavar="FILE", help="write the new robot file too")
+    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
+    parser.set_defaults(run=run_add)
+
+
+def run_add(args: argparse.Namespace) -> Json:
+    """Adds, saves, draws the waterfall."""
+    if Path(args.out).resolve() in {Path(place).resolve() for place in args.logs}:
+        raise DataError(f"--out {args.out}: this is a log; expected a model file")
+    model = load_model(args.model)
+    with working(f"adding {args.effect}"):
+        compiled = recompile(model)
+        logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
+        if args.effect == "undo":
+            better = undone(model, logs)
+        elif args.effect == "auto":
+            found = diagnose(model, compiled, logs.fitted, logs.held_out)
+            better = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
+            if better is model:
+                raise DataError("auto: nothing that can be added is missing in this model")
+        else:
+            better = add_effect(model, compiled, args.effect, args.joint, logs)
+    save_model(args.out, better)
+    for line in waterfall(better):
+        say(line)
+    say(f"written: {args.out}")
+    if args.robot is not None:
+        write_atomically(Path(args.robot), better.robot_text)
+        say(f"written: {args.robot}")
+    return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+
+
+def waterfall(model: IdentifiedModel) -> list[str]:
+    """The error after every effect that was added, as bars."""
+    held_out = bool(model.history and model.history[-1].held_out)
+    title = "held-out error" if held_out else "error on the fitted logs (nothing was held out)"
+    lines = [f"{'':<30} {title}"]
+    largest = max((step.error for step in model.history), default=0.0) or 1.0
+    for step in model.history:
+        name = f"+ {step.effect}" if step.effect else "model as fitted"
+        name += f" @{step.joint}" if step.joint else ""
+        bar = "#" * round(_WIDTH * step.error / largest)
+        lines.append(f"{name:<30} {step.error:7.2%} {bar}  (fitted {step.training_error:.2%})")
+    return lines

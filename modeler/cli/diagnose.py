@@ -1,0 +1,89 @@
+"""`modeler diagnose MODEL LOG...`."""
+
+import argparse
+from collections.abc import Sequence
+
+from modeler.api import read_logs, recompile
+from modeler.cli.console import Json, progress, say, working
+from modeler.core.errors import DataError
+from modeler.diagnose import Diagnosis, diagnose
+from modeler.effects import CATALOGUE, effect_named
+from modeler.fit import load_model
+from modeler.observation import Log
+from modeler.observation.log import shared_rows
+
+
+def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """`modeler diagnose`."""
+    parser = commands.add_parser(
+        "diagnose",
+        help="which physical effect is missing",
+        description="Looks for the physical effects that MODEL lacks on the logs: which, on which "
+        "joint, how large, what adding them would gain on motion not used for the fit, what they "
+        "could be mistaken for, and what these logs cannot show.",
+        epilog="example: modeler diagnose arm.model.json train.parquet --holdout other.parquet",
+    )
+    parser.add_argument("model", metavar="MODEL", help="a model file of `modeler fit`")
+    parser.add_argument(
+        "logs", metavar="LOG", nargs="+",
+        help="logs to explain; FILE@START:END takes the rows between these seconds",
+    )  # fmt: skip
+    parser.add_argument(
+        "--holdout", metavar="LOG", nargs="+", default=[],
+        help="logs of other motion: errors come from them, nothing is fitted to them",
+    )  # fmt: skip
+    parser.add_argument(
+        "--without", metavar="EFFECT[@J]", action="append", default=[],
+        help="an effect that this robot does not have, on one joint or at all",
+    )  # fmt: skip
+    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
+    parser.set_defaults(run=run_diagnose)
+
+
+def run_diagnose(args: argparse.Namespace) -> Json:
+    """Prints the verdict, the effects and what cannot be told."""
+    _check_effects(args.without)
+    model = load_model(args.model)
+    with working("deriving the robot of the model"):
+        compiled = recompile(model)
+        logs = read_logs(compiled, args.logs)
+        holdout = read_logs(compiled, args.holdout)
+    _check_apart(logs, holdout)
+    with progress("looking for missing effects") as bar:
+        diagnosis = diagnose(model, compiled, logs, holdout, args.without, progress=bar)
+    for line in lines(diagnosis):
+        say(line)
+    return diagnosis.to_json()
+
+
+def lines(diagnosis: Diagnosis) -> list[str]:
+    """The diagnosis as text."""
+    found = list(diagnosis.sentences)
+    source = "held out" if diagnosis.held_out else "cross-validated"
+    found.append("")
+    found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
+                 f"{diagnosis.band:g} Hz)")  # fmt: skip
+    for name, joint in diagnosis.joints.items():
+        found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
+    blind = [f"{effect}@{joint}" if joint else effect for effect, joint in diagnosis.blind_spots]
+    if blind:
+        found.append(f"these logs cannot show: {', '.join(blind)}")
+    return found
+
+
+def _check_effects(given: Sequence[str]) -> None:
+    known = [effect.id for effect in CATALOGUE]
+    for text in given:
+        if effect_named(text.partition("@")[0]) is None:
+            raise DataError(f"--without {text}: no such effect; expected one of {', '.join(known)}")
+
+
+def _check_apart(logs: Sequence[Log], holdout: Sequence[Log]) -> None:
+    """Held-out rows that are also explained would flatter every effect."""
+    for other in holdout:
+        for log in logs:
+            if shared_rows(other, log.content, log.time[0], log.time[-1]):
+                raise DataError(
+                    f"--holdout {other.name}: shares rows with {log.name}; expected other motion; "
+                    "leave it out, or split the log with FILE@START:END"
+                )

@@ -1,0 +1,264 @@
+"""From a search to a diagnosis: errors on other motion, ties, closure, verdict."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from modeler.diagnose.bursts import BURST, burst_ratio
+from modeler.diagnose.contact import Window
+from modeler.diagnose.errors import crossed_errors, held_out_errors
+from modeler.diagnose.gram import VISIBLE
+from modeler.diagnose.judge import Judged
+from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
+from modeler.diagnose.search import Search, Step
+from modeler.diagnose.sentences import evidence, sentences
+from modeler.diagnose.state import Data, State, state_of
+from modeler.diagnose.systematic import predictable, repeatable
+from modeler.effects import effect_named
+from modeler.fit import IdentifiedModel
+
+CLOSED = 0.75
+"""Share of what is systematic that an effect must explain to be stated as the cause."""
+
+FELT = 0.005
+"""Of the torque's rms: what is systematic below is not worth a word."""
+
+LEFT = 0.3
+"""Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
+
+def assembled(
+    model: IdentifiedModel, found: Search, other: Data | None, window: Window | None
+) -> Diagnosis:
+    """The diagnosis.
+
+    Args:
+        model: as given.
+        found: of the training logs.
+        other: held-out logs.
+        window: of a contact that was masked.
+    """
+    chain = _chain(found)
+    errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
+    systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
+    findings = [
+        _finding(found, step, errors[k], errors[k + 1], systematic)
+        for k, step in enumerate(found.steps)
+    ]
+    findings += _detected(found, window, errors, findings)
+    effects = tuple(f for f in findings if not f.refines)
+    joints = _joints(found, errors, systematic)
+    verdict = _verdict(effects, joints, found)
+    data = found.start.data
+    held = other.observation.logs if other else ()
+    rivals = found.steps[0].rivals if found.steps else found.last.ranked
+    diagnosis = Diagnosis(
+        robot=model.spec.robot,
+        verdict=verdict,
+        effects=effects,
+        refinements=tuple(f for f in findings if f.refines),
+        rivals=tuple((*r.candidate.key, r.gain) for r in rivals[:8]),
+        blind_spots=_blind(found),
+        joints=joints,
+        held_out=held,
+        sentences=(),
+        band=data.observation.report.processing.parallel_cutoff or 0.0,
+        changed=data.kept is not None,
+        search=found,
+    )
+    return sentences(diagnosis)
+
+
+def _chain(found: Search) -> list[State]:
+    """The states after none, one, two ... of the effects."""
+    picks = [step.pick for step in found.steps]
+    middle = [
+        state_of(found.start.data, picks[:k], found.end.beta, found.start.cache)
+        for k in range(1, len(picks))
+    ]
+    return [found.start, *middle, *([found.end] if picks else [])]
+
+
+def _systematic(state: State, j: int) -> float:
+    """Share of the residual's variance that is systematic."""
+    again = repeatable(state, j)
+    return max(predictable(state, j), again if again is not None else 0.0)
+
+
+def _finding(
+    found: Search, step: Step, before: np.ndarray, after: np.ndarray, systematic: Sequence[float]
+) -> Finding:
+    judged, pick = step.judged, step.pick
+    names = [*pick.parameter_names()]
+    place = next(i for i, s in enumerate(found.steps) if s is step)
+    values = found.end.values[place]
+    if len(names) != len(values):
+        names = [f"{names[0]}_{k + 1}" for k in range(len(values))]
+    concerned = pick.concerns(len(before))
+    start, end = _over(found, concerned, before), _over(found, concerned, after)
+    closure = _closure(found, concerned, systematic)
+    ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
+                                *_same(judged)]))  # fmt: skip
+    columns = pick.form.columns
+    units = [columns[min(k, len(columns) - 1)].unit_revolute for k in range(len(names))]
+    return Finding(
+        effect=pick.effect.id,
+        joint=pick.joint,
+        gain=judged.gain,
+        error_before=start,
+        error_after=end,
+        parameters=dict(zip(names, map(float, values), strict=True)) | dict(pick.shapes),
+        sigmas=dict(zip(names, map(float, judged.deviations), strict=False)),
+        units=dict(zip(names, units, strict=True)),
+        ties=ties,
+        evidence=evidence(step, start, end),
+        closure=closure,
+        refines=_refines(found, step),
+    )
+
+
+def _same(judged: Judged) -> list[Key]:
+    """Effects that no data tell from it."""
+    return [(other, judged.candidate.joint) for other in judged.candidate.effect.same_as]
+
+
+def _refines(found: Search, step: Step) -> bool:
+    """True if an effect of the same family on the same joint was named before."""
+    for earlier in found.steps:
+        if earlier is step:
+            return False
+        same = earlier.pick.joint == step.pick.joint
+        if same and earlier.pick.effect.family == step.pick.effect.family:
+            return True
+    return False
+
+
+def _over(found: Search, concerned: Sequence[int], errors: np.ndarray) -> float:
+    """Relative error over some joints: the rms torque of each is its weight."""
+    size = np.array([float(np.mean(y**2)) if y.size else 0.0 for y in found.start.rows.y])
+    own = list(concerned)
+    total = float(size[own].sum())
+    return finite(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
+
+
+def _closure(found: Search, concerned: Sequence[int], systematic: Sequence[float]) -> float | None:
+    """What the effects explain, over that and what is still systematic, squared residuals."""
+    explained = left = 0.0
+    for j in concerned:
+        before = float(np.sum((found.start.residual[j] / found.start.base.sigma[j]) ** 2))
+        after = float(np.sum((found.end.residual[j] / found.start.base.sigma[j]) ** 2))
+        explained += max(0.0, before - after)
+        left += systematic[j] * after
+    return explained / (explained + left) if explained > 0.0 else None
+
+
+def _detected(
+    found: Search,
+    window: Window | None,
+    errors: Sequence[np.ndarray],
+    findings: Sequence[Finding],
+) -> list[Finding]:
+    """Findings that are no columns: contact and play."""
+    result = []
+    every = range(len(errors[0]))
+    if window is not None:
+        force = window.force if window.force is not None else np.zeros(3)
+        names = ("fx", "fy", "fz")
+        result.append(
+            Finding(
+                "external_force", None, 1.0 - 1.0 / window.ratio,
+                _over(found, every, errors[0]), _over(found, every, errors[-1]),
+                {"t0": window.start, "t1": window.end}
+                | dict(zip(names, map(float, force), strict=True)),
+                {}, dict.fromkeys(names, "N"), (),
+                f"the residuals of several joints burst from {window.start:.1f} to "
+                f"{window.end:.1f} s, {window.ratio:.0f} times the energy of any other moment; "
+                "these rows are left out of everything else",
+                None, False,
+            )
+        )  # fmt: skip
+    if not findings:
+        result += _play(found, errors)
+    return result
+
+
+def _play(found: Search, errors: Sequence[np.ndarray]) -> list[Finding]:
+    """Play in a gear, on the joint whose bursts its column describes best."""
+    joints = found.end.data.compiled.spec.joints
+    ratios = [
+        burst_ratio(found.end, j) if joint.actuated else 0.0 for j, joint in enumerate(joints)
+    ]
+    bursting = [j for j, ratio in enumerate(ratios) if ratio > BURST]
+    if not bursting:
+        return []
+    described = {
+        item.candidate.index: item.gain
+        for item in found.last.ranked if item.candidate.effect.id == "backlash"
+    }  # fmt: skip
+    j = max(bursting, key=lambda k: (described.get(k, 0.0), ratios[k]))
+    text = (
+        f"joint {joints[j].name}: {ratios[j]:.0f} times the residual energy within 0.1 s after "
+        "the load changes sign, while the joint moves on"
+    )
+    others = tuple(("backlash", joints[k].name) for k in bursting if k != j)
+    before, after = float(errors[0][j]), float(errors[-1][j])
+    gain = 1.0 - 1.0 / ratios[j]
+    return [
+        Finding(
+            "backlash", joints[j].name, gain, before, after, {}, {}, {}, others, text, None, False
+        )
+    ]
+
+
+def _joints(
+    found: Search, errors: Sequence[np.ndarray], systematic: Sequence[float]
+) -> dict[str, JointState]:
+    states = {}
+    for j, joint in enumerate(found.start.data.compiled.spec.joints):
+        if not found.start.rows.y[j].size:
+            continue
+        size = float(np.mean(found.start.rows.y[j] ** 2))
+        before, after = (float(np.mean(s.residual[j] ** 2)) for s in (found.start, found.end))
+        share = after / size if size > 0.0 else 0.0
+        states[joint.name] = JointState(
+            error_before=finite(errors[0][j]),
+            error_after=finite(errors[-1][j]),
+            unit=joint.effort_unit,
+            rms_before=finite(np.sqrt(before)),
+            rms_after=finite(np.sqrt(after)),
+            explained=1.0 - share,
+            systematic=share * systematic[j],
+            noise=share * (1.0 - systematic[j]),
+        )
+    return states
+
+
+def _verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Search) -> str:
+    if effects:
+        closed = [f.closure is None or f.closure >= CLOSED for f in effects]
+        return "missing" if closed[0] else "closest description"
+    for state in joints.values():
+        left = state.systematic + state.noise
+        if np.sqrt(state.systematic) > FELT and state.systematic > LEFT * left:
+            return "unexplained"
+    if not any(y.size > 100 for y in found.start.y):
+        return "cannot tell"
+    return "nothing significant"
+
+
+def _blind(found: Search) -> tuple[Key, ...]:
+    """Effects whose columns the model hides on these data."""
+    judged = [*found.last.ranked]
+    seen = {j.candidate.key for j in judged}
+    hidden = [j.candidate.key for j in judged if j.visible < 2.0 * VISIBLE]
+    spec = found.start.data.compiled.spec
+    for joint in spec.joints:
+        for name in ("encoder_offset", "encoder_eccentricity"):
+            if joint.actuated and (name, joint.name) not in seen:
+                hidden.append((name, joint.name))
+    if found.start.data.kept is None:
+        hidden.append(("payload", None))
+    named = {step.pick.key for step in found.steps}
+    kept = [key for key in dict.fromkeys(hidden) if key not in named]
+    assert all(effect_named(name) is not None for name, _ in kept)
+    return tuple(kept)

@@ -1,0 +1,105 @@
+"""The columns of a candidate over the samples of a segment: the catalogue's equations in numpy."""
+
+import numpy as np
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.signals import Signals
+from modeler.diagnose.tilt import tilt_columns
+from modeler.effects import Acts, Memory
+
+FUNCTIONS = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp,
+    "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
+}  # fmt: skip
+
+
+def own_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
+    """(n, k) equations of its k columns on its joint."""
+    j = candidate.index
+    names = candidate.form.names
+    values: dict[str, object] = dict(candidate.shapes)
+    values |= {"q": signals.q[:, j], "v": signals.v[:, j], "a": signals.a[:, j]}
+    for name in ("load", "static", "torque", "rate"):
+        if name in names:
+            values[name] = getattr(signals, name)[:, j]
+    if "t" in names:
+        values["t"] = signals.time
+    if "T" in names:
+        values["T"] = signals.temperature(candidate.joint or "")
+    memory = candidate.form.memory
+    if memory is not None:
+        values["z"] = _state(memory, candidate, signals)
+    ones = np.ones(len(signals.q))
+    return np.column_stack(
+        [
+            ones * column.equation.fold(values, FUNCTIONS, np.pi, float)
+            for column in candidate.form.columns
+        ]
+    )
+
+
+def _state(memory: Memory, candidate: Candidate, signals: Signals) -> np.ndarray:
+    return signals.state(memory, candidate.index, candidate.shapes[memory.shape])
+
+
+def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
+    """(n, J, k) torques of its columns on every joint."""
+    acts = candidate.effect.acts
+    n, joints = signals.q.shape
+    if acts is Acts.TORQUE:
+        return signals.rate[:, :, None]
+    if acts is Acts.GRAVITY:
+        return tilt_columns(signals)
+    if acts is Acts.LINK:
+        return _body(candidate, signals)
+    if acts is Acts.MOTOR:
+        return _motor(candidate, signals)
+    if acts is Acts.PASSIVE:
+        return _passive(candidate, signals)
+    own = own_columns(candidate, signals)
+    if acts is Acts.POSITION:
+        dq = np.zeros((n, joints))
+        found = []
+        for k in range(own.shape[1]):
+            dq[:, candidate.index] = own[:, k]
+            found.append(signals.moved(dq))
+        return np.stack(found, axis=2)
+    result = np.zeros((n, joints, own.shape[1]))
+    result[:, candidate.index] = own
+    return result
+
+
+def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
+    """(n, k) equations of a shaft that is no joint of the model."""
+    values = {"v": speed, "a": acceleration}
+    return np.column_stack(
+        [c.equation.fold(values, FUNCTIONS, np.pi, float) for c in candidate.form.columns]
+    )
+
+
+def _motor(candidate: Candidate, signals: Signals) -> np.ndarray:
+    j, c = candidate.index, candidate.shapes["c"]
+    turn = np.zeros(signals.q.shape[1])
+    turn[j - 1], turn[j] = c, 1.0
+    own = _shaft(candidate, signals.v @ turn, signals.a @ turn)
+    return own[:, None, :] * turn[None, :, None]
+
+
+def _body(candidate: Candidate, signals: Signals) -> np.ndarray:
+    """Columns of the ten inertial parameters of a link, those that any joint feels."""
+    model = signals.reference.compiled
+    standard = [p for p in model.spec.standard if p.effect == "rigid_body"]
+    links = list(dict.fromkeys(p.joint for p in standard))
+    own = [
+        i for i, p in enumerate(model.spec.standard)
+        if p.effect == "rigid_body" and p.joint == links[candidate.index]
+    ]  # fmt: skip
+    columns = model.regressor(signals.q, signals.v, signals.a, signals.read)[:, :, own]
+    return columns[:, :, np.abs(columns).max(axis=(0, 1)) > 1e-12]
+
+
+def _passive(candidate: Candidate, signals: Signals) -> np.ndarray:
+    row = signals.coupling[:, candidate.index]
+    speed = np.einsum("nj,nj->n", row, signals.v)
+    own = _shaft(candidate, speed, np.zeros_like(speed))
+    return own[:, None, :] * row[:, :, None]

@@ -1,0 +1,95 @@
+"""Which physical effect is missing: from a model and logs to a diagnosis."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.diagnose.analyse import analysed
+from modeler.diagnose.assemble import assembled
+from modeler.diagnose.contact import Window, contact_window
+from modeler.diagnose.errors import vetoing
+from modeler.diagnose.result import Diagnosis
+from modeler.diagnose.search import MOST, search
+from modeler.diagnose.state import Data, state_of
+from modeler.fit import IdentifiedModel
+from modeler.observation import Log, Observation
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+CHANGED = 1.3
+"""Ratio of the residual variances with kept and with refitted parameters from which on the robot
+has changed since the fit."""
+
+
+def diagnose(
+    model: IdentifiedModel,
+    compiled: "CompiledModel",
+    logs: Sequence[Log],
+    holdout: Sequence[Log] = (),
+    without: Sequence[str] = (),
+    most: int = MOST,
+    progress: Callable[[float], None] | None = None,
+) -> Diagnosis:
+    """The effects that the model lacks on these logs, with what they would gain.
+
+    Args:
+        model: fitted.
+        compiled: its robot.
+        logs: to explain.
+        holdout: other motion, from which the errors come; it never chooses an effect, but effects
+            that raise the error there are not named.
+        without: ids of effects, or id@joint, that the user rules out.
+        most: effects to name at most.
+        progress: called with a share between 0 and 1.
+
+    Raises:
+        DataError: no usable row.
+    """
+    observation = analysed(compiled, logs, model.processing)
+    data = Data(compiled, observation, kept_parameters(model, compiled, logs, observation))
+    other = None
+    if holdout:
+        seen = analysed(compiled, holdout, observation.report.processing, chosen=True)
+        other = Data(compiled, seen, data.kept)
+    veto = vetoing(other) if other is not None else None
+    found = search(data, model.beta, without, most, veto, progress)
+    window = contact_window(found.end)
+    if window is not None and "external_force" not in without:
+        data = Data(compiled, _masked(observation, window), data.kept)
+        found = search(data, model.beta, without, most, veto, progress)
+    if progress is not None:
+        progress(1.0)
+    return assembled(model, found, other, window)
+
+
+def kept_parameters(
+    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log], seen: Observation
+) -> np.ndarray | None:
+    """The model's parameters if these logs are of a robot that has changed since; else None."""
+    if any(used.shares_rows(log) for used in model.logs for log in logs):
+        return None
+    free = state_of(Data(compiled, seen), (), model.beta)
+    pool, ranking = free.ranked([])
+    del pool
+    fitted = float(ranking.before.sum())
+    given = sum(
+        float(np.sum(((y - w @ model.beta) / s) ** 2))
+        for y, w, s in zip(free.rows.y, free.rows.W, free.base.sigma, strict=True)
+    )
+    return model.beta if given > CHANGED * fitted else None
+
+
+def _masked(observation: Observation, window: Window) -> Observation:
+    """The observation without the rows of a window, and half a second around it."""
+    hit = (observation.run == window.log) & (observation.time > window.start - 0.5)
+    hit &= observation.time < window.end + 0.5
+    used = observation.used & ~hit[:, None]
+    parts, at = [], 0
+    for part in observation.stretches:
+        rows = len(part.used)
+        parts.append(dataclasses.replace(part, used=used[at : at + rows]))
+        at += rows
+    return dataclasses.replace(observation, used=used, stretches=tuple(parts))

@@ -1,0 +1,77 @@
+"""Errors of a state on motion it was not fitted to."""
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.rows import rows_of
+from modeler.diagnose.state import Data, State, columns_of
+
+
+def held_out_errors(state: State, data: Data, later: float = 0.0) -> np.ndarray:
+    """(J,) ||measured - predicted|| / ||measured|| on other logs, parameters of the state.
+
+    Args:
+        state: fitted.
+        data: held-out logs, in the same band.
+        later: s, added to their clock.
+    """
+    reference = dataclasses.replace(state.reference, time=state.reference.time - later)
+    rows = rows_of(data.observation, reference)
+    cache: dict = {}
+    errors = np.zeros(rows.joints)
+    extra = [columns_of(rows, pick, cache) for pick in state.picks]
+    for j in range(rows.joints):
+        left = rows.y[j] - rows.W[j] @ state.beta
+        for columns, values in zip(extra, state.values, strict=True):
+            own = columns[j]
+            if own is not None:
+                left = left - own @ values
+        size = float(np.linalg.norm(rows.y[j]))
+        errors[j] = float(np.linalg.norm(left)) / size if size > 0.0 else 0.0
+    return errors
+
+
+def crossed_errors(state: State) -> np.ndarray:
+    """(J,) the same by cross-validation over the folds of the training logs."""
+    base, fold = state.base, state.data.blocks.fold
+    left = np.zeros(len(base.y))
+    total, right = base.G.sum(axis=0), base.u.sum(axis=0)
+    for f in np.unique(fold):
+        held = np.flatnonzero(fold == f)
+        G = total - base.G[held].sum(axis=0)
+        u = right - base.u[held].sum(axis=0)
+        beta = np.linalg.solve(G + 1e-9 * np.eye(len(G)), u) if len(G) else np.zeros(0)
+        for j, (columns, y) in enumerate(zip(base.columns, base.y, strict=True)):
+            rows = np.isin(base.block[j], held)
+            left[j] += float(np.sum((y[rows] - columns[rows] @ beta) ** 2))
+    size = np.array([float(np.sum((y / s) ** 2)) for y, s in
+                     zip(state.rows.y, base.sigma, strict=True)])  # fmt: skip
+    return np.sqrt(left / np.where(size > 0.0, size, 1.0))
+
+
+def vetoing(data: Data) -> Callable[[State, State, Candidate], bool]:
+    """A veto by held-out logs: True if the errors of an effect's joints rise there.
+
+    Squared errors count in units of each joint's residual on the training logs. The clock of a
+    held-out log may start anew: for effects that depend on time it may also go on where the
+    training logs end, whichever suits them better.
+    """
+
+    def veto(before: State, after: State, candidate: Candidate) -> bool:
+        own = candidate.concerns(len(before.rows.y))
+        size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in before.rows.y])
+        weight = (size / before.base.sigma)[own] ** 2
+        timed = "t" in candidate.form.names
+        later = [0.0, float(np.ptp(before.data.observation.time))] if timed else [0.0]
+        old = min(_weighed(before, data, own, weight, shift) for shift in later)
+        new = min(_weighed(after, data, own, weight, shift) for shift in later)
+        return new >= old
+
+    return veto
+
+
+def _weighed(state: State, data: Data, own: list[int], weight: np.ndarray, later: float) -> float:
+    return float(np.sum(weight * held_out_errors(state, data, later)[own] ** 2))

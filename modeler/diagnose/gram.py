@@ -1,0 +1,201 @@
+"""Everything that ranking needs of the rows, as small matrices by block of time."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from modeler.diagnose.rows import Columns, Rows
+
+RIDGE = 1e-10
+"""Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
+
+VISIBLE = 0.005
+"""A direction of candidate columns that the base hides beyond this share is not seen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
+
+    Attributes:
+        columns: (rows_j, r) by joint, weighted.
+        y: (rows_j,) by joint, weighted.
+        turn: (c, r): columns = W turn / sigma.
+        sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
+        block: (rows_j,) by joint, number of the block of time.
+        blocks: how many.
+        G, u: (blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y.
+        energy: (blocks, J) of y.
+    """
+
+    columns: tuple[np.ndarray, ...]
+    y: tuple[np.ndarray, ...]
+    turn: np.ndarray
+    sigma: np.ndarray
+    block: tuple[np.ndarray, ...]
+    blocks: int
+    G: np.ndarray
+    u: np.ndarray
+    energy: np.ndarray
+
+
+def base_of(
+    W: Sequence[np.ndarray],
+    y: Sequence[np.ndarray],
+    sigma: np.ndarray,
+    block: Sequence[np.ndarray],
+    blocks: int,
+) -> Base:
+    """The weighted base.
+
+    Args:
+        W: (rows_j, c) by joint.
+        y: (rows_j,) by joint.
+        sigma: (J,) of each joint.
+        block: (rows_j,) by joint.
+        blocks: how many there are.
+    """
+    scaled = [w / s for w, s in zip(W, sigma, strict=True)]
+    gram = sum(w.T @ w for w in scaled)
+    length = np.sqrt(np.diag(gram))
+    safe = np.where(length > 0.0, length, 1.0)
+    values, vectors = np.linalg.eigh(gram / np.outer(safe, safe))
+    kept = values > 1e-11 * float(values.max(initial=1e-300))
+    turn = vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None]
+    columns = tuple(w @ turn for w in scaled)
+    target = tuple(t / s for t, s in zip(y, sigma, strict=True))
+    r = turn.shape[1]
+    G, u = np.zeros((blocks, r, r)), np.zeros((blocks, r))
+    energy = np.zeros((blocks, len(y)))
+    for j, (w, t, own) in enumerate(zip(columns, target, block, strict=True)):
+        for b, rows in pieces(own):
+            G[b] += w[rows].T @ w[rows]
+            u[b] += w[rows].T @ t[rows]
+            energy[b, j] += t[rows] @ t[rows]
+    return Base(columns, target, turn, sigma, tuple(block), blocks, G, u, energy)
+
+
+def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
+    """The runs of equal block number, in row order."""
+    if not block.size:
+        return []
+    edges = [0, *(np.flatnonzero(np.diff(block)) + 1).tolist(), block.size]
+    return [(int(block[a]), slice(a, b)) for a, b in pairwise(edges)]
+
+
+@dataclass(frozen=True, eq=False)
+class Pool:
+    """The columns of many candidates beside the base; K columns of N candidates.
+
+    Attributes:
+        owner: (K,) candidate of each column, ascending.
+        first: (N,) first column of each candidate.
+        scale: (K,) columns were divided by this to have length one.
+        T: (blocks, r, K) base' columns.
+        w: (blocks, K) columns' y.
+        pairs: (P, 2) columns of one candidate, both orders.
+        D: (blocks, P) products of these pairs.
+    """
+
+    owner: np.ndarray
+    first: np.ndarray
+    scale: np.ndarray
+    T: np.ndarray
+    w: np.ndarray
+    pairs: np.ndarray
+    D: np.ndarray
+
+    @property
+    def count(self) -> int:
+        """Number of candidates, N."""
+        return len(self.first)
+
+
+def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
+    """The Gram matrices of candidates' columns, all of them finite and none zero."""
+    sizes = [next(c.shape[1] for c in columns if c is not None) for columns in every]
+    first = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(int) if sizes else np.zeros(0, int)
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    K, r = len(owner), base.turn.shape[1]
+    square = np.zeros(K)
+    parts = []
+    for j in range(len(base.sigma)):
+        own = [i for i, columns in enumerate(every) if columns[j] is not None]
+        spans = [np.arange(first[i], first[i] + sizes[i]) for i in own]
+        places = np.concatenate(spans) if spans else np.zeros(0, dtype=int)
+        blocks = [np.asarray(every[i][j]) for i in own]
+        stacked = np.hstack(blocks) / base.sigma[j] if blocks else np.zeros((len(base.y[j]), 0))
+        square[places] += np.einsum("ij,ij->j", stacked, stacked)
+        parts.append((places, stacked))
+    scale = np.sqrt(np.where(square > 0.0, square, 1.0))
+    pairs = np.array(
+        [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
+         for i in range(size) for k in range(size)]
+    ).reshape(-1, 2).astype(int)  # fmt: skip
+    T, w = np.zeros((base.blocks, r, K)), np.zeros((base.blocks, K))
+    D = np.zeros((base.blocks, len(pairs)))
+    for j, (places, stacked) in enumerate(parts):
+        if places.size:
+            _add_joint(base, j, places, stacked / scale[places], (T, w, D), pairs)
+    return Pool(owner, first, scale, T, w, pairs, D)
+
+
+def _add_joint(
+    base: Base,
+    j: int,
+    places: np.ndarray,
+    columns: np.ndarray,
+    grams: tuple[np.ndarray, np.ndarray, np.ndarray],
+    pairs: np.ndarray,
+) -> None:
+    """Adds the rows of one joint to (T, w, D)."""
+    T, w, D = grams
+    where = np.full(T.shape[2], -1)
+    where[places] = np.arange(len(places))
+    here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
+    left, right = where[pairs[here, 0]], where[pairs[here, 1]]
+    for b, rows in pieces(base.block[j]):
+        part = columns[rows]
+        T[b][:, places] += base.columns[j][rows].T @ part
+        w[b, places] += part.T @ base.y[j][rows]
+        D[b, here] += np.einsum("ij,ij->j", part[:, left], part[:, right])
+
+
+def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:
+    """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
+
+    Args:
+        rows: of the analysis.
+        beta: (c,) parameters that are kept; None: fitted.
+    """
+    size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in rows.y])
+    floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
+    sigma = np.maximum(size, floor)
+    for _ in range(50):
+        found = beta if beta is not None else _solve(rows, sigma)
+        spread = np.array(
+            [
+                np.sqrt(np.mean((y - w @ found) ** 2)) if y.size else 1.0
+                for y, w in zip(rows.y, rows.W, strict=True)
+            ]
+        )
+        updated = np.maximum(spread, floor)
+        settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
+        sigma = updated
+        if settled or beta is not None:
+            break
+    return sigma
+
+
+def _solve(rows: Rows, sigma: np.ndarray) -> np.ndarray:
+    if not rows.W[0].shape[1]:
+        return np.zeros(0)
+    gram = sum((w.T @ w) / s**2 for w, s in zip(rows.W, sigma, strict=True))
+    right = sum((w.T @ y) / s**2 for w, y, s in zip(rows.W, rows.y, sigma, strict=True))
+    length = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
+    values, vectors = np.linalg.eigh(gram / np.outer(length, length))
+    kept = values > 1e-11 * values[-1]
+    inverse = (vectors[:, kept] / values[kept]) @ vectors[:, kept].T
+    return inverse @ (right / length) / length

@@ -1,0 +1,198 @@
+"""From a ranking to a judgement: what is big enough, sure enough, possible, and what ties."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.gram import VISIBLE, Pool
+from modeler.diagnose.rank import Ranking
+from modeler.diagnose.rows import Columns
+from modeler.diagnose.state import State
+from modeler.diagnose.timing import confirmed
+
+GATE = 0.03
+"""Least share of the residual variance on held-out motion that is worth a name."""
+
+FELT = 0.002
+"""Least fall of the error, as a share of the rms torque of its joints: filters distort as much."""
+
+SURE = 4.5
+"""Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
+chance with one candidate in a hundred thousand."""
+
+TIED = 2.0
+"""Paired differences over blocks below this many standard errors do not decide."""
+
+SAME = 0.3
+"""Share of a rival's fall that may be left with the best put in, if both explain the same."""
+
+NEARLY = 0.95
+"""Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """One effect on one joint at its best shapes.
+
+    Attributes:
+        candidate: effect, joint, shapes.
+        gain: expected fall of the residual variance of its joints on other motion.
+        drop: (blocks,) fall there of the squared residual, weighted.
+        values: of its parameters, SI.
+        deviations: their standard deviations, SI.
+        sure: fall over its standard error.
+        felt: rms of what it explains over the rms torque of its joints.
+        visible: share that the model does not hide.
+        possible: False for a sign that physics forbids.
+        confirmed: False if only errors of timing speak for it.
+    """
+
+    candidate: Candidate
+    gain: float
+    drop: np.ndarray
+    values: np.ndarray
+    deviations: np.ndarray
+    sure: float
+    felt: float
+    visible: float
+    possible: bool
+    confirmed: bool = True
+
+    @property
+    def significant(self) -> bool:
+        """True if it is worth a name."""
+        big = self.gain > GATE and self.sure > SURE and self.felt > FELT
+        return big and self.possible and self.confirmed and self.visible > VISIBLE
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """All effects in one state, best first; `best` is None if none is worth a name."""
+
+    ranked: tuple[Judged, ...]
+    best: Judged | None
+
+    def others(self, best: Judged) -> tuple[Judged, ...]:
+        """All but that one."""
+        return tuple(j for j in self.ranked if j is not best)
+
+
+def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> Judgement:
+    """The best shapes of every effect on every joint, judged."""
+    pool, ranking = state.ranked(columns)
+    best: dict[tuple[str, str | None], int] = {}
+    total = ranking.drop.sum(axis=0)
+    for i, candidate in enumerate(found):
+        possible = _possible(candidate, ranking, pool, i)
+        at = best.get(candidate.key)
+        if at is None or (possible, total[i]) > (
+            _possible(found[at], ranking, pool, at), total[at]
+        ):  # fmt: skip
+            best[candidate.key] = i
+    judged = [_judged(state, found[i], ranking, pool, i) for i in best.values()]
+    judged.sort(key=lambda j: -float(j.drop.sum()))
+    return _decide(state, judged)
+
+
+def _decide(state: State, judged: list[Judged]) -> Judgement:
+    """The first that passes, or a simpler one that the data do not tell from it.
+
+    Timing-like ones are confirmed only when they lead.
+    """
+    for place, item in enumerate(judged):
+        if not item.significant:
+            continue
+        if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
+            judged[place] = dataclasses.replace(item, confirmed=False)
+            continue
+        return Judgement(tuple(judged), _simplest(item, judged))
+    return Judgement(tuple(judged), None)
+
+
+def _simplest(best: Judged, judged: Sequence[Judged]) -> Judged:
+    """Of those tied with the best and nearly as good, that with the fewest free numbers."""
+    near = [
+        other for other in tied(best, judged)
+        if other.significant and not other.candidate.effect.timing
+        and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
+    ]  # fmt: skip
+    return min([best, *near], key=lambda j: (_numbers(j.candidate), -float(j.drop.sum())))
+
+
+def _numbers(candidate: Candidate) -> float:
+    """Free numbers: parameters, and shapes with more than one value."""
+    shapes = candidate.form.shapes
+    free = sum(1.0 if s.smooth else 0.5 for s in shapes if len(s.grid) != 1)
+    ratios = len(candidate.shapes) - len(shapes)
+    return len(candidate.form.columns) + free + 0.5 * ratios
+
+
+def _own(pool: Pool, i: int) -> np.ndarray:
+    return np.flatnonzero(pool.owner == i)
+
+
+def _possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> bool:
+    for place, column in zip(_own(pool, i), candidate.form.columns, strict=False):
+        if column.nonnegative and ranking.value[place] < 0.0:
+            return False
+    return True
+
+
+def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> Judged:
+    drop = ranking.drop[:, i]
+    own = _own(pool, i)
+    return Judged(
+        candidate,
+        min(1.0, float(drop.sum()) / max(_at_stake(candidate, ranking), 1e-300)),
+        drop,
+        ranking.value[own],
+        ranking.deviation[own],
+        float(ranking.sure[i]),
+        float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
+        float(ranking.visible[i]),
+        _possible(candidate, ranking, pool, i),
+    )
+
+
+def _at_stake(candidate: Candidate, ranking: Ranking) -> float:
+    """Squared residual of the joints that the effect concerns, weighted, on held-out motion."""
+    return float(ranking.before[candidate.concerns(len(ranking.before))].sum())
+
+
+def _torque(state: State, candidate: Candidate) -> float:
+    """Squared torque of the joints that the effect concerns, weighted."""
+    own = candidate.concerns(len(state.y))
+    return sum(float(np.sum((state.rows.y[j] / state.base.sigma[j]) ** 2)) for j in own) + 1e-300
+
+
+def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
+    """Tied ones that explain the same: with the best put in, little is left for them.
+
+    Args:
+        best: that was put in.
+        others: its rivals then.
+        after: the judgement with it.
+    """
+    left = {j.candidate.key: float(j.drop.sum()) for j in after.ranked}
+    return [
+        other for other in tied(best, others)
+        if left.get(other.candidate.key, 0.0) < SAME * float(other.drop.sum())
+    ]  # fmt: skip
+
+
+def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
+    """Those that explain as much as the best: paired differences over blocks decide."""
+    found = []
+    for other in others:
+        if other is best or not other.possible or other.gain < GATE:
+            continue
+        difference = best.drop - other.drop
+        spread = float(np.sqrt(np.sum((difference - difference.mean()) ** 2)))
+        if float(difference.sum()) < TIED * spread or other.candidate.effect.id in (
+            best.candidate.effect.same_as
+        ):
+            found.append(other)
+    return found

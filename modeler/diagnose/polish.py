@@ -1,0 +1,83 @@
+"""Refining the shape parameters of one candidate between the values of the grid."""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.optimize import minimize, minimize_scalar
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.gram import pool_of
+from modeler.diagnose.rank import rank
+from modeler.diagnose.state import State, columns_of, visible
+from modeler.effects import Shape
+
+_STEPS = 8
+
+
+def polished(state: State, candidate: Candidate) -> Candidate:
+    """The candidate at the shapes that explain most: variable projection, one shape at a time."""
+    smooth = [s for s in candidate.form.shapes if s.smooth and len(s.grid) > 1]
+    if not smooth:
+        return candidate
+    start = np.array([_coded(shape, candidate.shapes[shape.name]) for shape in smooth])
+
+    def lost(x: np.ndarray) -> float:
+        return -_explained(state, _at(candidate, smooth, np.clip(x, low, high)))
+
+    reach = np.array([_reach(shape) for shape in smooth])
+    low, high = _limits(state, candidate, smooth)
+    if len(smooth) == 1:
+        found = minimize_scalar(
+            lambda x: lost(np.array([x])),
+            bounds=(start[0] - reach[0], start[0] + reach[0]),
+            method="bounded",
+            options={"maxiter": _STEPS},
+        )
+        x, score = np.array([found.x]), float(found.fun)
+    else:
+        corners = np.vstack([start, start + 0.5 * np.diag(reach)])
+        found = minimize(
+            lost, start, method="Nelder-Mead",
+            options={"maxfev": _STEPS * 4, "initial_simplex": corners},
+        )  # fmt: skip
+        x, score = found.x, float(found.fun)
+    return _at(candidate, smooth, np.clip(x, low, high)) if score < lost(start) else candidate
+
+
+def _limits(
+    state: State, candidate: Candidate, smooth: Sequence[Shape]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Coded limits of the shapes on the candidate's joint."""
+    scale = state.scales[max(candidate.index, 0)]
+    ends = [[_coded(shape, end * scale.unit(shape)) for end in shape.limits] for shape in smooth]
+    return np.array([e[0] for e in ends]), np.array([e[1] for e in ends])
+
+
+def _coded(shape: Shape, value: float) -> float:
+    """Positive shapes by their logarithm."""
+    return value if shape.scale == "angle" else float(np.log(value))
+
+
+def _reach(shape: Shape) -> float:
+    """How far a value may lie from that of the grid: to the next."""
+    if shape.scale == "angle":
+        return 0.3
+    return float(np.log(shape.grid[1] / shape.grid[0]))
+
+
+def _at(candidate: Candidate, smooth: Sequence[Shape], x: np.ndarray) -> Candidate:
+    values = {
+        shape.name: float(v) if shape.scale == "angle" else float(np.exp(v))
+        for shape, v in zip(smooth, x, strict=True)
+    }
+    return dataclasses.replace(candidate, shapes={**candidate.shapes, **values})
+
+
+def _explained(state: State, candidate: Candidate) -> float:
+    """Fall of the squared residual, weighted, in held-out blocks."""
+    columns = columns_of(state.rows, candidate, {})
+    if not visible(columns):
+        return 0.0
+    pool = pool_of(state.base, [columns])
+    return float(rank(state.base, pool, state.data.blocks.fold).drop.sum())

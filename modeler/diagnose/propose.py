@@ -1,0 +1,35 @@
+"""All candidates of a state: those of the catalogue's grids, and those that the data suggest."""
+
+from modeler.diagnose.candidates import Candidate, candidates
+from modeler.diagnose.orders import ripple_candidates
+from modeler.diagnose.state import State
+from modeler.effects import effect_named
+
+
+def proposals(state: State) -> list[Candidate]:
+    """What could be missing in this state, without what was put in already."""
+    spec = state.data.compiled.spec
+    temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
+    changed = state.data.kept is not None
+    present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
+    found = candidates(spec, state.scales, temperature, present)
+    found += ripple_candidates(state)
+    if changed:
+        found += load_candidates(state)
+    taken = {pick.key for pick in state.picks if not pick.effect.id.endswith("ripple")}
+    return [candidate for candidate in found if candidate.key not in taken]
+
+
+def load_candidates(state: State) -> list[Candidate]:
+    """A body on the last link, or on another: only where the links' parameters are kept."""
+    spec = state.data.compiled.spec
+    links = list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+    carrier = spec.closure.carrier if spec.closure is not None else ""
+    last = carrier or links[-1]
+    found = []
+    for place, link in enumerate(links):
+        effect = effect_named("payload" if link == last else "link_inertia")
+        assert effect is not None
+        joint = None if link == last else link
+        found.append(Candidate(effect, effect.forms[0], joint, place, {}))
+    return found

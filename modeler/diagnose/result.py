@@ -1,0 +1,149 @@
+"""What a diagnosis says, as plain data."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.diagnose.search import Search
+
+Key = tuple[str, str | None]
+"""Effect and joint; the joint of an effect of the whole robot is None."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One missing effect.
+
+    Attributes:
+        effect: id.
+        joint: name; None for an effect of the whole robot.
+        gain: expected fall of the residual variance of its joints on motion not used for the fit.
+        error_before, error_after: relative error of its joints without and with it, held out.
+        parameters: its parameters and shapes by name, SI.
+        sigmas: standard deviations of the parameters.
+        units: of the parameters.
+        ties: effects that the data do not tell from it.
+        evidence: why, in one or two sentences.
+        closure: share of what is systematic on its joints that is explained in the end; None
+            where nothing is systematic.
+        refines: True if it refines an effect of the same kind named before on the same joint.
+    """
+
+    effect: str
+    joint: str | None
+    gain: float
+    error_before: float
+    error_after: float
+    parameters: Mapping[str, float]
+    sigmas: Mapping[str, float]
+    units: Mapping[str, str]
+    ties: tuple[Key, ...]
+    evidence: str
+    closure: float | None
+    refines: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "effect": self.effect,
+            "joint": self.joint,
+            "gain": self.gain,
+            "error_before": self.error_before,
+            "error_after": self.error_after,
+            "parameters": dict(self.parameters),
+            "sigmas": dict(self.sigmas),
+            "units": dict(self.units),
+            "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
+            "evidence": self.evidence,
+            "closure": self.closure,
+        }
+
+
+@dataclass(frozen=True)
+class JointState:
+    """One joint before and after.
+
+    Attributes:
+        error_before, error_after: relative error, held out.
+        unit: of the torque.
+        rms_before, rms_after: of the residual on the training logs.
+        explained: share of the torque's variance that the model explains.
+        systematic: share of it that is left and could be explained: predictable or repeatable.
+        noise: the rest.
+    """
+
+    error_before: float
+    error_after: float
+    unit: str
+    rms_before: float
+    rms_after: float
+    explained: float
+    systematic: float
+    noise: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {k: (v if not isinstance(v, float) or math.isfinite(v) else None)
+                for k, v in vars(self).items()}  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What is missing in a model.
+
+    Attributes:
+        robot: name.
+        verdict: missing | closest description | nothing significant | unexplained | cannot tell.
+        effects: named, best first.
+        refinements: of effects named before on the same joint.
+        rivals: of the first effect: effect, joint, gain.
+        blind_spots: what these data cannot show, by effect and joint.
+        joints: by name.
+        held_out: names of the logs that errors come from; empty for cross-validation.
+        sentences: for people: verdict first.
+        band: Hz up to which residuals were looked at.
+        changed: True if the base parameters were kept and the robot has changed since.
+        search: everything behind it.
+    """
+
+    robot: str
+    verdict: str
+    effects: tuple[Finding, ...]
+    refinements: tuple[Finding, ...]
+    rivals: tuple[tuple[str, str | None, float], ...]
+    blind_spots: tuple[Key, ...]
+    joints: Mapping[str, JointState]
+    held_out: tuple[str, ...]
+    sentences: tuple[str, ...]
+    band: float
+    changed: bool
+    search: Search
+
+    def to_json(self) -> dict[str, Any]:
+        """The `diagnose` object that scripts read."""
+        return {
+            "robot": self.robot,
+            "verdict": self.verdict,
+            "effects": [finding.to_json() for finding in self.effects],
+            "refinements": [finding.to_json() for finding in self.refinements],
+            "rivals": [
+                {"effect": effect, "joint": joint, "gain": gain}
+                for effect, joint, gain in self.rivals
+            ],
+            "blind_spots": [
+                {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
+            ],
+            "joints": {name: joint.to_json() for name, joint in self.joints.items()},
+            "held_out": list(self.held_out),
+            "sentences": list(self.sentences),
+            "band": self.band,
+            "changed": self.changed,
+        }
+
+
+def finite(value: float) -> float:
+    """The number, or 0 where it means nothing."""
+    return float(value) if np.isfinite(value) else 0.0

@@ -1,0 +1,130 @@
+"""The rows of an analysis: measured torque, base columns and candidates through one filter."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.columns import all_columns, own_columns
+from modeler.diagnose.signals import Reference, Signals
+from modeler.observation import Observation
+from modeler.observation.row_filter import SPREAD
+from modeler.observation.stretch import Stretch
+
+Columns = tuple[np.ndarray | None, ...]
+"""Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """The used rows of every joint; J joints, c base columns.
+
+    Attributes:
+        y: (rows_j,) by joint, measured torque, N m or N.
+        W: (rows_j, c) by joint, base columns.
+        time: (rows_j,) by joint, s.
+        run: (rows_j,) by joint, index of the log.
+        segment: (rows_j,) by joint.
+        filters: (rows_j, samples) by stretch and joint.
+        signals: by stretch.
+    """
+
+    y: tuple[np.ndarray, ...]
+    W: tuple[np.ndarray, ...]
+    time: tuple[np.ndarray, ...]
+    run: tuple[np.ndarray, ...]
+    segment: tuple[np.ndarray, ...]
+    filters: tuple[tuple[csr_array, ...], ...]
+    signals: tuple[Signals, ...]
+
+    @property
+    def joints(self) -> int:
+        """Number of joints, J."""
+        return len(self.y)
+
+    def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
+        """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
+        return np.concatenate(
+            [own[j] @ value for own, value in zip(self.filters, values, strict=True)]
+        )
+
+    def columns(self, candidate: Candidate) -> Columns:
+        """The columns of a candidate on these rows."""
+        if candidate.local:
+            own = [own_columns(candidate, signals) for signals in self.signals]
+            found: list[np.ndarray | None] = [None] * self.joints
+            found[candidate.index] = self.filtered(candidate.index, own)
+            return tuple(found)
+        return self.spread([all_columns(candidate, signals) for signals in self.signals])
+
+    def spread(self, values: Sequence[np.ndarray]) -> Columns:
+        """Columns from values (samples, J, k) by stretch."""
+        return tuple(
+            self.filtered(j, [value[:, j] for value in values])
+            if any(value[:, j].any() for value in values)
+            else None
+            for j in range(self.joints)
+        )
+
+
+def rows_of(observation: Observation, reference: Reference) -> Rows:
+    """The rows of an observation.
+
+    Args:
+        observation: of the analysis.
+        reference: where effects are linearised.
+    """
+    cutoff = observation.report.processing.parallel_cutoff or 0.0
+    signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
+    joints = len(observation.joints)
+    full = [[_filter(part, j) for j in range(joints)] for part in observation.stretches]
+    filters = tuple(
+        tuple(_thinned(own, s.every) for own in part) for part, s in zip(full, signals, strict=True)
+    )
+    model = reference.compiled
+    base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
+
+    def gather(j: int, values: list[np.ndarray]) -> np.ndarray:
+        return np.concatenate([own[j] @ value for own, value in zip(filters, values, strict=True)])
+
+    used = [observation.used[:, j] for j in range(joints)]
+    torque = [part.segment.tau for part in observation.stretches]
+    return Rows(
+        y=tuple(
+            np.concatenate([f[j] @ tau[:, j] for f, tau in zip(full, torque, strict=True)])
+            for j in range(joints)
+        ),
+        W=tuple(gather(j, [value[:, j] for value in base]) for j in range(joints)),
+        time=tuple(observation.time[rows] for rows in used),
+        run=tuple(observation.run[rows] for rows in used),
+        segment=tuple(observation.segment[rows] for rows in used),
+        filters=filters,
+        signals=signals,
+    )
+
+
+def _filter(part: Stretch, j: int) -> csr_array:
+    """(used rows, samples) weights over usable samples, each row summing to one."""
+    masked = part.rows.weights @ diags_array(part.usable[:, j].astype(float))
+    kept = csr_array(masked)[part.used[:, j]]
+    total = kept @ np.ones(kept.shape[1])
+    return csr_array(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ kept)
+
+
+def _thinned(weights: csr_array, every: int) -> csr_array:
+    """The same filter over every k-th sample."""
+    if every == 1:
+        return weights
+    kept = csr_array(weights[:, ::every])
+    total = kept @ np.ones(kept.shape[1])
+    return csr_array(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ kept)
+
+
+def _signals(part: Stretch, reference: Reference, cutoff: float) -> Signals:
+    """Columns are smooth beside the filter: its Gaussian needs one sample per width."""
+    segment = part.segment
+    every = max(1, int(SPREAD / (cutoff * segment.step))) if cutoff > 0.0 else 1
+    q, v, a = (np.ascontiguousarray(x[::every]) for x in (segment.q, segment.qd, segment.qdd))
+    return Signals(segment, every, q, v, a, reference)

@@ -1,0 +1,92 @@
+"""A diagnosis in plain words."""
+
+import dataclasses
+
+import numpy as np
+
+from modeler.diagnose.result import Diagnosis, Finding
+from modeler.diagnose.search import Step
+from modeler.effects import effect_named
+
+
+def percent(share: float) -> str:
+    """A share in percent, as in "3.4 %"."""
+    return f"{100.0 * share:.2g} %" if share < 0.1 else f"{100.0 * share:.3g} %"
+
+
+def where(joint: str | None) -> str:
+    """The joint, or the whole robot."""
+    return f"joint {joint}" if joint is not None else "the whole robot"
+
+
+def evidence(step: Step, before: float, after: float) -> str:
+    """Why this effect, in one or two sentences."""
+    judged = step.judged
+    effect = judged.candidate.effect
+    text = (
+        f"{effect.title}: explains {percent(judged.gain)} of the error variance left on motion "
+        f"that was held out; error {percent(before)} -> {percent(after)}"
+    )
+    rivals = [r for r in step.rivals if r.possible and r.candidate.key != judged.candidate.key]
+    if rivals and rivals[0].gain > 0.0:
+        other = rivals[0]
+        text += (
+            f". Runner-up: {other.candidate.effect.title} ({where(other.candidate.joint)}), "
+            f"{percent(other.gain)}"
+        )
+    return text
+
+
+def sentences(diagnosis: Diagnosis) -> Diagnosis:
+    """The diagnosis with its sentences."""
+    lines = [_headline(diagnosis), *(_effect_line(f) for f in diagnosis.effects)]
+    lines += [
+        f"refinement on {where(f.joint)}: {f.effect}, gain {percent(f.gain)}"
+        for f in diagnosis.refinements
+    ]
+    for name, joint in diagnosis.joints.items():
+        left = joint.systematic + joint.noise
+        if left > 0.0 and np.sqrt(joint.systematic) > 0.005 and joint.systematic > 0.3 * left:
+            lines.append(
+                f"joint {name}: {percent(joint.systematic / left)} of the remaining error "
+                "variance is systematic and not explained by the catalogue"
+            )
+    if not diagnosis.held_out:
+        lines.append(
+            "no held-out logs: errors are cross-validated within the logs, which flatters effects "
+            "that depend on the path; give other motion with --holdout"
+        )
+    return dataclasses.replace(diagnosis, sentences=tuple(lines))
+
+
+def _headline(diagnosis: Diagnosis) -> str:
+    first = diagnosis.effects[0] if diagnosis.effects else None
+    if diagnosis.verdict == "missing" and first is not None:
+        return f"missing: {_named(first)}"
+    if diagnosis.verdict == "closest description" and first is not None:
+        return (
+            f"closest description: {_named(first)}; it explains only part of what is systematic, "
+            "so the cause may be outside the catalogue"
+        )
+    if diagnosis.verdict == "unexplained":
+        return "unexplained: the error is systematic, and nothing in the catalogue describes it"
+    if diagnosis.verdict == "cannot tell":
+        return "cannot tell: too few rows; record longer motions of all joints"
+    return "nothing significant: no effect of the catalogue would lower the error by more than 3 %"
+
+
+def _named(finding: Finding) -> str:
+    effect = effect_named(finding.effect)
+    assert effect is not None
+    return f"{effect.title} ({finding.effect}), {where(finding.joint)}"
+
+
+def _effect_line(finding: Finding) -> str:
+    values = ", ".join(
+        f"{name} = {value:.4g}{' ' + finding.units[name] if name in finding.units else ''}"
+        for name, value in finding.parameters.items()
+    )
+    ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
+    tail = f"; these data do not tell it from {ties}" if ties else ""
+    change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"
+    return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"

@@ -1,0 +1,147 @@
+"""What the equations of effects read: motion, loads and states of one stretch at full rate."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.signal import cont2discrete, lfilter
+
+from modeler.effects import Memory
+from modeler.observation.bristle import bristle
+from modeler.observation.motion import Segment
+from modeler.observation.signals import signals_of
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+DAMPING = 0.1
+"""Damping ratio of the resonance through which an elastic joint sees its load."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """The model about which effects that depend on torques are linearised.
+
+    Attributes:
+        compiled: the robot.
+        beta: (c,) base parameters.
+        time: s, where the time of effects is 0.
+        temperature: K by joint, where the temperature of effects is 0.
+    """
+
+    compiled: "CompiledModel"
+    beta: np.ndarray
+    time: float
+    temperature: Mapping[str, float]
+
+    @cached_property
+    def links(self) -> np.ndarray:
+        """(c,) beta of the links alone: no friction, rotors, offsets."""
+        kinds = [base.kind for base in self.compiled.spec.base]
+        return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Signals:
+    """Of one segment, thinned to what the band of the analysis needs; n samples, J joints.
+
+    Attributes:
+        segment: where it comes from.
+        every: every how manieth of its samples is used.
+        q, v, a: (n, J) motion.
+        reference: the model.
+    """
+
+    segment: Segment
+    every: int
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    reference: Reference
+
+    @property
+    def step(self) -> float:
+        """Between samples, s."""
+        return self.segment.step * self.every
+
+    @cached_property
+    def read(self) -> np.ndarray | None:
+        """(n, m) what effects of the model read besides the motion."""
+        every = signals_of(self.reference.compiled.spec, self.segment)
+        return None if every is None else np.ascontiguousarray(every[:: self.every])
+
+    @cached_property
+    def load(self) -> np.ndarray:
+        """(n, J) torque of the links, inertia and gravity."""
+        ref = self.reference
+        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.links, self.read)
+
+    @cached_property
+    def static(self) -> np.ndarray:
+        """(n, J) torque of gravity."""
+        return self.reference.compiled.gravity(self.q, self.reference.links)
+
+    @cached_property
+    def torque(self) -> np.ndarray:
+        """(n, J) torque of the whole model, friction by the measured speeds."""
+        ref = self.reference
+        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.read)
+
+    @cached_property
+    def rate(self) -> np.ndarray:
+        """(n, J) time derivative of `torque`."""
+        return np.gradient(self.torque, self.step, axis=0)
+
+    @cached_property
+    def coupling(self) -> np.ndarray:
+        """(n, variables, J) G of ud = G qd; only for robots with loops."""
+        return self.reference.compiled.coupling(self.q)
+
+    @cached_property
+    def time(self) -> np.ndarray:
+        """(n,) s."""
+        return self.segment.time[:: self.every] - self.reference.time
+
+    def temperature(self, joint: str) -> np.ndarray | None:
+        """(n,) K above the reference; None without such a column."""
+        if joint not in self.reference.temperature:
+            return None
+        for name in (f"temperature{joint}", "temperature"):
+            if name in self.segment.extra:
+                return self.segment.extra[name][:: self.every] - self.reference.temperature[joint]
+        return None
+
+    def state(self, memory: Memory, j: int, value: float) -> np.ndarray:
+        """(n,) inner state z on joint j; its shape parameter has that value."""
+        if memory.kind == "slip":
+            return bristle(self.q[:, j], value)
+        return resonance(self.load[:, j], self.step, value)
+
+    def moved(self, dq: np.ndarray) -> np.ndarray:
+        """(n, J) torque that follows a small change of the links' positions by dq (n, J).
+
+        The directional derivative of the inverse dynamics of the links along (dq, dq', dq''), by
+        central differences, per unit of dq.
+        """
+        largest = float(np.max(np.abs(dq), initial=0.0))
+        if largest == 0.0:
+            return np.zeros_like(self.q)
+        unit = dq * (1e-4 / largest)
+        dv = np.gradient(unit, self.step, axis=0)
+        da = np.gradient(dv, self.step, axis=0)
+        model, beta = self.reference.compiled, self.reference.links
+        ahead = model.inverse_dynamics(self.q + unit, self.v + dv, self.a + da, beta, self.read)
+        behind = model.inverse_dynamics(self.q - unit, self.v - dv, self.a - da, beta, self.read)
+        return (ahead - behind) * (0.5 * largest / 1e-4)
+
+
+def resonance(load: np.ndarray, step: float, frequency: float) -> np.ndarray:
+    """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    w = 2.0 * np.pi * min(frequency, 0.4 / step)
+    numerator, denominator, _ = cont2discrete(
+        ([w**2], [1.0, 2.0 * DAMPING * w, w**2]), step, method="foh"
+    )
+    first = load[0]
+    return first + lfilter(np.ravel(numerator), denominator, load - first)

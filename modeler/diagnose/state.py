@@ -1,0 +1,190 @@
+"""The analysis at one point of the search: what is in the model so far, and what it leaves."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.diagnose.blocks import Blocks, blocks_of
+from modeler.diagnose.candidates import Candidate, JointScale, scales_of
+from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
+from modeler.diagnose.rank import Ranking, rank
+from modeler.diagnose.rows import Columns, Rows, rows_of
+from modeler.diagnose.signals import Reference
+from modeler.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """What does not change during a search.
+
+    Attributes:
+        compiled: the robot.
+        observation: of the training logs, in the band of the analysis.
+        kept: (c,) base parameters that are not fitted again; None: they are.
+    """
+
+    compiled: "CompiledModel"
+    observation: Observation
+    kept: np.ndarray | None = None
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """Blocks and folds."""
+        return blocks_of(self.observation)
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """The model with the effects accepted so far.
+
+    Attributes:
+        data: the logs.
+        picks: accepted candidates, in order.
+        reference: where effects are linearised.
+        rows: motion, torque, base columns.
+        extra: columns of the picks.
+    """
+
+    data: Data
+    picks: tuple[Candidate, ...]
+    reference: Reference
+    rows: Rows
+    extra: tuple[Columns, ...]
+    cache: dict = field(default_factory=dict)
+
+    @cached_property
+    def W(self) -> tuple[np.ndarray, ...]:
+        """(rows_j, c + extra) by joint: base columns unless they are kept, then the picks'."""
+        sizes = [next(c.shape[1] for c in e if c is not None) for e in self.extra]
+        found = []
+        for j, base in enumerate(self.rows.W):
+            parts = [base if self.data.kept is None else base[:, :0]]
+            for columns, size in zip(self.extra, sizes, strict=True):
+                own = columns[j]
+                parts.append(np.zeros((len(base), size)) if own is None else own)
+            found.append(np.hstack(parts))
+        return tuple(found)
+
+    @cached_property
+    def y(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        if self.data.kept is None:
+            return self.rows.y
+        kept = self.data.kept
+        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+
+    @cached_property
+    def base(self) -> Base:
+        """Of the model so far."""
+        fitted = dataclasses.replace(self.rows, W=self.W, y=self.y)
+        sigma = sigma_of(fitted)
+        numbers = [
+            self.data.blocks.number[self.data.observation.used[:, j]]
+            for j in range(self.rows.joints)
+        ]
+        return base_of(self.W, self.y, sigma, numbers, len(self.data.blocks.fold))
+
+    @cached_property
+    def solution(self) -> np.ndarray:
+        """(c + extra,) parameters on all rows, SI; first the base parameters unless kept."""
+        base = self.base
+        G, u = base.G.sum(axis=0), base.u.sum(axis=0)
+        return base.turn @ np.linalg.solve(G + 1e-12 * np.eye(len(G)), u) if len(G) else np.zeros(0)
+
+    @cached_property
+    def beta(self) -> np.ndarray:
+        """(c,) base parameters."""
+        if self.data.kept is not None:
+            return self.data.kept
+        return self.solution[: self.rows.W[0].shape[1]]
+
+    @cached_property
+    def values(self) -> list[np.ndarray]:
+        """Parameters of each pick, SI."""
+        found, at = [], 0 if self.data.kept is not None else self.rows.W[0].shape[1]
+        for columns in self.extra:
+            size = next(c.shape[1] for c in columns if c is not None)
+            found.append(self.solution[at : at + size])
+            at += size
+        return found
+
+    @cached_property
+    def residual(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, N m or N."""
+        return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
+
+    @cached_property
+    def scales(self) -> list[JointScale]:
+        """What is large on each joint."""
+        signals = self.rows.signals
+        whole = [s.segment.whole[:: s.every] for s in signals]
+        return scales_of(
+            self.data.compiled.spec,
+            [s.q[w] for s, w in zip(signals, whole, strict=True)],
+            [s.v[w] for s, w in zip(signals, whole, strict=True)],
+            [s.load[w] for s, w in zip(signals, whole, strict=True)],
+        )
+
+    def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
+        """Candidates by their columns."""
+        pool = pool_of(self.base, every)
+        return pool, rank(self.base, pool, self.data.blocks.fold)
+
+
+def state_of(
+    data: Data, picks: Sequence[Candidate], beta: np.ndarray, cache: dict | None = None
+) -> State:
+    """The analysis with these effects, linearised about beta.
+
+    Args:
+        data: the logs.
+        picks: accepted so far.
+        beta: (c,) base parameters.
+        cache: of columns that do not depend on beta, kept between states.
+    """
+    reference = Reference(data.compiled, beta, *_references(data.observation))
+    rows = rows_of(data.observation, reference)
+    kept = {} if cache is None else cache
+    extra = tuple(columns_of(rows, pick, kept) for pick in picks)
+    return State(data, tuple(picks), reference, rows, extra, kept)
+
+
+def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
+    """The candidate's columns; those that do not depend on the model are computed once."""
+    fixed = candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
+    memory = candidate.form.memory
+    fixed = fixed and candidate.local and (memory is None or memory.kind == "slip")
+    key = (candidate.effect.id, candidate.joint, tuple(sorted(candidate.shapes.items())))
+    if not fixed:
+        return rows.columns(candidate)
+    if key not in cache:
+        cache[key] = rows.columns(candidate)
+    return cache[key]
+
+
+def visible(columns: Columns) -> bool:
+    """True if the columns are finite and none of them is zero throughout."""
+    own = [c for c in columns if c is not None]
+    if not own or not own[0].shape[1] or not all(np.isfinite(c).all() for c in own):
+        return False
+    return bool(np.all(sum(np.abs(c).sum(axis=0) for c in own) > 0.0))
+
+
+def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
+    """The middle of time, and the mean temperature by joint where one is logged."""
+    segments = [part.segment for part in observation.stretches]
+    temperature = {}
+    for joint in observation.joints:
+        for name in (f"temperature{joint.name}", "temperature"):
+            if all(name in s.extra and np.isfinite(s.extra[name]).all() for s in segments):
+                every = np.concatenate([s.extra[name] for s in segments])
+                temperature[joint.name] = float(every.mean())
+                break
+    return float(np.mean(observation.time)), temperature

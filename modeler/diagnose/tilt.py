@@ -1,0 +1,112 @@
+"""Gravity from another direction: torques for unit gravity across the one the model has."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.diagnose.signals import Reference, Signals
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+_STATES = 64
+_STEP = 1e-5  # rad or m, of central differences
+_SEEN = 1e-6
+
+
+def tilt_columns(signals: Signals) -> np.ndarray:
+    """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
+
+    The others belong to first moments that the model's gravity hides (those of a vertical first
+    axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
+    """
+    basis = tilt_basis(signals.reference)
+    n, joints = signals.q.shape
+    if basis is None:
+        return np.zeros((n, joints, 0))
+    model = signals.reference.compiled
+    return np.stack([gravity_torque(model, signals.q, axis, chi) for axis, chi in basis], axis=2)
+
+
+def gravity_torque(
+    model: "CompiledModel", q: np.ndarray, axis: np.ndarray, chi: np.ndarray
+) -> np.ndarray:
+    """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS), by differences.
+
+    Args:
+        model: the robot.
+        q: (n, J).
+        axis: (3,) m/s^2 in frame 0.
+        chi: (rows, 4) M, MX, MY, MZ of every moving row.
+    """
+    found = np.empty(q.shape)
+    for j in range(q.shape[1]):
+        step = np.zeros(q.shape[1])
+        step[j] = _STEP
+        found[:, j] = _moment(model, q + step, axis, chi) - _moment(model, q - step, axis, chi)
+    return -found / (2.0 * _STEP)
+
+
+def _moment(model: "CompiledModel", q: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+    frames = model.forward_kinematics(q)
+    along = np.einsum("a,nrab->nrb", axis, frames)
+    return np.einsum("nrb,rb->n", along, np.column_stack([chi[:, 1:], chi[:, 0]]))
+
+
+def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | None:
+    """Axes and first moments of the columns of `tilt_columns`."""
+    model = reference.compiled
+    if model.spec.closure is not None:
+        return None
+    rows = [p.joint for p in model.spec.standard if p.effect == "rigid_body" and p.name[0] == "M"]
+    rows = list(dict.fromkeys(rows))
+    if len(rows) != model.forward_kinematics(np.zeros((1, len(model.spec.joints)))).shape[1]:
+        return None  # virtual rows: which frame is whose is not in the manifest
+    chi = _stands_for(reference, rows)
+    q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
+    unit = np.eye(3)
+    along = np.column_stack([gravity_torque(model, q, e, chi).ravel() for e in unit])
+    target = model.gravity(q, reference.links).ravel()
+    if np.linalg.norm(target) <= _SEEN or np.linalg.norm(along) <= _SEEN:
+        return None
+    gravity = np.linalg.lstsq(along, target, rcond=None)[0]
+    down = gravity / np.linalg.norm(gravity)
+    first = unit[int(np.argmin(np.abs(down)))]
+    across = first - down * (down @ first)
+    across = across / np.linalg.norm(across)
+    axes = (across, np.cross(down, across))
+    found = [(axis, chi) for axis in axes]
+    return found + _woken(model, q, axes, down, rows)
+
+
+def _stands_for(reference: Reference, rows: list[str]) -> np.ndarray:
+    """(rows, 4) first moments and masses that give the model's torques: the base columns' own."""
+    chi = np.zeros((len(rows), 4))
+    for base, value in zip(reference.compiled.spec.base, reference.links, strict=True):
+        for k, prefix in enumerate(("M", "MX", "MY", "MZ")):
+            for r, row in enumerate(rows):
+                if base.column_of == f"{prefix}{row}":
+                    chi[r, k] = value
+    return chi
+
+
+def _woken(
+    model: "CompiledModel", q: np.ndarray, axes: tuple[np.ndarray, np.ndarray], down: np.ndarray,
+    rows: list[str],
+) -> list[tuple[np.ndarray, np.ndarray]]:  # fmt: skip
+    """First moments without torque under the model's gravity that the others make felt."""
+    found: list[tuple[np.ndarray, np.ndarray]] = []
+    known = np.zeros((q.size, 0))
+    for r in range(len(rows)):
+        for k in (1, 2, 3):
+            chi = np.zeros((len(rows), 4))
+            chi[r, k] = 1.0
+            if np.linalg.norm(gravity_torque(model, q, down, chi)) > _SEEN:
+                continue
+            for axis in axes:
+                column = gravity_torque(model, q, axis, chi).ravel()
+                rest = column - known @ (known.T @ column)
+                if np.linalg.norm(rest) > 1e-3 * max(1.0, float(np.linalg.norm(column))):
+                    known = np.column_stack([known, rest / np.linalg.norm(rest)])
+                    found.append((axis, chi))
+    return found

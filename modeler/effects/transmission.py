@@ -1,0 +1,164 @@
+"""Gears, motors and sensors."""
+
+from modeler.effects.effect import Acts, Effect, Memory, Shape
+from modeler.effects.writing import column, form
+
+_FREQUENCY = Shape(
+    "f",
+    "hertz",
+    (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0),
+    (1.5, 60.0),
+    "natural frequency, motor locked",
+)
+_GAP = Shape("t0", "load", (0.03, 0.1), (0.0, 0.0), "load over which the gap closes")
+_ORDER = Shape(
+    "m", "number", (), (0.0, 0.0), "waves per turn of the joint (rad), or waves per 2 pi m"
+)
+_RIPPLE = (("c", "cos(m*q)"), ("s", "sin(m*q)"))
+
+TRANSMISSION: tuple[Effect, ...] = (
+    Effect(
+        id="elasticity",
+        aliases=("flexible_joint", "flexibility"),
+        title="the gear gives way (elastic joint)",
+        equation="links at q - C z, z the load through the resonance at f; C = 1/K",
+        forms=(
+            form(
+                column("Cj", "-z", "compliance", "other", nonnegative=True),
+                shapes=(_FREQUENCY,),
+                memory=Memory("resonance", "f"),
+            ),
+        ),
+        acts=Acts.POSITION,
+        family="transmission",
+        timing=True,
+        signature="residual spectrum: an anti-resonance and a resonance; residual against jerk",
+        look_alikes="delay, rotor inertia; move fast, or sweep the frequency",
+        range="K = 1/C 1e3 to 1e6 N m/rad, and about inertia times (2 pi f)^2",
+        source="Spong 1987; Jubien, Gautier and Janot 2014",
+    ),
+    Effect(
+        id="backlash",
+        aliases=("play",),
+        title="play in the gear",
+        equation="links at q - (gap/2) sign(load), free travel between",
+        forms=(form(column("gap", "-0.5*tanh(load/t0)", "angle", "other", True), shapes=(_GAP,)),),
+        acts=Acts.POSITION,
+        family="transmission",
+        signature="bursts of the residual within 0.1 s after the load (not the speed) changes sign",
+        look_alikes="presliding, which bursts where the speed changes sign; pass the pose of zero "
+        "load slowly and fast",
+        range="gap 0.1 to 5 mrad",
+        source="Nordin and Gutman 2002",
+    ),
+    Effect(
+        id="motor_ripple",
+        aliases=("cogging",),
+        title="ripple of the motor (cogging), or of its wave generator",
+        equation="Rc cos(m q) + Rs sin(m q), m = n times the gear ratio",
+        forms=(
+            form(
+                *(column(f"Rm{x}", text, "torque", "other") for x, text in _RIPPLE),
+                shapes=(_ORDER,),
+            ),
+        ),
+        acts=Acts.JOINT,
+        family="transmission",
+        same_as=("joint_ripple",),
+        signature="order spectrum: a line at n times the gear ratio per turn",
+        look_alikes="gear mesh at the joint, unless the gear ratio is known; move slowly, far",
+        range="0.5 to 5 % of rated torque",
+        source="Tuttle and Seering 1996",
+    ),
+    Effect(
+        id="joint_ripple",
+        aliases=("gear_mesh", "bearing_ripple"),
+        title="ripple of gear teeth or bearings at the joint",
+        equation="Rc cos(m q) + Rs sin(m q), m teeth or rollers",
+        forms=(
+            form(
+                *(column(f"Rj{x}", text, "torque", "other") for x, text in _RIPPLE),
+                shapes=(_ORDER,),
+            ),
+        ),
+        acts=Acts.JOINT,
+        family="transmission",
+        same_as=("motor_ripple",),
+        signature="order spectrum: a line at m per turn",
+        look_alikes="ripple of the motor, unless the gear ratio is known; gravity, for low m",
+        range="0.2 to 3 % of rated torque",
+        source="Tuttle and Seering 1996",
+    ),
+    Effect(
+        id="encoder_eccentricity",
+        aliases=(),
+        title="the encoder disc runs out of centre",
+        equation="links at q + Ec cos q + Es sin q",
+        forms=(
+            form(
+                column("Ec", "cos(q)", "angle", "other"), column("Es", "sin(q)", "angle", "other")
+            ),
+        ),
+        acts=Acts.POSITION,
+        family="measurement",
+        signature="once per turn, in the parts that depend on gravity and on inertia",
+        look_alikes="first moment of the link; move fast at many poses",
+        range="below 1 mrad to some mrad",
+        source="Hanselman 1990",
+    ),
+    Effect(
+        id="encoder_offset",
+        aliases=("calibration_offset",),
+        title="the zero of the encoder is off",
+        equation="links at q - dq",
+        forms=(form(column("dq", "-1", "angle", "other")),),
+        acts=Acts.POSITION,
+        family="measurement",
+        signature="residuals shaped like the derivative of gravity, on joints beyond it too",
+        look_alikes="last link's first moment on the last joint; a vertical first joint never "
+        "shows it",
+        range="below 5 degrees",
+        source="Khalil and Dombre 2002, section 11.2",
+    ),
+    Effect(
+        id="time_delay",
+        aliases=("channel_delay",),
+        title="torque and position are not of the same time",
+        equation="tau(t) = model(q(t + dt)) = ... + dt d tau/dt",
+        forms=(form(column("dt", "rate", "seconds", "other")),),
+        acts=Acts.TORQUE,
+        family="measurement",
+        timing=True,
+        signature="residual against d tau/dt: a line; correlation of the two peaks beside 0",
+        look_alikes="elasticity, friction at reversals; move fast",
+        range="below 10 ms; less than half a sample is a convention of the logger",
+        source="Janot, Gautier and Brunot 2019; Brunot et al. 2018",
+    ),
+    Effect(
+        id="drive_gain",
+        aliases=("torque_constant",),
+        title="the drive gain is wrong",
+        equation="-eps * torque; true gain = gain (1 + eps)",
+        forms=(form(column("eps", "-torque", "ratio", "other")),),
+        acts=Acts.JOINT,
+        family="measurement",
+        signature="residual against the predicted torque: a line",
+        look_alikes="the joint's own parameters all scaled; needs other joints that share them, or "
+        "a known load",
+        range="below 30 %",
+        source="Gautier and Briot 2011, 2014",
+    ),
+    Effect(
+        id="drift",
+        aliases=("sensor_drift",),
+        title="torque that drifts with time",
+        equation="Dr * t",
+        forms=(form(column("Dr", "t", "time", "other")),),
+        acts=Acts.JOINT,
+        family="measurement",
+        signature="residual against time: a slope",
+        look_alikes="friction that warms up, which changes sign with the speed; record longer",
+        range="a few percent of rated torque",
+        source="manuals of torque sensors",
+    ),
+)

@@ -1,0 +1,6 @@
+"""Effects into a model: robot file, C, fit, and the error before and after."""
+
+from modeler.improve.add import Logs as Logs
+from modeler.improve.add import add_effect as add_effect
+from modeler.improve.add import add_findings as add_findings
+from modeler.improve.add import undone as undone

@@ -1,0 +1,201 @@
+"""One effect more: described, derived, emitted, fitted, and judged on other motion."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.compare import compare
+from modeler.compare.predict import predict
+from modeler.compiled import CompiledModel, load
+from modeler.core.errors import DataError
+from modeler.derivation import derive, generate
+from modeler.diagnose.analyse import analysed
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.diagnosis import kept_parameters
+from modeler.diagnose.judge import Judged
+from modeler.diagnose.search import judged_state
+from modeler.diagnose.state import Data, State, state_of
+from modeler.effects import Acts, Effect, effect_named
+from modeler.fit import Addition, IdentifiedModel, identify, provenance
+from modeler.improve.describe import described
+from modeler.observation import Log, Processing, observe
+from modeler.robot import robot_from_text
+
+if TYPE_CHECKING:
+    from modeler.diagnose import Finding
+
+_HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
+
+
+@dataclass(frozen=True, eq=False)
+class Logs:
+    """What the model is fitted to, and what it is judged on."""
+
+    fitted: Sequence[Log]
+    held_out: Sequence[Log] = ()
+
+
+def add_effect(
+    model: IdentifiedModel, compiled: CompiledModel, name: str, joint: str | None, logs: Logs
+) -> IdentifiedModel:
+    """The model with one effect more, fitted to the logs.
+
+    Its shapes are those that explain the logs best.
+
+    Args:
+        model: as it is.
+        compiled: its robot.
+        name: id or alias of the effect.
+        joint: None: the joint that it explains most on, or the whole robot.
+        logs: to fit, and to judge on.
+
+    Raises:
+        DataError: no such effect, one that is there already, cannot be told from the logs, or
+            cannot be added.
+    """
+    effect = effect_named(name)
+    if effect is None:
+        raise DataError(f"{name}: no such effect; `modeler effects` lists them")
+    observation = analysed(compiled, logs.fitted, model.processing)
+    kept = kept_parameters(model, compiled, logs.fitted, observation)
+    if effect.acts is Acts.LINK and kept is None:
+        kept = model.beta
+    state = state_of(Data(compiled, observation, kept), (), model.beta)
+    best = _best(model, state, effect, joint)
+    return _added(model, compiled, state, best.candidate, best.values, logs)
+
+
+def add_findings(
+    model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: Logs
+) -> IdentifiedModel:
+    """The model with the effects of a diagnosis, one after the other.
+
+    Effects that cannot be added are left out.
+    """
+    for finding in findings:
+        try:
+            model = add_effect(model, compiled, finding.effect, finding.joint, logs)
+        except DataError:
+            continue
+        compiled = load(model.spec, model.sources)
+    return model
+
+
+def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
+    """The model without the effect that was added last, fitted again.
+
+    Raises:
+        DataError: none was added.
+    """
+    if len(model.history) < 2:
+        raise DataError("undo: no effect was added to this model")
+    before = model.history[-2]
+    processing = dataclasses.replace(model.processing, delay=before.delay)
+    fitted = _fitted(before.robot_text, logs.fitted, processing)
+    return dataclasses.replace(fitted, history=model.history[:-1])
+
+
+def _best(model: IdentifiedModel, state: State, effect: Effect, joint: str | None) -> Judged:
+    """The effect at its best shapes."""
+    present = {(p.effect, p.joint) for p in model.spec.standard}
+    repeats = effect.id.endswith("ripple")
+    if joint is not None and (effect.id, joint) in present and not repeats:
+        raise DataError(f"{effect.id}: joint {joint} has it in this model already")
+    names = [item.name for item in model.spec.joints]
+    if joint is not None and joint not in {*names, *_passive(model)}:
+        raise DataError(f"--joint {joint}: no such joint; expected one of {', '.join(names)}")
+    judgement = judged_state(state, only=effect.id)
+    found = [j for j in judgement.ranked if joint is None or j.candidate.joint in (joint, None)]
+    if not found:
+        raise DataError(
+            f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
+            "motion would"
+        )
+    best = found[0]
+    if best.visible < _HIDDEN:
+        raise DataError(
+            f"{effect.id}: cannot be told from what the model has on these logs "
+            f"({100 * best.visible:.1g} % of it is left); {effect.look_alikes}"
+        )
+    return best
+
+
+def _passive(model: IdentifiedModel) -> Sequence[str]:
+    return model.spec.closure.variables if model.spec.closure is not None else ()
+
+
+def _added(
+    model: IdentifiedModel, compiled: CompiledModel, state: State, pick: Candidate,
+    values: np.ndarray, logs: Logs,
+) -> IdentifiedModel:  # fmt: skip
+    history = model.history or (_step(model, compiled, None, logs),)
+    if pick.effect.acts is Acts.LINK:
+        better = _loaded(model, compiled, pick, values)
+    elif pick.effect.acts is Acts.TORQUE:
+        delay = model.processing.delay + float(values[0])
+        processing = dataclasses.replace(model.processing, delay=delay)
+        better = _fitted(model.robot_text, logs.fitted, processing)
+    else:
+        text = described(model.robot_text, pick, values, state.reference)
+        better = _fitted(text, logs.fitted, model.processing)
+    step = _step(better, load(better.spec, better.sources), pick, logs)
+    return dataclasses.replace(better, history=(*history, step))
+
+
+def _fitted(text: str, logs: Sequence[Log], processing: Processing) -> IdentifiedModel:
+    """The robot of that file fitted to the logs."""
+    derivation = derive(robot_from_text(text, "robot with the effect"))
+    emitted = generate(derivation)
+    observation = observe(load(emitted.spec, emitted.files), logs, processing)
+    return IdentifiedModel(
+        text, emitted.spec, emitted.files, identify(observation), provenance(observation.report)
+    )
+
+
+def _loaded(
+    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate, values: np.ndarray
+) -> IdentifiedModel:
+    """The model with a body more on a link: its base parameters, nothing else."""
+    standard = [p for p in model.spec.standard if p.effect == "rigid_body"]
+    links = list(dict.fromkeys(p.joint for p in standard))
+    own = [p.name for p in standard if p.joint == links[pick.index]]
+    felt = _felt(compiled, [p.name for p in model.spec.standard], own)
+    chi = np.zeros(len(model.spec.standard))
+    for name, value in zip(felt, values, strict=True):
+        chi[[p.name for p in model.spec.standard].index(name)] = value
+    beta = model.beta + compiled.base_parameters(chi)
+    pairs = zip(model.fit.parameters, beta, strict=True)
+    parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
+    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))
+
+
+def _felt(compiled: CompiledModel, names: Sequence[str], own: Sequence[str]) -> list[str]:
+    """Those of the link's parameters that any joint feels, in the order of their columns."""
+    generator = np.random.default_rng(0)
+    joints = len(compiled.spec.joints)
+    q, qd, qdd = generator.uniform(-1.0, 1.0, (3, 50, joints))
+    signals = np.zeros((50, len(compiled.spec.signals))) if compiled.spec.signals else None
+    phi = compiled.regressor(q, qd, qdd, signals)
+    return [n for n in own if np.abs(phi[:, :, list(names).index(n)]).max() > 1e-12]
+
+
+def _step(
+    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, logs: Logs
+) -> Addition:
+    """The error of a model, as a step of its history."""
+    judged = logs.held_out or logs.fitted
+    error = compare(predict(model, judged, compiled)[0]).relative_error
+    training = compare(predict(model, logs.fitted, compiled)[0]).relative_error
+    return Addition(
+        effect=pick.effect.id if pick else "",
+        joint=pick.joint if pick else None,
+        shapes=dict(pick.shapes) if pick else {},
+        error=float(error),
+        training_error=float(training),
+        held_out=tuple(log.name for log in logs.held_out),
+        robot_text=model.robot_text,
+        delay=model.processing.delay,
+    )

@@ -1,0 +1,103 @@
+"""The robot file with one effect more."""
+
+import numpy as np
+
+from modeler.core.errors import DataError, RobotError
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.signals import Reference
+from modeler.diagnose.tilt import tilt_basis
+from modeler.effects import Acts, Effect
+from modeler.robot import Robot, robot_from_text
+from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
+
+CANNOT = {
+    "elasticity": "the joint needs a second mass: identify its stiffness by simulation, or move "
+    "slower than its resonance",
+    "backlash": "play has no smooth torque: mend the gear, or keep the load from changing sign",
+    "external_force": "a contact is an event, not a parameter: leave its window out of the logs",
+}
+"""Effects that can be found and not added, and what to do."""
+
+
+def described(text: str, pick: Candidate, values: np.ndarray, reference: Reference) -> str:
+    """The robot file with the effect.
+
+    Args:
+        text: as it is.
+        pick: effect, joint, shapes.
+        values: of its parameters, for effects that change the description itself.
+        reference: the model.
+
+    Raises:
+        DataError: the effect cannot be added; says what to do.
+        RobotError: it stands there already.
+    """
+    effect = pick.effect
+    if effect.id in CANNOT:
+        raise DataError(f"{effect.id}: cannot be added ({CANNOT[effect.id]})")
+    if effect.acts is Acts.GRAVITY:
+        return with_gravity(text, _tilted(text, values, reference).tolist())
+    if effect.acts is Acts.PASSIVE:
+        assert pick.joint is not None
+        changed = with_effect(text, "viscous", pick.joint, {})
+        return with_effect(changed, "coulomb", pick.joint, {})
+    assert pick.joint is not None
+    if effect.acts is Acts.MOTOR:
+        text = _coupled(text, pick, reference)
+    changed = with_effect(text, effect.id, pick.joint, _shapes(pick, reference))
+    return with_reference(changed, _referred(reference)) if _depends(effect) else changed
+
+
+def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
+    """The shapes of a joint's effect, and where its temperature or time is 0."""
+    shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
+    fixed = {shape.name for shape in pick.form.shapes if len(shape.grid) == 1}
+    shapes = {name: value for name, value in shapes.items() if name not in fixed}
+    if "T" in pick.form.names and pick.joint is not None:
+        shapes["T0"] = reference.temperature[pick.joint]
+    if "t" in pick.form.names:
+        shapes["t0"] = reference.time
+    return shapes
+
+
+def _depends(effect: Effect) -> bool:
+    names = frozenset().union(*(form.names for form in effect.forms))
+    return effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
+
+
+def _referred(reference: Reference) -> dict[str, float]:
+    """Standard parameters with the torques of the model: each base parameter in its own column."""
+    known = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
+    effects = {p.name: p.effect for p in reference.compiled.spec.standard}
+    return {
+        base.column_of: float(f"{value:.9g}")
+        for base, value in zip(reference.compiled.spec.base, reference.beta, strict=True)
+        if effects[base.column_of] in known
+    }
+
+
+def _tilted(text: str, values: np.ndarray, reference: Reference) -> np.ndarray:
+    """Gravity with the tilt, of the length it had."""
+    robot: Robot = robot_from_text(text, "robot of the model")
+    symbols = {name: value.number() for name, value in robot.symbols.items()}
+    gravity = np.array([entry.number(symbols) for entry in robot.gravity])
+    basis = tilt_basis(reference)
+    assert basis is not None
+    turned = gravity + values[0] * basis[0][0] + values[1] * basis[1][0]
+    return turned * (np.linalg.norm(gravity) / np.linalg.norm(turned))
+
+
+def _coupled(text: str, pick: Candidate, reference: Reference) -> str:
+    """The file with the motor's coupling, if it has none for that joint."""
+    robot = robot_from_text(text, "robot of the model")
+    if pick.joint in robot.coupling:
+        return text
+    joints = reference.compiled.spec.joints
+    here, before = joints[pick.index].name, joints[pick.index - 1].name
+    sign = "+" if pick.shapes["c"] > 0.0 else "-"
+    share = abs(pick.shapes["c"])
+    times = "" if share == 1.0 else f"{share:g}*"
+    try:
+        return with_coupling(text, here, f"q{here} {sign} {times}q{before}")
+    except RobotError as error:
+        raise DataError(f"{pick.effect.id}: {error}") from None

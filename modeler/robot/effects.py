@@ -1,0 +1,152 @@
+"""The table [effects] of a robot file: which joint has which effect, and of what shape."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
+from modeler.robot.cells import plain_number, table_at
+from modeler.robot.joint import Joint
+from modeler.robot.place import Place, listed, near, shown
+from modeler.robot.robot import EffectInstance, EffectUse
+from modeler.robot.sections import Coupling, joint_at
+
+_ZERO = {"t": "t0", "T": "T0"}
+"""Variable -> the key that says where it is 0; not needed, 0 if left out."""
+
+
+def read_effects(
+    value: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+) -> tuple[EffectUse, ...]:
+    """Effects and their joints, in catalogue order.
+
+    "all" means every actuated joint, and every motor of `[coupling]` for effects of coupled
+    motors; passive joints have an effect only if they are named. Effects with shape parameters
+    stand as a list of tables: stribeck = [{joint = "2", vs = 0.1, d = 1}].
+
+    Raises:
+        RobotError: unknown effects, joints or shapes.
+    """
+    uses: dict[str, EffectUse] = {}
+    for name, cell in table_at(value, place, '[effects] viscous = "all"').items():
+        effect = _effect(name, place)
+        if effect.id in uses:
+            raise place.error(
+                f"{shown(name)} is {effect.id}, which stands there already; keep one of them"
+            )
+        here = place.at(name)
+        _check_motors(effect, coupling, here)
+        if isinstance(cell, list) and any(isinstance(entry, dict) for entry in cell):
+            uses[effect.id] = _shaped(effect, cell, moving, coupling, here)
+        elif effect.forms[0].free:
+            raise here.error(f"got {shown(cell)}; expected its shapes, as in {_example(effect)}")
+        else:
+            joints = _joints(effect, cell, moving, coupling, here)
+            fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+            shaped = tuple(EffectInstance(name, 0, fixed) for name in joints) if fixed else ()
+            uses[effect.id] = EffectUse(effect.id, joints, shaped)
+    return tuple(uses[e.id] for e in CATALOGUE if e.id in uses and uses[e.id].joints)
+
+
+def needs_reference(use: EffectUse, instance: EffectInstance) -> bool:
+    """True if the effect depends on the torques of the links."""
+    effect = effect_named(use.effect)
+    assert effect is not None
+    loads = {"load", "static", "torque"}
+    named = not effect.forms[instance.form].names.isdisjoint(loads)
+    return named or effect.acts is Acts.POSITION
+
+
+def _effect(name: str, place: Place) -> Effect:
+    effect = effect_named(name)
+    written = [e for e in CATALOGUE if e.written]
+    if effect is None:
+        names = [known for e in written for known in (e.id, *e.aliases)]
+        raise place.error(
+            f"there is no effect {shown(name)}{near(name, names)}; expected one of "
+            f"{listed(e.id for e in written)}"
+        )
+    if not effect.written:
+        raise place.error(
+            f"{effect.id} is no function of the joints' motion, so it has no column; see "
+            f"`modeler effects {effect.id}`, and `modeler add` for what can be done"
+        )
+    return effect
+
+
+def _check_motors(effect: Effect, coupling: Coupling, place: Place) -> None:
+    if effect.coupled and not coupling:
+        raise place.error(
+            "acts on motors that turn with several joints, and the file couples none; add a "
+            'table [coupling] with a line such as "6" = "q5 + q6"'
+        )
+
+
+def _joints(
+    effect: Effect, cell: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+) -> tuple[str, ...]:
+    if cell == "all":
+        return tuple(
+            name
+            for name, joint in moving.items()
+            if (name in coupling if effect.coupled else joint.actuated)
+        )
+    if not isinstance(cell, list):
+        raise place.error(
+            f'got {shown(cell)}; expected the joints that have it: "all" or ["1", "2"]'
+        )
+    named = [joint_at(entry, moving, place).name for entry in cell]
+    for name in named:
+        if named.count(name) > 1:
+            raise place.error(f"joint {shown(name)} stands there twice; name it once")
+        _check_coupled(effect, name, coupling, place)
+    return tuple(name for name in moving if name in named)
+
+
+def _check_coupled(effect: Effect, name: str, coupling: Coupling, place: Place) -> None:
+    if effect.coupled and name not in coupling:
+        raise place.error(
+            f"joint {shown(name)} has no line in [coupling], which has {listed(coupling)}; "
+            "add one, or take the joint out"
+        )
+
+
+def _shaped(
+    effect: Effect, cell: list[Any], moving: Mapping[str, Joint], coupling: Coupling, place: Place
+) -> EffectUse:
+    found: list[EffectInstance] = []
+    for entry in cell:
+        if not isinstance(entry, dict) or "joint" not in entry:
+            raise place.error(f"got {shown(entry)}; expected tables, as in {_example(effect)}")
+        name = joint_at(entry["joint"], moving, place).name
+        _check_coupled(effect, name, coupling, place)
+        given = {key: value for key, value in entry.items() if key != "joint"}
+        form = _form(effect, given, place)
+        shapes = {s.name: s.grid[0] for s in effect.forms[form].shapes if len(s.grid) == 1}
+        shapes |= {k: plain_number(v, place.at(k), "0.1") for k, v in given.items()}
+        before = sum(other.joint == name for other in found)
+        found.append(EffectInstance(name, form, shapes, f"_{before + 1}" if before else ""))
+    joints = tuple(name for name in moving if any(i.joint == name for i in found))
+    return EffectUse(effect.id, joints, tuple(found))
+
+
+def _form(effect: Effect, given: Mapping[str, Any], place: Place) -> int:
+    """Place of the form that these shapes belong to."""
+    for place_of, form in enumerate(effect.forms):
+        needed = {shape.name for shape in form.free}
+        allowed = needed | {s.name for s in form.shapes} | _zeros(form)
+        if needed <= given.keys() <= allowed:
+            return place_of
+    raise place.error(
+        f"got the shapes {listed(given) if given else 'none'}; expected {_example(effect)}"
+    )
+
+
+def _zeros(form: Form) -> set[str]:
+    return {_ZERO[name] for name in form.names if name in _ZERO}
+
+
+def _example(effect: Effect) -> str:
+    """How the effect is written."""
+    shapes = effect.forms[0].free or effect.forms[-1].free
+    values = "".join(f", {s.name} = {s.grid[0] if s.grid else 7:g}" for s in shapes)
+    return f'{effect.id} = [{{joint = "2"{values}}}]'

@@ -1,0 +1,94 @@
+"""Columns of effects as expressions of the graph, from the equations of the catalogue."""
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from functools import partial
+from typing import TYPE_CHECKING
+
+from modeler.effects import Acts
+from modeler.symbolic.columns import StandardColumn
+from modeler.symbolic.derivative import derivatives
+from modeler.symbolic.graph import Expr, Graph
+from modeler.symbolic.signals import signals_read
+
+if TYPE_CHECKING:
+    from modeler.symbolic.model import SymbolicModel
+
+
+def effect_entries(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
+    """{free variable: torque along it per unit of the column's parameter}."""
+    assert column.column is not None and column.shaft is not None
+    if column.acts is Acts.POSITION:
+        return _moved(model, column)
+    torque = _equation(model, column)
+    return {k: torque * coefficient for k, coefficient in column.shaft.items()}
+
+
+def _equation(model: "SymbolicModel", column: StandardColumn) -> Expr:
+    """The equation of the column on its shaft."""
+    graph = model.graph
+    assert column.column is not None and column.shaft is not None
+    values: dict[str, Expr] = {
+        name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
+    }
+    for name, kind in (("q", "q"), ("v", "qd"), ("a", "qdd")):
+        values[name] = along(model, column.shaft, kind)
+    names = column.column.equation.names
+    for name in ("load", "static", "torque"):
+        if name in names:
+            values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))
+    zero = graph.constant(0)
+    for signal in signals_read(column):
+        read = graph.symbol(f"s[{model.signals.index(signal)}]")
+        if signal.kind == "time":
+            values["t"] = read - values.get("t0", zero)
+        elif signal.kind == "temperature":
+            values["T"] = read - values.get("T0", zero)
+        else:
+            values["z"] = read
+    return graph.lift(
+        column.column.equation.fold(values, functions_of(graph), None, graph.constant)
+    )
+
+
+def functions_of(graph: Graph) -> Mapping[str, Callable[[Expr], Expr]]:
+    """The functions of the expression language on the graph."""
+    names = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
+    return {name: partial(graph.call, name) for name in names}
+
+
+def along(model: "SymbolicModel", shaft: Mapping[int, Fraction], kind: str) -> Expr:
+    """Position, speed or acceleration of a shaft."""
+    total = model.graph.constant(0)
+    for k, coefficient in shaft.items():
+        total = total + model.inputs(kind)[k] * coefficient
+    return total
+
+
+def _on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) -> Expr:
+    """Torque of the joint that the shaft is; effects on motors of several joints read no load."""
+    total = graph.constant(0)
+    for k, coefficient in shaft.items():
+        total = total + torques[k] / coefficient
+    return total
+
+
+def _moved(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
+    """Torque of the links at the reference, differentiated along a small change of position.
+
+    The change is the column's equation, dq(q); speeds and accelerations change by its time
+    derivatives.
+    """
+    assert column.shaft is not None
+    n = model.geometry.coordinates
+    speeds = {f"q[{k}]": model.inputs("qd")[k] for k in range(n)}
+    rates = speeds | {f"qd[{k}]": model.inputs("qdd")[k] for k in range(n)}
+    dq = _equation(model, column)
+    (dv,) = derivatives([dq], speeds)
+    (da,) = derivatives([dv], rates)
+    direction: dict[str, Expr] = {}
+    for k, coefficient in column.shaft.items():
+        for kind, change in (("q", dq), ("qd", dv), ("qdd", da)):
+            direction[f"{kind}[{k}]"] = change * coefficient
+    moved = derivatives(model.reference_torque("load"), direction)
+    return {k: value for k, value in enumerate(moved) if not value.is_zero}

@@ -1,0 +1,231 @@
+"""A 3R arm that MuJoCo moves: logs from outside, with effects that the robot file does not name.
+
+Bodies, friction, rotor inertia and springs are MuJoCo's own; the controller sees an encoder with
+steps and knows the rigid body only.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+G = 9.81  # m/s2
+TICK, STEPS = 1e-3, 2  # s; MuJoCo steps in a control tick
+COUNT = 2 * np.pi / 2**20  # rad, of the encoder
+NOISE = 0.005  # of a joint's rms torque
+LOWER = np.array([-2.6, -0.6, -2.4])  # rad
+UPPER = np.array([2.6, 2.4, 2.4])
+SPEED = np.array([2.5, 2.0, 3.0])  # rad/s
+LIFT = np.array([10.0, 8.0, 12.0])  # rad/s2
+LEVELS = (1.0, 0.5, 0.2, 0.8, 0.35, 0.1)  # of the top speed
+LONGEST = 2.0  # s, of one move
+ROWS = [1, 2, 3]
+
+
+@dataclass(frozen=True)
+class Body:
+    """Mass, centre (3,) in its frame, inertia (3, 3) about the centre; kg, m, kg m2."""
+
+    mass: float
+    centre: np.ndarray
+    inertia: np.ndarray
+
+
+def random_body(rng: np.random.Generator, mass: float, low: Sequence, high: Sequence) -> Body:
+    """The body of twenty random points in a box: masses and inertias that a body can have."""
+    weights = rng.uniform(0.5, 1.5, 20)
+    weights *= mass / weights.sum()
+    points = rng.uniform(low, high, (20, 3))
+    centre = weights @ points / mass
+    r = points - centre
+    inertia = np.trace(r.T * weights @ r) * np.eye(3) - r.T * weights @ r
+    return Body(mass, centre, inertia)
+
+
+@dataclass(frozen=True)
+class Arm:
+    """What is true. MDH rows: alpha, d, r; joint arrays (3,), SI."""
+
+    table: tuple[tuple[float, float, float], ...]
+    bodies: tuple[Body, ...]
+    damping: np.ndarray
+    frictionloss: np.ndarray
+    armature: np.ndarray
+    stiffness: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -G]))
+    payload: Body | None = None
+
+
+def random_arm(seed: int) -> Arm:
+    """Waist upright, shoulder, elbow; reach near 0.8 m."""
+    rng = np.random.default_rng([seed, 1])
+    before, upper = rng.uniform(0.04, 0.10), rng.uniform(0.35, 0.45)
+    return Arm(
+        table=((0.0, 0.0, 0.0), (np.pi / 2, before, 0.0), (0.0, upper, rng.uniform(0.02, 0.06))),
+        bodies=(
+            random_body(rng, rng.uniform(10, 14), [-0.1, -0.1, -0.3], [0.15, 0.1, 0.05]),
+            random_body(rng, rng.uniform(6, 9), [-0.1, -0.07, -0.05], [upper, 0.07, 0.1]),
+            random_body(rng, rng.uniform(3, 5), [-0.05, -0.06, -0.06], [0.35, 0.06, 0.04]),
+        ),
+        damping=np.array([6.0, 5.0, 2.0]) * rng.uniform(0.8, 1.2, 3),
+        frictionloss=np.array([7.0, 8.0, 3.5]) * rng.uniform(0.8, 1.2, 3),
+        armature=np.array([1.3, 1.1, 0.35]) * rng.uniform(0.8, 1.2, 3),
+    )
+
+
+def mjcf(arm: Arm) -> str:
+    """The arm as MuJoCo reads it."""
+    text = ""
+    for j, ((alpha, d, r), body) in enumerate(zip(arm.table, arm.bodies, strict=True)):
+        place = [d, -r * np.sin(alpha), r * np.cos(alpha)]
+        turn = [np.cos(alpha / 2), np.sin(alpha / 2), 0.0, 0.0]
+        text += (
+            f'<body pos="{_numbers(place)}" quat="{_numbers(turn)}">'
+            f'<joint name="{j + 1}" type="hinge" axis="0 0 1" damping="{arm.damping[j]}" '
+            f'frictionloss="{arm.frictionloss[j]}" armature="{arm.armature[j]}" '
+            f'stiffness="{arm.stiffness[j]}"/>{_inertial(body)}'
+        )
+    if arm.payload is not None:
+        text += f"<body>{_inertial(arm.payload)}</body>"
+    motors = "".join(f'<motor joint="{j}"/>' for j in ROWS)
+    return (
+        f'<mujoco><compiler angle="radian" inertiafromgeom="false"/>'
+        f'<option timestep="{TICK / STEPS}" integrator="implicitfast" '
+        f'gravity="{_numbers(arm.gravity)}"/>'
+        f"<worldbody>{text}{'</body>' * 3}</worldbody><actuator>{motors}</actuator></mujoco>"
+    )
+
+
+def _numbers(values: Sequence[float] | np.ndarray) -> str:
+    return " ".join(f"{x:.17g}" for x in values)
+
+
+def _inertial(body: Body) -> str:
+    full = body.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    return (
+        f'<inertial pos="{_numbers(body.centre)}" mass="{body.mass:.17g}" '
+        f'fullinertia="{_numbers(full)}"/>'
+    )
+
+
+def robot_text(arm: Arm, effects: Mapping[str, Sequence[int]]) -> str:
+    """The robot file: the table of the arm, gravity straight down, and these effects."""
+    rows = "".join(
+        f'["{j}", "{j - 1}", {"0" if alpha == 0.0 else chr(34) + "pi/2" + chr(34)}, '
+        f'{d!r}, "q{j}", {r!r}],\n'
+        for j, (alpha, d, r) in zip(ROWS, arm.table, strict=True)
+    )
+    named = "".join(f"{name} = {[str(j) for j in joints]}\n" for name, joints in effects.items())
+    return (
+        f'name = "outside"\ngravity = [0, 0, {-G}]\n[mdh]\n'
+        f'columns = ["j", "a", "alpha", "d", "theta", "r"]\nrows = [\n{rows}]\n[effects]\n{named}'
+    )
+
+
+def reference(rng: np.random.Generator, half: float) -> np.ndarray:
+    """(n, 3) moves at several speeds for half the time, then a Fourier series; s."""
+    count = round(half / TICK)
+    middle = (LOWER + UPPER) / 2
+    path = np.tile(middle, (2 * count, 1))
+    _moves(path[:count], rng)
+    time = TICK * np.arange(count)
+    series = np.zeros((count, 3))
+    for harmonic in range(1, 7):
+        omega = 2 * np.pi * 0.13 * harmonic * rng.uniform(0.9, 1.1, 3)
+        series += rng.uniform(0.5, 1, 3) / harmonic * np.sin(
+            np.outer(time, omega) + rng.uniform(0, 2 * np.pi, 3)
+        )  # fmt: skip
+    series *= (_rise(time) * _rise(time[-1] - time))[:, None]
+    speed, lift = np.gradient(series, TICK, axis=0), 0
+    lift = np.gradient(speed, TICK, axis=0)
+    peaks = [np.abs(x).max(axis=0) for x in (series, speed, lift)]
+    bounds = ((UPPER - LOWER) / 2, SPEED, LIFT)
+    path[count:] += series * np.min([b / p for b, p in zip(bounds, peaks, strict=True)], axis=0)
+    return path
+
+
+def _moves(path: np.ndarray, rng: np.random.Generator) -> None:
+    """Quintic moves from the middle, of all joints or of some, and back to it."""
+    middle = path[0].copy()
+    now, here, turn = 0.1, middle, 0
+    until = TICK * len(path)
+    time = TICK * np.arange(len(path))
+    while True:
+        level = LEVELS[turn % len(LEVELS)]
+        moves = rng.random(3) < (0.5 if turn % 3 == 2 else 1.1)
+        way = np.where(moves, rng.uniform(LOWER, UPPER) - here, 0.0)
+        way *= min(1.0, LONGEST / max(_needed(way, level), 1e-9))
+        lasts = _needed(way, level)
+        home = _needed(middle - here - way, 1.0)
+        if now + lasts + home + 0.2 > until:
+            break
+        path += _rise((time - now) / max(lasts, 1e-9))[:, None] * way
+        now, here, turn = now + lasts + 0.1, here + way, turn + 1
+    back = middle - here
+    path += _rise((time - now) / max(_needed(back, 1.0), 1e-9))[:, None] * back
+
+
+def _needed(way: np.ndarray, level: float) -> float:
+    """Duration of a quintic move, s."""
+    slow = 15 / 8 * np.abs(way) / (level * SPEED)
+    return float(max(slow.max(), np.sqrt(10 / np.sqrt(3) * np.abs(way) / LIFT).max()))
+
+
+def _rise(s: np.ndarray) -> np.ndarray:
+    x = np.clip(s, 0.0, 1.0)
+    return x**3 * (10 - 15 * x + 6 * x**2)
+
+
+def run(arm: Arm, seed: int, half: float) -> dict[str, np.ndarray]:
+    """Columns of a log: the arm under a controller that follows a reference.
+
+    The torque of a row is that from its time to the next row, as a drive holds it.
+    """
+    rng = np.random.default_rng([seed, 2])
+    wanted = reference(rng, half)
+    speed = np.gradient(wanted, TICK, axis=0)
+    ahead = _feedforward(wanted, speed)
+    model = mujoco.MjModel.from_xml_string(mjcf(arm))
+    data = mujoco.MjData(model)
+    data.qpos[:] = wanted[0]
+    q, tau = np.empty_like(wanted), np.empty_like(wanted)
+    stiff, damp = np.array([4000.0, 4000.0, 1200.0]), np.array([130.0, 130.0, 40.0])
+    last, slow = np.round(wanted[0] / COUNT) * COUNT, np.zeros(3)
+    for k in range(len(wanted)):
+        seen = np.round(data.qpos / COUNT) * COUNT
+        slow += 0.4 * ((seen - last) / TICK - slow)  # low-pass near 80 Hz
+        last = seen
+        data.ctrl[:] = ahead[k] + stiff * (wanted[k] - seen) + damp * (speed[k] - slow)
+        force = 0.0
+        for _ in range(STEPS):
+            mujoco.mj_step(model, data)
+            force = force + data.actuator_force
+        q[k], tau[k] = seen, force / STEPS
+    tau += NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.standard_normal(tau.shape)
+    columns = {"time": TICK * np.arange(len(q))}
+    columns |= {f"q{j}": q[:, j - 1] for j in ROWS}
+    return columns | {f"tau{j}": tau[:, j - 1] for j in ROWS}
+
+
+def _feedforward(wanted: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """(n, 3) torques of an average arm: what a maker would have programmed, not this arm."""
+    model = mujoco.MjModel.from_xml_string(mjcf(random_arm(0)))
+    model.dof_frictionloss[:] = 0.0
+    data = mujoco.MjData(model)
+    found = np.empty_like(wanted)
+    lift = np.gradient(speed, TICK, axis=0)
+    for k in range(len(wanted)):
+        data.qpos[:], data.qvel[:], data.qacc[:] = wanted[k], speed[k], lift[k]
+        mujoco.mj_inverse(model, data)
+        found[k] = data.qfrc_inverse
+    return found
+
+
+def write(path: Path, columns: Mapping[str, np.ndarray]) -> Path:
+    """The log as Parquet."""
+    pyarrow.parquet.write_table(pyarrow.table(dict(columns)), path)
+    return path

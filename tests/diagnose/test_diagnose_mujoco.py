@@ -1,0 +1,105 @@
+"""Effects that MuJoCo has and the robot file has not: named, on their joint, with their value.
+
+MuJoCo shares nothing with the model, its simulator or its filters.
+"""
+
+import dataclasses
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from modeler import api
+
+pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco) is not installed")
+
+from tests.diagnose.mujoco_arm import (
+    ROWS,
+    Arm,
+    G,
+    random_arm,
+    random_body,
+    robot_text,
+    run,
+    write,
+)
+
+SEEDS = [1, pytest.param(2, marks=pytest.mark.slow)]
+TRAIN, HOLDOUT = 15.0, 7.0  # s, of moves, and as much of a Fourier series
+USUAL = ("rotor_inertia", "viscous", "coulomb", "offset")
+WHERE = {  # by effect: the joint with each seed
+    "viscous": {1: 2, 2: 1},
+    "coulomb": {1: 1, 2: 3},
+    "rotor_inertia": {1: 3, 2: 3},  # those of joints 1 and 2 are inertias of the links
+    "spring": {1: 1, 2: 3},
+    "base_tilt": {1: None, 2: None},
+    "payload": {1: None, 2: None},
+}
+PREFIX = {"viscous": "Fv", "coulomb": "Fs", "rotor_inertia": "Ia", "spring": "Ks"}
+STIFFNESS = 4.0  # N m/rad
+
+
+def effects_without(effect=None, joint=None):
+    return {name: [j for j in ROWS if (name, j) != (effect, joint)] for name in USUAL}
+
+
+def altered(arm: Arm, effect, joint, seed):
+    rng = np.random.default_rng([seed, 3])
+    if effect == "spring":
+        return dataclasses.replace(arm, stiffness=STIFFNESS * (np.array(ROWS) == joint))
+    if effect == "base_tilt":
+        tilt, way = np.radians(3.0), rng.uniform(0, 2 * np.pi)
+        down = [np.sin(tilt) * np.cos(way), np.sin(tilt) * np.sin(way), -np.cos(tilt)]
+        return dataclasses.replace(arm, gravity=G * np.array(down))
+    if effect == "payload":
+        load = random_body(rng, rng.uniform(1.2, 2.0), [0.3, -0.05, -0.05], [0.45, 0.05, 0.05])
+        return dataclasses.replace(arm, payload=load)
+    return arm
+
+
+@cache
+def true_value(effect, joint, seed):
+    arm = random_arm(seed)
+    if effect == "spring":
+        return STIFFNESS
+    kind = {"viscous": arm.damping, "coulomb": arm.frictionloss, "rotor_inertia": arm.armature}
+    return float(kind[effect][joint - 1])
+
+
+def diagnosed(folder, seed, effect=None, joint=None):
+    """The diagnosis of a model that lacks this effect on this joint."""
+    plain = random_arm(seed)
+    arm = altered(plain, effect, joint, seed)
+    path = folder / "robot.toml"
+    path.write_text(robot_text(plain, effects_without(effect, joint)), encoding="utf-8")
+    train = write(folder / "train.parquet", run(arm, 10 * seed + 1, TRAIN))
+    holdout = write(folder / "holdout.parquet", run(arm, 10 * seed + 2, HOLDOUT))
+    fitted = train
+    if effect == "payload":  # a model of the arm without load, asked about the arm with it
+        fitted = write(folder / "unloaded.parquet", run(plain, 10 * seed + 3, TRAIN))
+    derivation = api.derive(api.load(str(path)))
+    emitted = api.generate(derivation)
+    compiled = api.compile_model(emitted)
+    model = api.fit(derivation, emitted, api.observe(compiled, [fitted]))
+    return api.diagnose(model, [train], [holdout])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("effect", WHERE)
+def test_what_the_file_lacks_is_named_first(tmp_path, effect, seed):
+    joint = WHERE[effect][seed]
+    found = diagnosed(tmp_path, seed, effect, joint)
+    assert found.effects, found.sentences
+    first = found.effects[0]
+    assert (first.effect, first.joint) == (effect, None if joint is None else str(joint))
+    assert first.error_after < first.error_before
+    if effect in PREFIX:
+        value = first.parameters[f"{PREFIX[effect]}{joint}"]
+        assert value == pytest.approx(true_value(effect, joint, seed), rel=0.15)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_nothing_is_named_where_nothing_lacks(tmp_path, seed):
+    found = diagnosed(tmp_path, seed)
+    assert not found.effects, found.sentences
