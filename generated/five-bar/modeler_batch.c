@@ -31,3 +31,10 @@ void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_
     for (size_t i = 0; i < samples; i++)
         function(AT(0), AT(1), AT(2), AT(3), out + i * out_step);
 }
+
+void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_input inputs[5],
+                     double *out, size_t out_step)
+{
+    for (size_t i = 0; i < samples; i++)
+        function(AT(0), AT(1), AT(2), AT(3), AT(4), out + i * out_step);
+}

@@ -28,7 +28,7 @@ static const modeler_closure platform_loops = {
 
 const char *orthoglide_2003_signature(void)
 {
-    return "93a6f83bd4e39837";
+    return "31c5a07162dd8f3e";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

@@ -39,7 +39,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "54318dadfeac6fce";
+    return "c58020c027c9d0d1";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

@@ -51,7 +51,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "41e28af3cff9bc4a";
+    return "fb4747c8bad5f361";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,

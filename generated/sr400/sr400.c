@@ -48,7 +48,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "4ce366271228ed1e";
+    return "7a1d426b135fd45d";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,

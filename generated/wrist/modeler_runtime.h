@@ -18,6 +18,8 @@ typedef void (*modeler_function_2)(const double *, const double *, double *);
 typedef void (*modeler_function_3)(const double *, const double *, const double *, double *);
 typedef void (*modeler_function_4)(const double *, const double *, const double *, const double *,
                                    double *);
+typedef void (*modeler_function_5)(const double *, const double *, const double *, const double *,
+                                   const double *, double *);
 
 /* An input over samples: the values of sample i stand at data + i*step.
  * step 0: the same values for every sample, as for parameters. */
@@ -35,6 +37,8 @@ void modeler_batch_2(modeler_function_2 function, size_t samples, const modeler_
 void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_input inputs[3],
                      double *out, size_t out_step);
 void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_input inputs[4],
+                     double *out, size_t out_step);
+void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_input inputs[5],
                      double *out, size_t out_step);
 
 #ifdef __cplusplus

@@ -33,7 +33,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "72ccb8a011c16f30";
+    return "0034811800bed3d5";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

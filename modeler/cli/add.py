@@ -7,7 +7,7 @@ from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, say, working
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.diagnose import diagnose
+from modeler.diagnose import diagnose, write_additions
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, undone
 
@@ -34,6 +34,7 @@ def add_add(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--holdout", metavar="LOG", nargs="+", default=[], help="logs of other motion to judge on"
     )
     parser.add_argument("--robot", metavar="FILE", help="write the new robot file too")
+    parser.add_argument("--report", metavar="PAGE.html", help="write one self-contained page")
     parser.add_argument("--json", metavar="FILE", help="write the result for machines")
     parser.set_defaults(run=run_add)
 
@@ -62,6 +63,9 @@ def run_add(args: argparse.Namespace) -> Json:
     if args.robot is not None:
         write_atomically(Path(args.robot), better.robot_text)
         say(f"written: {args.robot}")
+    if args.report is not None and better.history:
+        place = write_additions(Path(args.report), better.spec.robot, better.history)
+        say(f"written: {place}")
     return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
 
 

@@ -2,13 +2,14 @@
 
 import argparse
 from collections.abc import Sequence
+from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
-from modeler.diagnose import Diagnosis, diagnose
+from modeler.diagnose import Diagnosis, diagnose, write_diagnosis
 from modeler.effects import CATALOGUE, effect_named
-from modeler.fit import load_model
+from modeler.fit import IdentifiedModel, load_model
 from modeler.observation import Log
 from modeler.observation.log import shared_rows
 
@@ -36,6 +37,7 @@ def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
         "--without", metavar="EFFECT[@J]", action="append", default=[],
         help="an effect that this robot does not have, on one joint or at all",
     )  # fmt: skip
+    parser.add_argument("--report", metavar="PAGE.html", help="write one self-contained page")
     parser.add_argument("--json", metavar="FILE", help="write the result for machines")
     parser.set_defaults(run=run_diagnose)
 
@@ -53,7 +55,20 @@ def run_diagnose(args: argparse.Namespace) -> Json:
         diagnosis = diagnose(model, compiled, logs, holdout, args.without, progress=bar)
     for line in lines(diagnosis):
         say(line)
+    if args.report is not None:
+        with working("drawing"):
+            place = write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))
+        say(f"written: {place}")
     return diagnosis.to_json()
+
+
+def _provenance(model: IdentifiedModel, args: argparse.Namespace) -> list[str]:
+    fitted = ", ".join(log.name for log in model.logs)
+    shown = ", ".join(Path(place).name for place in args.logs)
+    return [
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, fitted on {fitted}",
+        f"logs explained: {shown}",
+    ]
 
 
 def lines(diagnosis: Diagnosis) -> list[str]:

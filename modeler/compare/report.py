@@ -83,18 +83,27 @@ def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
     lines = [_item(line) for line in (*_facts_on_data(comparison), *provenance)]
     return Template((_HERE / "report.html").read_text(encoding="utf-8")).substitute(
         robot=html.escape(comparison.prediction.robot),
-        style=(_HERE / "report.css").read_text(encoding="utf-8"),
         figure=html.escape(figure),
         headline=html.escape(f"of {rest}" if rest else ""),
         facts="\n".join(_fact(name, text) for name, text in _facts(comparison)),
         verdict="\n".join(_verdict_lines(comparison)),
         table="\n".join([_HEAD, *(_table_row(item, comparison) for item in comparison.joints)]),
-        overview=_figure(overview_picture(comparison), titled=False) if comparison.joints else "",
+        overview=figure_html(overview_picture(comparison), titled=False)
+        if comparison.joints
+        else "",
         joints="\n".join(_joint_section(comparison, item) for item in comparison.joints),
         provenance="\n".join(lines),
-        plotly=plotly.offline.get_plotlyjs(),
-        script=(_HERE / "report.js").read_text(encoding="utf-8"),
+        **page_assets(),
     )
+
+
+def page_assets() -> dict[str, str]:
+    """What every page carries: style, plotly.js and the script that draws the figures."""
+    return {
+        "style": (_HERE / "report.css").read_text(encoding="utf-8"),
+        "plotly": plotly.offline.get_plotlyjs(),
+        "script": (_HERE / "report.js").read_text(encoding="utf-8"),
+    }
 
 
 def _facts(comparison: Comparison) -> list[tuple[str, str]]:
@@ -196,14 +205,15 @@ def _table_row(item: JointComparison, comparison: Comparison) -> str:
 
 def _joint_section(comparison: Comparison, item: JointComparison) -> str:
     name = html.escape(item.joint.name)
-    drawn = "\n".join(_figure(picture) for picture in joint_pictures(comparison, item))
+    drawn = "\n".join(figure_html(picture) for picture in joint_pictures(comparison, item))
     return (
         f'<section id="joint-{name}">\n<h2>Joint {name}</h2>\n'
         f'<p class="lead">{html.escape(joint_verdict(item))}</p>\n{drawn}\n</section>'
     )
 
 
-def _figure(picture: Picture, titled: bool = True) -> str:
+def figure_html(picture: Picture, titled: bool = True) -> str:
+    """The picture as it stands in a page, its numbers for download below it."""
     heading = f"<h3>{html.escape(picture.title)}</h3>\n" if titled else ""
     numbers = base64.b64encode(picture_csv(picture).encode()).decode()
     return (

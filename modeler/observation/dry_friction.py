@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.contract import JointSpec
 from modeler.observation.motion import Segment
 from modeler.observation.processing import Processing
 
@@ -73,13 +72,13 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
     return tuple(found.values())
 
 
-def with_every_joint(parts: Sequence[Shaft], joints: Sequence[JointSpec]) -> tuple[Shaft, ...]:
+def with_every_joint(model: "CompiledModel") -> tuple[Shaft, ...]:
     """The shafts, and every joint with a motor that is none of them.
 
     For looking at dry friction that the model lacks.
     """
-    found = list(parts)
-    names = {part.name for part in parts}
+    found, joints = list(shafts(model)), model.spec.joints
+    names = {part.name for part in found}
     for j, joint in enumerate(joints):
         if joint.actuated and joint.name not in names:
             own = tuple(float(i == j) for i in range(len(joints)))

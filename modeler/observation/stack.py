@@ -30,23 +30,20 @@ def observe(
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
-    Position low-pass and differentiation, then one parallel filter and decimation for the torque
-    and every column (Guegan, Khalil and Lemoine 2003, section 5.2). Samples below the speed floor,
-    saturated or missing ones have no weight in it.
+    One parallel filter and decimation for the torque and every column (Guegan, Khalil and Lemoine
+    2003, section 5.2). Samples below the speed floor, saturated or missing ones have no weight.
 
     Args:
         model: the compiled robot.
         logs: read with the same manifest.
-        processing: None: all automatic. For held-out logs pass `report.processing` of the fit.
+        processing: None: automatic. For held-out logs `report.processing` of the fit.
         every_joint: mask low speeds also on joints whose dry friction the model lacks.
 
     Raises:
-        DataError: no logs, a log of another robot, or no usable row.
+        DataError: no logs, of another robot, or no usable row.
     """
     prepared = prepare(model.spec, logs, processing or Processing())
-    parts = shafts(model)
-    if every_joint:
-        parts = with_every_joint(parts, model.spec.joints)
+    parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
     stretches = tuple(_stretch(segment, parts, chosen) for segment in prepared.segments)
@@ -93,12 +90,6 @@ def _stack(
             [part.rows.means(getattr(part.segment, name), part.segment.whole) for part in stretches]
         )
 
-    signals = {id(part.segment): signals_of(model.spec, part.segment) for part in stretches}
-
-    def regressor(s: Segment, w: slice) -> np.ndarray:
-        read = signals[id(s)]
-        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
-
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
         robot=model.spec.robot,
@@ -113,11 +104,24 @@ def _stack(
         qd=plain("qd"),
         qdd=plain("qdd"),
         torque=gather(lambda s, w: s.tau[w]),
-        columns=gather(regressor),
+        columns=gather(_regressor(model, stretches)),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
         report=report,
     )
+
+
+def _regressor(
+    model: "CompiledModel", stretches: Sequence[Stretch]
+) -> Callable[[Segment, slice], np.ndarray]:
+    """The base regressor over the samples of a segment, with what its effects read."""
+    signals = {id(part.segment): signals_of(model.spec, part.segment) for part in stretches}
+
+    def regressor(s: Segment, w: slice) -> np.ndarray:
+        read = signals[id(s)]
+        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
+
+    return regressor
 
 
 def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:

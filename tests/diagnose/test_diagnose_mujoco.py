@@ -4,7 +4,6 @@ MuJoCo shares nothing with the model, its simulator or its filters.
 """
 
 import dataclasses
-
 from functools import cache
 
 import numpy as np
@@ -16,7 +15,6 @@ pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco) is not 
 
 from tests.diagnose.mujoco_arm import (
     ROWS,
-    Arm,
     G,
     random_arm,
     random_body,
@@ -26,7 +24,7 @@ from tests.diagnose.mujoco_arm import (
 )
 
 SEEDS = [1, pytest.param(2, marks=pytest.mark.slow)]
-TRAIN, HOLDOUT = 15.0, 7.0  # s, of moves, and as much of a Fourier series
+TRAIN, HOLDOUT = 12.0, 6.0  # s, of moves, and as much of a Fourier series
 USUAL = ("rotor_inertia", "viscous", "coulomb", "offset")
 WHERE = {  # by effect: the joint with each seed
     "viscous": {1: 2, 2: 1},
@@ -37,25 +35,35 @@ WHERE = {  # by effect: the joint with each seed
     "payload": {1: None, 2: None},
 }
 PREFIX = {"viscous": "Fv", "coulomb": "Fs", "rotor_inertia": "Ia", "spring": "Ks"}
+EVER = ("viscous", "coulomb", "rotor_inertia")  # in every arm; the file leaves one out
 STIFFNESS = 4.0  # N m/rad
+TILT = np.radians(3.0)
 
 
 def effects_without(effect=None, joint=None):
     return {name: [j for j in ROWS if (name, j) != (effect, joint)] for name in USUAL}
 
 
-def altered(arm: Arm, effect, joint, seed):
-    rng = np.random.default_rng([seed, 3])
+def altered(effect, joint, seed):
+    """The arm with what no usual model has; friction and rotor inertia it has anyway."""
+    arm, rng = random_arm(seed), np.random.default_rng([seed, 3])
     if effect == "spring":
         return dataclasses.replace(arm, stiffness=STIFFNESS * (np.array(ROWS) == joint))
     if effect == "base_tilt":
-        tilt, way = np.radians(3.0), rng.uniform(0, 2 * np.pi)
-        down = [np.sin(tilt) * np.cos(way), np.sin(tilt) * np.sin(way), -np.cos(tilt)]
+        way = rng.uniform(0, 2 * np.pi)
+        down = [np.sin(TILT) * np.cos(way), np.sin(TILT) * np.sin(way), -np.cos(TILT)]
         return dataclasses.replace(arm, gravity=G * np.array(down))
     if effect == "payload":
         load = random_body(rng, rng.uniform(1.2, 2.0), [0.3, -0.05, -0.05], [0.45, 0.05, 0.05])
         return dataclasses.replace(arm, payload=load)
     return arm
+
+
+@cache
+def simulated(effect, joint, seed):
+    """Columns of a log to explain and of one held out, of another motion."""
+    arm = altered(effect, joint, seed)
+    return run(arm, 10 * seed + 1, TRAIN), run(arm, 10 * seed + 2, HOLDOUT)
 
 
 @cache
@@ -69,15 +77,15 @@ def true_value(effect, joint, seed):
 
 def diagnosed(folder, seed, effect=None, joint=None):
     """The diagnosis of a model that lacks this effect on this joint."""
-    plain = random_arm(seed)
-    arm = altered(plain, effect, joint, seed)
-    path = folder / "robot.toml"
-    path.write_text(robot_text(plain, effects_without(effect, joint)), encoding="utf-8")
-    train = write(folder / "train.parquet", run(arm, 10 * seed + 1, TRAIN))
-    holdout = write(folder / "holdout.parquet", run(arm, 10 * seed + 2, HOLDOUT))
+    added = effect if effect not in EVER else None
+    logs = simulated(added, joint if added else None, seed)
+    train, holdout = (write(folder / f"{k}.parquet", log) for k, log in enumerate(logs))
     fitted = train
     if effect == "payload":  # a model of the arm without load, asked about the arm with it
-        fitted = write(folder / "unloaded.parquet", run(plain, 10 * seed + 3, TRAIN))
+        fitted = write(folder / "unloaded.parquet", simulated(None, None, seed)[0])
+    path = folder / "robot.toml"
+    text = robot_text(random_arm(seed), effects_without(effect, joint))
+    path.write_text(text, encoding="utf-8")
     derivation = api.derive(api.load(str(path)))
     emitted = api.generate(derivation)
     compiled = api.compile_model(emitted)
@@ -97,6 +105,12 @@ def test_what_the_file_lacks_is_named_first(tmp_path, effect, seed):
     if effect in PREFIX:
         value = first.parameters[f"{PREFIX[effect]}{joint}"]
         assert value == pytest.approx(true_value(effect, joint, seed), rel=0.15)
+    if effect == "payload":
+        mass = altered(effect, joint, seed).payload.mass
+        assert first.parameters["load_10"] == pytest.approx(mass, rel=0.15)
+    if effect == "base_tilt":  # whichever way, two components across gravity
+        across = np.hypot(first.parameters["g_1"], first.parameters["g_2"])
+        assert across == pytest.approx(G * np.sin(TILT), rel=0.15)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -95,7 +95,7 @@ class StandIn:
                        for k in kept),
             unidentifiable=(), functions=())  # fmt: skip
 
-    def regressor(self, q, qd, qdd):
+    def regressor(self, q, qd, qdd, s=None):
         n, J = q.shape
         out = np.zeros((n, J, len(self.names)))
         frames, wrenches = self.wrenches(q, qd, qdd)
@@ -148,7 +148,7 @@ class StandIn:
             wrenches.append(X)
         return frames, wrenches
 
-    def base_regressor(self, q, qd, qdd):
+    def base_regressor(self, q, qd, qdd, s=None):
         return self.regressor(q, qd, qdd)[:, :, self.kept]
 
 

@@ -1,0 +1,218 @@
+"""The pages of a diagnosis and of effects that were added: one HTML file each, no network."""
+
+import html
+from collections.abc import Sequence
+from pathlib import Path
+from string import Template
+
+import numpy as np
+
+from modeler.compare.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
+from modeler.compare.report import figure_html, page_assets
+from modeler.core.files import write_atomically
+from modeler.diagnose.evidence import evidence_picture, rivals_picture
+from modeler.diagnose.result import Diagnosis, Finding
+from modeler.diagnose.sentences import percent, where
+from modeler.effects import effect_named
+from modeler.fit import Addition
+
+_HERE = Path(__file__).parent
+_SMALL = 0.005  # of the torque: what is systematic below is not worth a word
+
+
+def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] = ()) -> Path:
+    """Write the page of a diagnosis; the path of the file written.
+
+    Args:
+        path: of an .html file.
+        diagnosis: what it shows.
+        provenance: lines on how the data came about.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    text = _page(
+        title=f"{diagnosis.robot}: which effect is missing",
+        headline=_headline(diagnosis),
+        facts=_facts(diagnosis),
+        sections="\n".join(_sections(diagnosis)),
+        provenance=[*diagnosis.sentences, *provenance],
+    )
+    write_atomically(Path(path), text)
+    return Path(path)
+
+
+def write_additions(path: Path, robot: str, history: Sequence[Addition]) -> Path:
+    """Write the page of a model's history: the error after every effect that was added.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    first, last = history[0].error, history[-1].error
+    held = history[-1].held_out
+    fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
+    lines = [
+        f"modeler add MODEL {s.effect}{f' --joint {s.joint}' if s.joint else ''} LOG... --out MODEL"
+        for s in history[1:]
+    ]
+    text = _page(
+        title=f"{robot}: effects added",
+        headline=(percent(last), f"error left of {percent(first)}"),
+        facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
+        sections=_section("The error falls", figure_html(waterfall_picture(history))),
+        provenance=["To do this again, in this order:", *lines],
+    )
+    write_atomically(Path(path), text)
+    return Path(path)
+
+
+def waterfall_picture(history: Sequence[Addition]) -> Picture:
+    """Held-out and training error after every effect."""
+    names = tuple(
+        (f"+ {s.effect}" + (f" @{s.joint}" if s.joint else "")) if s.effect else "as fitted"
+        for s in history
+    )
+    held = np.array([100.0 * s.error for s in history])
+    fitted = np.array([100.0 * s.training_error for s in history])
+    label = "error on held-out logs [%]" if history[-1].held_out else "error on fitted logs [%]"
+    panels = (
+        Panel("held out", "", label,
+              (Bars("held out", names, held, tuple(f"{e:.2f}" for e in held), Style(BLUE)),)),
+        Panel("fitted", "", "error on fitted logs [%]",
+              (Bars("fitted", names, fitted, tuple(f"{e:.2f}" for e in fitted), Style(ORANGE)),)),
+    )  # fmt: skip
+    return Picture(
+        name="waterfall",
+        title="Error after every effect",
+        caption="Relative error over all joints. Left the error that counts: motion that was never "
+        "fitted. `modeler add MODEL undo LOG... --out MODEL` takes the last one back.",
+        panels=(panels,),
+        heights=(1.0,),
+        widths=(0.5, 0.5),
+        height=380,
+    )
+
+
+def _page(
+    title: str, headline: tuple[str, str], facts: Sequence[tuple[str, str]], sections: str,
+    provenance: Sequence[str],
+) -> str:  # fmt: skip
+    return Template((_HERE / "page.html").read_text(encoding="utf-8")).substitute(
+        title=html.escape(title),
+        figure=html.escape(headline[0]),
+        headline=html.escape(headline[1]),
+        facts="\n".join(f"<li><b>{html.escape(a)}</b>{html.escape(b)}</li>" for a, b in facts),
+        sections=sections,
+        provenance="\n".join(f"<li>{html.escape(line)}</li>" for line in provenance),
+        **page_assets(),
+    )
+
+
+def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
+    """The size of the prize, and what wins it."""
+    if not diagnosis.effects:
+        return diagnosis.verdict, ""
+    first = diagnosis.effects[0]
+    effect = effect_named(first.effect)
+    assert effect is not None
+    size = f"{percent(first.error_before)} \u2192 {percent(first.error_after)}"
+    return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}"
+
+
+def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    facts = []
+    if diagnosis.effects:
+        first = diagnosis.effects[0]
+        ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in first.ties)
+        facts.append(("What the data do not tell apart", ties or "nothing: no rival comes near"))
+    left = [
+        f"joint {name}: {percent(j.systematic / (j.systematic + j.noise))} systematic"
+        for name, j in diagnosis.joints.items()
+        if j.systematic > _SMALL**2 and j.systematic > 0.3 * j.noise
+    ]
+    facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
+    held = ", ".join(diagnosis.held_out) or "none: errors are cross-validated within the logs"
+    facts.append(("Held-out motion", held))
+    return facts
+
+
+def _sections(diagnosis: Diagnosis) -> list[str]:
+    found = [_section("Effects", _table(diagnosis)), _section("Joints", _joints(diagnosis))]
+    for step in diagnosis.search.steps:
+        pictures = figure_html(evidence_picture(diagnosis.search, step))
+        if step is diagnosis.search.steps[0]:
+            pictures += figure_html(rivals_picture(step))
+        found.append(_section(_name(step.pick.effect.id, step.pick.joint), pictures))
+    found.append(_section("What these logs cannot show", _blind(diagnosis)))
+    return found
+
+
+def _section(title: str, body: str) -> str:
+    return f"<section>\n<h2>{html.escape(title)}</h2>\n{body}\n</section>"
+
+
+def _name(effect: str, joint: str | None) -> str:
+    return f"{effect}, {where(joint)}"
+
+
+def _table(diagnosis: Diagnosis) -> str:
+    findings = [*diagnosis.effects, *diagnosis.refinements]
+    if not findings:
+        return f"<p>{html.escape(diagnosis.sentences[0])}</p>"
+    head = (
+        '<tr><th class="text">effect</th><th class="text">joint</th><th class="text">values</th>'
+        '<th>error before</th><th>error after</th><th class="text">expected gain</th>'
+        '<th class="text">why</th></tr>'
+    )
+    return f"<table>{head}{''.join(_row(f) for f in findings)}</table>"
+
+
+def _row(finding: Finding) -> str:
+    values = "; ".join(
+        f"{name} = {value:.4g}"
+        + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
+        + (f" {finding.units[name]}" if name in finding.units else "")
+        for name, value in finding.parameters.items()
+    )
+    mark = " (refinement)" if finding.refines else ""
+    cells = [
+        f'<td class="text">{finding.effect}{mark}</td>',
+        f'<td class="text">{html.escape(finding.joint or "all")}</td>',
+        f'<td class="text">{html.escape(values)}</td>',
+        f"<td>{percent(finding.error_before)}</td>",
+        f"<td>{percent(finding.error_after)}</td>",
+        f'<td class="bar"><span style="width:{round(110 * finding.gain)}px"></span>'
+        f"{percent(finding.gain)}</td>",
+        f'<td class="text">{html.escape(finding.evidence)}</td>',
+    ]
+    return f"<tr>{''.join(cells)}</tr>"
+
+
+def _joints(diagnosis: Diagnosis) -> str:
+    """Share of each joint's torque: explained, systematic, noise."""
+    head = (
+        "<tr><th>joint</th><th>error</th><th>with the effects</th><th>explained</th>"
+        "<th>systematic, unexplained</th><th>noise</th></tr>"
+    )
+    rows = "".join(
+        f"<tr><td>{html.escape(name)}</td><td>{percent(j.error_before)}</td>"
+        f"<td>{percent(j.error_after)}</td><td>{100 * j.explained:.3f} %</td>"
+        f"<td>{100 * j.systematic:.4f} %</td><td>{100 * j.noise:.4f} %</td></tr>"
+        for name, j in diagnosis.joints.items()
+    )
+    note = (
+        "<caption>Shares of the torque's variance with the effects in. Systematic is what smooth "
+        "functions of the motion predict, or what returns in the next lap.</caption>"
+    )
+    return f"<table>{note}{head}{rows}</table>"
+
+
+def _blind(diagnosis: Diagnosis) -> str:
+    lines = []
+    for effect_id, joint in diagnosis.blind_spots:
+        effect = effect_named(effect_id)
+        assert effect is not None
+        lines.append(
+            f"<li>{html.escape(_name(effect_id, joint))}: {html.escape(effect.look_alikes)}</li>"
+        )
+    return f"<ul>{''.join(lines)}</ul>" if lines else "<p>Nothing of the catalogue.</p>"

@@ -1,0 +1,4 @@
+"""Simulated measurements of random arms with a physical effect hidden in them, and their score.
+
+The generator imports nothing of the package that is tested; `chain.py` alone does.
+"""
