@@ -14,6 +14,7 @@ from modeler.base.shafts import friction_relations
 from modeler.base.tied import tied_relations
 from modeler.base.tree import group_tree
 from modeler.base.units import Units, grouping_units
+from modeler.effects import EnergyBlock
 from modeler.symbolic import Geometry, StandardColumn, SymbolicModel
 
 
@@ -47,6 +48,14 @@ def column_relations(
     rows += [
         {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
         for relation in friction_relations(model.columns)
+    ]
+    felt = {place for _, place in model.regressor}
+    rows += [
+        {place: K.one}
+        for place, column in enumerate(model.columns)
+        if column.column is not None
+        and column.column.block is EnergyBlock.OWN
+        and place not in felt
     ]
     reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
     first = sum(pivot >= len(model.columns) for pivot in pivots)

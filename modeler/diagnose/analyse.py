@@ -4,7 +4,10 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from modeler.observation import Log, Observation, Processing, observe
+from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -14,6 +17,9 @@ BAND = 30.0
 
 Fits use a narrow band, where torque noise is least; ripple, elasticity, delays and reversals show
 above it."""
+
+COMPLETE = 0.95
+"""Least share of a row's weights on usable samples."""
 
 
 def analysis_processing(fitted: Processing) -> Processing:
@@ -37,4 +43,26 @@ def analysed(
         chosen: True if `fitted` is that of a diagnosis already.
     """
     processing = fitted if chosen else analysis_processing(fitted)
-    return observe(compiled, logs, processing, every_joint=True)
+    return _whole(observe(compiled, logs, processing, every_joint=True))
+
+
+def _whole(observation: Observation) -> Observation:
+    """Only rows whose weights lie on usable samples all but wholly.
+
+    A row at the edge of a masked reversal is the mean of few samples, and what the filter makes of
+    the sign of a speed there looks like physics.
+    """
+    stretches = tuple(
+        dataclasses.replace(part, used=part.used & _complete(part))
+        for part in observation.stretches
+    )
+    used = np.concatenate([part.used for part in stretches])
+    if not used.any():
+        return observation
+    return dataclasses.replace(observation, used=used, stretches=stretches)
+
+
+def _complete(part: Stretch) -> np.ndarray:
+    """(rows, joints) True where at least `COMPLETE` of a row's weights count."""
+    shares = [part.rows.share(part.usable[:, j]) for j in range(part.usable.shape[1])]
+    return np.column_stack(shares) >= COMPLETE

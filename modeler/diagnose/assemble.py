@@ -23,7 +23,7 @@ CLOSED = 0.75
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""
 
-LEFT = 0.3
+LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
 
 

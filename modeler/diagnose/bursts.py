@@ -11,23 +11,46 @@ BURST = 11.0
 """Energy within that time over that elsewhere from which on play is named."""
 
 
+EVENTS = 5
+"""Least number of sign changes of the load."""
+
+
 def burst_ratio(state: State, j: int) -> float:
     """Mean squared residual within 0.1 s after sign changes of the load, over that elsewhere.
 
-    0 where the load changes sign less than four times, or where speed reversals come with it.
+    The loudest fifth of the events, and of the rows elsewhere the loudest hundredth, are left out:
+    play bursts every time. 0 where the load changes sign, far from speed reversals, less than
+    `EVENTS` times.
     """
-    after: list[np.ndarray] = []
+    label, events = [], 0
     for s in state.rows.signals:
         load, v = s.load[:, j], s.v[:, j]
-        turns = np.flatnonzero(np.diff(np.sign(load)) != 0)
         span = max(1, round(AFTER / s.step))
         flags = np.zeros(len(load))
-        for turn in turns:
-            if abs(v[turn]) > 0.02 * state.scales[j].speed:
-                flags[turn : turn + span] = 1.0
-        after.append(flags)
-    near = state.rows.filtered(j, after) > 0.5
-    if near.sum() < 8 or (~near).sum() < 8:
+        for turn in np.flatnonzero(np.diff(np.sign(load)) != 0):
+            if np.abs(v[turn : turn + span]).min() > 0.02 * state.scales[j].speed:
+                events += 1
+                flags[turn : turn + span] = events
+        label.append(flags)
+    if events < EVENTS:
         return 0.0
-    square = state.residual[j] ** 2
-    return float(square[near].mean() / max(float(np.mean(square[~near])), 1e-300))
+    return _ratio(state.residual[j] ** 2, _nearest(state, j, label), events)
+
+
+def _nearest(state: State, j: int, label: list[np.ndarray]) -> np.ndarray:
+    """(rows,) event of each row, 0 for none: that of the sample in the middle of its weights."""
+    found = []
+    for own, flags in zip(state.rows.filters, label, strict=True):
+        middle = own[j] @ np.arange(len(flags))
+        found.append(flags[np.clip(np.round(middle).astype(int), 0, len(flags) - 1)])
+    return np.concatenate(found)
+
+
+def _ratio(square: np.ndarray, event: np.ndarray, events: int) -> float:
+    loud = np.sort([square[event == k].mean() for k in range(1, events + 1) if (event == k).any()])
+    quiet = np.sort(square[event == 0])
+    if len(loud) < EVENTS or len(quiet) < 8:
+        return 0.0
+    kept = loud[: len(loud) - max(1, len(loud) // 5)]
+    rest = quiet[: len(quiet) - len(quiet) // 100]
+    return float(kept.mean() / max(float(rest.mean()), 1e-300))

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal import medfilt
 
 from modeler.diagnose.state import State
 
@@ -39,9 +40,10 @@ def contact_window(state: State) -> Window | None:
     cells = _cells(state)
     if cells is None:
         return None
-    run, time, energy = cells
+    run, time, raw = cells
+    energy = medfilt(raw, 3)  # single cells are reversals
     top = int(np.argmax(energy))
-    level = max(float(np.quantile(energy, 0.98)), 1e-300)
+    level = max(float(np.quantile(energy, 0.9)), 1e-300)
     first = last = top
     threshold = max(0.1 * energy[top], 2.0 * level)
     while first > 0 and _linked(run, time, first - 1, first) and energy[first - 1] > threshold:

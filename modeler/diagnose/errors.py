@@ -52,15 +52,19 @@ def crossed_errors(state: State) -> np.ndarray:
     return np.sqrt(left / np.where(size > 0.0, size, 1.0))
 
 
-def vetoing(data: Data) -> Callable[[State, State, Candidate], bool]:
-    """A veto by held-out logs: True if the errors of an effect's joints rise there.
+KEPT = 0.2
+"""Share of the expected gain that must come true on held-out motion."""
+
+
+def vetoing(data: Data) -> Callable[[State, State, Candidate, float], bool]:
+    """A veto by held-out logs: True if the errors of an effect's joints do not fall there.
 
     Squared errors count in units of each joint's residual on the training logs. The clock of a
     held-out log may start anew: for effects that depend on time it may also go on where the
     training logs end, whichever suits them better.
     """
 
-    def veto(before: State, after: State, candidate: Candidate) -> bool:
+    def veto(before: State, after: State, candidate: Candidate, gain: float) -> bool:
         own = candidate.concerns(len(before.rows.y))
         size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in before.rows.y])
         weight = (size / before.base.sigma)[own] ** 2
@@ -68,7 +72,7 @@ def vetoing(data: Data) -> Callable[[State, State, Candidate], bool]:
         later = [0.0, float(np.ptp(before.data.observation.time))] if timed else [0.0]
         old = min(_weighed(before, data, own, weight, shift) for shift in later)
         new = min(_weighed(after, data, own, weight, shift) for shift in later)
-        return new >= old
+        return new > old * (1.0 - KEPT * gain)
 
     return veto
 

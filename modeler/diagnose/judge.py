@@ -108,18 +108,27 @@ def _decide(state: State, judged: list[Judged]) -> Judgement:
         if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
             judged[place] = dataclasses.replace(item, confirmed=False)
             continue
-        return Judgement(tuple(judged), _simplest(item, judged))
+        return Judgement(tuple(judged), _simplest(state, item, judged))
     return Judgement(tuple(judged), None)
 
 
-def _simplest(best: Judged, judged: Sequence[Judged]) -> Judged:
-    """Of those tied with the best and nearly as good, that with the fewest free numbers."""
+def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
+    """Of those tied with the best and nearly as good, that with the fewest free numbers.
+
+    A timing-like effect may stand for another timing-like one only.
+    """
+    timing = best.candidate.effect.timing
     near = [
         other for other in tied(best, judged)
-        if other.significant and not other.candidate.effect.timing
+        if other.significant and (timing or not other.candidate.effect.timing)
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
     ]  # fmt: skip
-    return min([best, *near], key=lambda j: (_numbers(j.candidate), -float(j.drop.sum())))
+    order = sorted([best, *near], key=lambda j: (_numbers(j.candidate), -float(j.drop.sum())))
+    return next(
+        j
+        for j in order
+        if j is best or not j.candidate.effect.timing or confirmed(state, j.candidate, j.values)
+    )
 
 
 def _numbers(candidate: Candidate) -> float:

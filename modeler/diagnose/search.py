@@ -56,8 +56,9 @@ class Search:
     vetoed: tuple[Candidate, ...] = ()
 
 
-Veto = Callable[[State, State, Candidate], bool]
-"""True if an effect raises the error on held-out logs: state without it, with it, the effect."""
+Veto = Callable[[State, State, Candidate, float], bool]
+"""True if an effect does not lower the error on held-out logs: state without it, with it, the
+effect, its expected gain."""
 
 
 def search(
@@ -86,7 +87,7 @@ def search(
     while judgement.best is not None and len(steps) < most:
         best = judgement.best
         later = extended(state, best.candidate)
-        if veto is not None and veto(state, later, best.candidate):
+        if veto is not None and veto(state, later, best.candidate, best.gain):
             vetoed.append(best.candidate)
             judgement = judged_state(state, without, vetoed)
             continue

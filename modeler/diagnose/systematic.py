@@ -5,8 +5,9 @@ import numpy as np
 from modeler.diagnose.state import State
 from modeler.observation.bristle import bristle
 
-_FEATURES = 160
-_RIDGES = (1.0, 10.0, 100.0)
+_OWN, _BENT, _WIDE = 80, 40, 350  # features of the joint, turned with its direction, of all joints
+_LEAST = 300  # rows
+_RIDGES = (10.0, 100.0, 600.0)
 _SLIPS = (0.001, 0.01, 0.1)  # of the range of motion
 
 
@@ -18,11 +19,14 @@ def predictable(state: State, j: int) -> float:
     regression, judged on the folds that were held out. Near 0 for noise, never below 0.
     """
     residual = state.residual[j] / state.base.sigma[j]
-    if residual.size < 4 * _FEATURES // 2:
+    if residual.size < _LEAST:
         return 0.0
-    features = _features(state, j)
     fold = state.data.blocks.fold[state.base.block[j]]
-    left = min(_left(features, residual, fold, ridge) for ridge in _RIDGES)
+    left = min(
+        _left(features, residual, fold, ridge)
+        for features in _features(state, j)
+        for ridge in _RIDGES
+    )
     return max(0.0, 1.0 - left / float(residual @ residual))
 
 
@@ -37,7 +41,8 @@ def _left(features: np.ndarray, y: np.ndarray, fold: np.ndarray, ridge: float) -
     return total
 
 
-def _features(state: State, j: int) -> np.ndarray:
+def _features(state: State, j: int) -> tuple[np.ndarray, np.ndarray]:
+    """Functions of the joint's own motion, and functions of the motion of all joints."""
     rows = state.rows
     used = state.data.observation.used[:, j]
     observation = state.data.observation
@@ -51,11 +56,16 @@ def _features(state: State, j: int) -> np.ndarray:
     near = np.column_stack([q, v])
     generator = np.random.default_rng(5)
     direction = np.sign(v[:, j])[:, None]
-    smooth = _fourier(own, _FEATURES // 2, generator)
-    wide = _fourier(near, _FEATURES // 4, generator)
-    bent = _fourier(own[:, :2], _FEATURES // 4, generator) * direction
-    found = np.column_stack([np.ones(len(q)), own, *slips, smooth, wide, bent, direction])
-    centred = found - found.mean(axis=0)
+    smooth = _fourier(own, _OWN, generator)
+    wide = _fourier(near, _WIDE, generator)
+    bent = _fourier(own[:, :2], _BENT, generator) * direction
+    alone = np.column_stack([own, *slips, smooth, bent, direction])
+    return _standard(alone), _standard(np.column_stack([near, wide]))
+
+
+def _standard(features: np.ndarray) -> np.ndarray:
+    """Mean 0 and standard deviation 1."""
+    centred = features - features.mean(axis=0)
     size = centred.std(axis=0)
     return centred[:, size > 1e-9] / size[size > 1e-9]
 

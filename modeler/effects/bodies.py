@@ -11,6 +11,9 @@ _MOUNT = Shape(
     (-10.0, 10.0),
     "where it is in line",
 )
+_MOMENT = Shape(
+    "m", "number", (1.0,), (0.0, 0.0), "0 where the link's first moment has the part without lever"
+)
 _LEVER_FORCE = "sin(q - q0)/sqrt(1 + b**2 - 2*b*cos(q - q0))"
 
 BODIES: tuple[Effect, ...] = (
@@ -33,8 +36,14 @@ BODIES: tuple[Effect, ...] = (
         id="counterbalance",
         aliases=("balancer",),
         title="helical spring with a lever that balances gravity",
-        equation="Kbl sin(q-q0) / sqrt(1 + b^2 - 2 b cos(q-q0)), beside Kb sin(q-q0) in MX, MY",
-        forms=(form(column("Kbl", _LEVER_FORCE, "torque", "other"), shapes=(_LEVER, _MOUNT)),),
+        equation="Kbs sin(q-q0) + Kbl sin(q-q0) / sqrt(1 + b^2 - 2 b cos(q-q0))",
+        forms=(
+            form(
+                column("Kbs", "m*sin(q - q0)", "torque", "other"),
+                column("Kbl", _LEVER_FORCE, "torque", "other"),
+                shapes=(_LEVER, _MOUNT, _MOMENT),
+            ),
+        ),
         acts=Acts.JOINT,
         family="load",
         same_as=("constant_force_spring",),

@@ -53,11 +53,28 @@ def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
     shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
     fixed = {shape.name for shape in pick.form.shapes if len(shape.grid) == 1}
     shapes = {name: value for name, value in shapes.items() if name not in fixed}
+    if pick.effect.id == "counterbalance" and _is_first_moment(pick, reference):
+        shapes["m"] = 0.0
     if "T" in pick.form.names and pick.joint is not None:
         shapes["T0"] = reference.temperature[pick.joint]
     if "t" in pick.form.names:
         shapes["t0"] = reference.time
     return shapes
+
+
+def _is_first_moment(pick: Candidate, reference: Reference) -> bool:
+    """True if the model has sin(q - q0) on that joint already: gravity of its links."""
+    model = reference.compiled
+    joints = len(model.spec.joints)
+    generator = np.random.default_rng(7)
+    q, qd, qdd = generator.uniform(-2.0, 2.0, (3, 40 * joints, joints))
+    signals = np.ones((len(q), len(model.spec.signals))) if model.spec.signals else None
+    phi = model.base_regressor(q, qd, qdd, signals).reshape(q.size, -1)
+    column = np.zeros(q.shape)
+    column[:, pick.index] = np.sin(q[:, pick.index] - pick.shapes["q0"])
+    target = column.ravel()
+    solved = np.linalg.lstsq(phi, target, rcond=1e-10)[0]
+    return bool(np.linalg.norm(phi @ solved - target) < 1e-6 * np.linalg.norm(target))
 
 
 def _depends(effect: Effect) -> bool:

@@ -1,0 +1,148 @@
+"""Effects hidden in simulated runs, written here as torques: are they named, with their values?"""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.api import load
+from modeler.diagnose import Diagnosis, diagnose
+from modeler.observation import Log, read_log
+from modeler.robot import robot_from_text
+from modeler.simulate import SimulationSettings, simulate, write_log
+from tests.diagnose.conftest import Case, motion, on_joint
+
+
+def stribeck(log: Log) -> np.ndarray:
+    _, v = motion(log)
+    return on_joint(log, 1, 4.0 * np.exp(-((v[:, 1] / 0.1) ** 2)) * np.tanh(v[:, 1] / 0.002))
+
+
+def asymmetric_viscous(log: Log) -> np.ndarray:
+    _, v = motion(log)
+    return on_joint(log, 2, 0.6 * np.abs(v[:, 2]))
+
+
+def position_friction(log: Log) -> np.ndarray:
+    q, v = motion(log)
+    return on_joint(log, 0, 2.5 * np.cos(q[:, 0] - 1.0) * np.tanh(v[:, 0] / 0.002))
+
+
+def spring(log: Log) -> np.ndarray:
+    q, _ = motion(log)
+    return on_joint(log, 2, 1.5 * q[:, 2])
+
+
+def drift(log: Log) -> np.ndarray:
+    return on_joint(log, 1, 0.08 * log.time)
+
+
+def motor_ripple(log: Log) -> np.ndarray:
+    q, _ = motion(log)
+    return on_joint(log, 1, 1.2 * np.sin(101.0 * q[:, 1] + 0.7))
+
+
+NAMED: dict[str, tuple[Callable[[Log], np.ndarray], str | None, dict[str, float]]] = {
+    "stribeck": (stribeck, "2", {}),
+    "asymmetric_viscous": (asymmetric_viscous, "3", {"Fva3": 0.6}),
+    "position_friction": (position_friction, "1", {"Fpc1": 1.351, "Fps1": 2.104}),
+    "spring": (spring, "3", {}),
+    "drift": (drift, "2", {"Dr2": 0.08}),
+    "motor_ripple": (motor_ripple, "2", {"m": 101.0}),
+}  # fmt: skip
+
+
+def found(case: Case, torque: Callable[[Log], np.ndarray], **options: object) -> Diagnosis:
+    model, train, holdout = case.hidden(torque)
+    return diagnose(model, case.compiled, [train], [holdout], **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("effect", NAMED)
+def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> None:
+    torque, joint, values = NAMED[effect]
+    diagnosis = found(case, torque)
+    first = diagnosis.effects[0]
+    assert (first.effect, first.joint) == (effect, joint)
+    assert diagnosis.verdict == "missing"
+    assert first.error_after < 0.6 * first.error_before
+    for name, value in values.items():
+        assert first.parameters[name] == pytest.approx(value, rel=0.15), name
+
+
+def test_nothing_is_named_where_nothing_is_hidden(case: Case) -> None:
+    model = case.fitted(case.train)
+    diagnosis = diagnose(model, case.compiled, [case.train], [case.holdout])
+    assert diagnosis.verdict == "nothing significant"
+    assert diagnosis.effects == ()
+    assert ("payload", None) in diagnosis.blind_spots
+
+
+def test_a_delay_is_named_and_its_sign_is_right(case: Case) -> None:
+    def late(log: Log) -> np.ndarray:
+        return np.roll(log.tau, 4, axis=0) - log.tau  # torques 4 ms after the motion
+
+    first = found(case, late).effects[0]
+    assert (first.effect, first.joint) == ("time_delay", None)
+    assert first.parameters["dt"] == pytest.approx(-0.004, rel=0.25)
+
+
+def test_a_load_since_the_fit_is_named_with_its_mass(case: Case, tmp_path: Path) -> None:
+    """1.2 kg, 0.3 m along x of the last frame, in a simulation of its own."""
+    text = load("demo-arm").text
+    for name, more in {"M3": 1.2, "MX3": 0.36, "YY3": 0.108, "ZZ3": 0.108}.items():
+        value = case.derivation.robot.parameters[name]
+        text = re.sub(rf"(?m)^{name} = .*$", f"{name} = {value + more}", text)
+    settings = SimulationSettings(duration=20.0, seed=8, torque_noise=0.01)
+    write_log(tmp_path / "loaded.parquet", simulate(robot_from_text(text, "loaded"), settings))
+    log = read_log(tmp_path / "loaded.parquet", case.compiled.spec)
+    diagnosis = diagnose(case.fitted(case.train), case.compiled, [log])
+    assert diagnosis.changed
+    first = diagnosis.effects[0]
+    assert (first.effect, first.joint) == ("payload", None)
+    assert first.parameters["load_10"] == pytest.approx(1.2, rel=0.1)
+
+
+def test_a_contact_is_named_with_its_window(case: Case) -> None:
+    def push(log: Log) -> np.ndarray:
+        window = ((log.time > 12.0) & (log.time < 12.8)).astype(float)
+        return np.outer(window, [6.0, -9.0, 4.0])
+
+    model, train, _ = case.hidden(push)
+    first = diagnose(model, case.compiled, [train]).effects[0]
+    assert (first.effect, first.joint) == ("external_force", None)
+    assert first.parameters["t0"] == pytest.approx(12.0, abs=0.2)
+    assert first.parameters["t1"] == pytest.approx(12.8, abs=0.2)
+
+
+def test_what_the_user_rules_out_is_not_named(case: Case) -> None:
+    diagnosis = found(case, spring, without=("spring@3",))
+    assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
+
+
+def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
+    """A torque of the training run alone: whatever describes it there is vetoed."""
+    model, train, _ = case.hidden(spring)
+    diagnosis = diagnose(model, case.compiled, [train], [case.holdout])
+    assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
+    assert ("spring", "3") in {pick.key for pick in diagnosis.search.vetoed}
+
+
+def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> None:
+    """A torque of the product of two joints' speeds and positions, which no effect has."""
+
+    def strange(log: Log) -> np.ndarray:
+        q, v = motion(log)
+        return on_joint(log, 1, 3.0 * np.sin(2.0 * q[:, 2]) * np.tanh(v[:, 0]) * np.cos(q[:, 1]))
+
+    diagnosis = found(case, strange)
+    assert diagnosis.verdict in ("closest description", "unexplained")
+
+
+def test_the_json_has_the_fields_that_scripts_read(case: Case) -> None:
+    content = found(case, spring).to_json()
+    assert {"verdict", "effects", "blind_spots", "joints"} <= content.keys()
+    fields = {"effect", "joint", "gain", "error_before", "error_after", "parameters", "ties"}
+    assert fields | {"evidence"} <= content["effects"][0].keys()
+    assert content["joints"].keys() == {"1", "2", "3"}
