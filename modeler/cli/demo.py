@@ -1,90 +1,118 @@
-"""`modeler demo`: the whole chain on a built-in robot."""
+"""`modeler demo`: a hidden effect is found and added, on an arm and on a robot with loops."""
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
-from modeler.api import Derivation, compile_model, derive, fit, generate, load, observe
-from modeler.base import grouping_matrix
-from modeler.base.render import as_text
+from modeler.api import compile_model, derive, fit, generate, load, observe, read_logs
+from modeler.cli.add import waterfall
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.diagnose import lines
 from modeler.cli.fit import judged
 from modeler.cli.options import add_number
 from modeler.compare import verdict, write_pictures, write_report
+from modeler.compiled import CompiledModel
+from modeler.diagnose import Diagnosis, diagnose, write_additions, write_diagnosis
 from modeler.fit import IdentifiedModel, save_model
-from modeler.robot import Robot
-from modeler.simulate import SimulatedLog, SimulationSettings, simulate, write_log
+from modeler.improve import Logs, add_findings
+from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 
-_ROBOT = "demo-arm"
-_RUNS = (("train1", 1), ("train2", 2), ("held_out", 3))
+_RUNS = (("train", 1), ("held_out", 2))
+
+
+@dataclass(frozen=True)
+class Story:
+    """A built-in robot, and what its simulated machine has that the robot file lacks."""
+
+    robot: str
+    hidden: HiddenEffect
+    noise: float
+
+
+_STORIES = (
+    Story("demo-arm", HiddenEffect("load_friction", "2"), 0.01),
+    Story("orthoglide-2003", HiddenEffect("passive_friction", "31", {"Fv": 0.3, "Fs": 1.0}), 0.005),
+)
 
 
 def add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """`modeler demo`."""
     parser = commands.add_parser(
         "demo",
-        help="the whole chain on a built-in robot",
-        description=f"Derives {_ROBOT}, generates and compiles its C, simulates measurements in "
-        "closed loop, fits the base parameters, and compares the prediction with a motion that the "
-        "fit has not seen.",
+        help="the whole story on built-in robots with a hidden effect",
+        description="Simulates an arm, then a robot with closed loops, each with a physical effect "
+        "that its robot file lacks: derives, emits C, fits, compares, finds out which effect is "
+        "missing, adds it, and shows the error falling on motion that was never fitted.",
         epilog="example: modeler demo --out demo",
     )
     parser.add_argument("--out", metavar="DIR", default="demo", help="folder (default %(default)s)")
     add_number(parser, "--duration", "S", float, "seconds of each simulated run", default=20.0)
-    parser.add_argument("--json", metavar="FILE", help="write the comparison for machines")
+    parser.add_argument("--json", metavar="FILE", help="write the diagnoses for machines")
     parser.set_defaults(run=run_demo)
 
 
 def run_demo(args: argparse.Namespace) -> Json:
-    """Runs the chain and says what was found, step by step."""
-    out = Path(args.out)
-    robot = load(_ROBOT)
-    say(f"1. derive: {robot.title}")
+    """Runs both stories."""
+    return {
+        story.robot: _told(story, Path(args.out) / story.robot, args.duration) for story in _STORIES
+    }
+
+
+def _told(story: Story, out: Path, duration: float) -> Json:
+    robot = load(story.robot)
+    say(f"{robot.title}\n{'=' * len(robot.title)}")
+    say(f"1. derive and emit C into {out / 'c'}")
     with working("deriving"):
         derivation = derive(robot)
-    say(as_text(derivation.base))
-    say(f"\n2. generate: C in {out / 'c'}")
-    emitted = generate(derivation, out / "c")
-    compiled = compile_model(emitted)
-    say(f"\n3. simulate: {len(_RUNS)} runs of {args.duration:g} s in closed loop")
-    logs = [_simulated(robot, out, name, seed, args.duration) for name, seed in _RUNS]
-    say("\n4. fit: " + ", ".join(f"{name}.parquet" for name, _ in _RUNS[:2]))
-    observation = observe(compiled, [out / f"{name}.parquet" for name, _ in _RUNS[:2]])
-    model = fit(derivation, emitted, observation)
+        emitted = generate(derivation, out / "c")
+        compiled = compile_model(emitted)
+    kinds = ", ".join(f"{count} {kind}" for kind, count in derivation.base.counts().items())
+    say(f"   {derivation.base.rank} base parameters ({kinds}), proof: {derivation.base.proof.kind}")
+    say(f"2. simulate two runs of {duration:g} s; the machine has something the file lacks")
+    train, held_out = (_simulated(story, out, name, seed, duration) for name, seed in _RUNS)
+    say(f"3. fit to {train.name}, compare with {held_out.name}")
+    model = fit(derivation, emitted, observe(compiled, [train]))
     save_model(out / "model.json", model)
-    for line in _fitted_against_truth(derivation, model, logs[0]):
-        say(line)
-    held_out = out / f"{_RUNS[-1][0]}.parquet"
-    say(f"\n5. compare: {held_out.name}, which the fit has not seen")
-    comparison, lines = judged(model, [str(held_out)], compiled)
-    say(comparison.summary())
-    for sentence in verdict(comparison):
-        say(sentence)
-    page = write_report(out / "compare.html", comparison, lines)
-    write_pictures(out / "pictures", comparison)
-    say(f"\nopen {page} in a browser; pictures are in {out / 'pictures'}")
-    return comparison.as_dict()
+    _compared(model, compiled, out, held_out)
+    say("4. diagnose: which effect is missing?")
+    logs = Logs(read_logs(compiled, [train]), read_logs(compiled, [held_out]))
+    with progress("looking for missing effects") as bar:
+        found = diagnose(model, compiled, logs.fitted, logs.held_out, progress=bar)
+    for line in lines(found):
+        say(f"   {line}")
+    write_diagnosis(out / "diagnosis.html", found)
+    better = _improved(model, compiled, found, logs, out)
+    say(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
+    say(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
+    return found.to_json() | {"waterfall": [step.to_json() for step in better.history]}
 
 
-def _simulated(robot: Robot, out: Path, name: str, seed: int, duration: float) -> SimulatedLog:
+def _simulated(story: Story, out: Path, name: str, seed: int, duration: float) -> Path:
+    settings = SimulationSettings(
+        duration=duration, seed=seed, torque_noise=story.noise, hidden=(story.hidden,)
+    )
     with progress(f"simulating {name}") as report:
-        log = simulate(robot, SimulationSettings(duration=duration, seed=seed), report)
+        log = simulate(load(story.robot), settings, report)
     write_log(out / f"{name}.parquet", log)
-    return log
+    return out / f"{name}.parquet"
 
 
-def _fitted_against_truth(
-    derivation: Derivation, model: IdentifiedModel, log: SimulatedLog
-) -> list[str]:
-    """The fitted base parameters beside the true ones: beta = K chi."""
-    chi = np.array([log.truth.parameters[name] for name in derivation.model.names])
-    beta = grouping_matrix(derivation.model, derivation.base) @ chi
-    lines = [f"{'parameter':<10} {'fitted':>11} {'true':>11} {'sigma':>9}  unit"]
-    for estimate, true in zip(model.fit.parameters, beta, strict=True):
-        sigma = "-" if estimate.sigma is None else f"{estimate.sigma:.2g}"
-        lines.append(
-            f"{estimate.name:<10} {estimate.value:>11.5g} {true:>11.5g} {sigma:>9}  {estimate.unit}"
-        )
-    lines.append(f"relative error {100 * model.fit.relative_error:.2f} %")
-    return lines
+def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: Path) -> None:
+    comparison, provenance = judged(model, [str(log)], compiled)
+    for line in (*comparison.summary().splitlines(), *verdict(comparison)):
+        say(f"   {line}")
+    write_report(out / "compare.html", comparison, provenance)
+    write_pictures(out / "pictures", comparison)
+
+
+def _improved(
+    model: IdentifiedModel, compiled: CompiledModel, found: Diagnosis, logs: Logs, out: Path
+) -> IdentifiedModel:
+    say("5. add it: new robot file, new C, new fit")
+    better = add_findings(model, compiled, found.effects, logs)
+    save_model(out / "improved.json", better)
+    for line in waterfall(better):
+        say(f"   {line}")
+    if better.history:
+        write_additions(out / "improved.html", better.spec.robot, better.history)
+    return better

@@ -7,10 +7,13 @@ from modeler.cli.console import Json, progress, say
 from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.simulate import (
+    HIDDEN,
     MOTIONS,
     SimulationSettings,
     check_suffix,
+    hidden_from_text,
     simulate,
+    told_hidden,
     write_log,
     write_truth,
 )
@@ -31,7 +34,17 @@ def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
         "--out", metavar="LOG", required=True, help="log to write, .parquet or .csv"
     )
     parser.add_argument("--truth", metavar="FILE", help="write the true parameters as JSON")
-    default = SimulationSettings()
+    _add_settings(parser, SimulationSettings())
+    parser.add_argument(
+        "--hide", metavar="EFFECT[@JOINT][:NAME=VALUE,...]", action="append", default=[],
+        help="physics that the machine has and the robot file lacks; may be repeated; joint and "
+        f"values left out are drawn from --parameter-seed: {', '.join(HIDDEN)}",
+    )  # fmt: skip
+    parser.add_argument("--json", metavar="FILE", help="write what was simulated for machines")
+    parser.set_defaults(run=run_simulate)
+
+
+def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) -> None:
     parser.add_argument(
         "--motion", choices=MOTIONS, default=default.motion,
         help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
@@ -49,11 +62,13 @@ def add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
         "torque noise, share of the rms torque", default.torque_noise,
     )  # fmt: skip
     add_number(
+        parser, "--process-noise", "SHARE", float,
+        "random torque on the machine, share of the rms torque", default.process_noise,
+    )  # fmt: skip
+    add_number(
         parser, "--encoder-counts", "N", int,
         "per turn, 0 for an ideal encoder", default.encoder_counts,
     )  # fmt: skip
-    parser.add_argument("--json", metavar="FILE", help="write what was simulated for machines")
-    parser.set_defaults(run=run_simulate)
 
 
 def run_simulate(args: argparse.Namespace) -> Json:
@@ -68,6 +83,8 @@ def run_simulate(args: argparse.Namespace) -> Json:
         parameter_seed=args.parameter_seed,
         torque_noise=args.noise,
         encoder_counts=args.encoder_counts,
+        process_noise=args.process_noise,
+        hidden=tuple(hidden_from_text(text) for text in args.hide),
     )
     with progress(f"simulating {robot.name}") as report:
         log = simulate(robot, settings, report)
@@ -76,6 +93,10 @@ def run_simulate(args: argparse.Namespace) -> Json:
         write_truth(Path(args.truth), log)
     drawn = f", {len(log.truth.drawn)} parameters drawn" if log.truth.drawn else ""
     say(f"{robot.name}: {len(log.time)} samples of {len(log.joints)} joints{drawn}")
+    for effect in log.truth.hidden:
+        where = f" on {effect.joint}" if effect.joint else ""
+        values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
+        say(f"hidden: {effect.effect}{where}: {values}")
     say(f"written: {args.out}")
     return {
         "robot": robot.name,
@@ -83,4 +104,5 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "joints": list(log.joints),
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
+        "hidden": told_hidden(log),
     }

@@ -145,8 +145,9 @@ def _passive(
 ) -> Iterator[Candidate]:
     assert spec.closure is not None
     rubbing = {joint for of, joint in present if of in ("viscous", "coulomb", effect.id)}
+    driven = {*spec.closure.given, *spec.closure.platform}
     for place, name in enumerate(spec.closure.variables):
-        if place not in spec.closure.given and name not in rubbing:
+        if place not in driven and name not in rubbing:
             yield Candidate(effect, effect.forms[0], name, place)
 
 

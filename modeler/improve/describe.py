@@ -39,13 +39,21 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: Referen
         return with_gravity(text, _tilted(text, values, reference).tolist())
     if effect.acts is Acts.PASSIVE:
         assert pick.joint is not None
-        changed = with_effect(text, "viscous", pick.joint, {})
-        return with_effect(changed, "coulomb", pick.joint, {})
+        return _passive(text, pick.joint)
     assert pick.joint is not None
     if effect.acts is Acts.MOTOR:
         text = _coupled(text, pick, reference)
     changed = with_effect(text, effect.id, pick.joint, _shapes(pick, reference))
     return with_reference(changed, _referred(reference)) if _depends(effect) else changed
+
+
+def _passive(text: str, joint: str) -> str:
+    """The file with viscous and Coulomb friction on a joint without motor."""
+    robot = robot_from_text(text, "robot of the model")
+    having = {use.effect: use.joints for use in robot.effects}
+    for effect in ("viscous", "coulomb"):
+        text = with_effect(text, effect, joint, {}, having.get(effect, ()))
+    return text
 
 
 def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:

@@ -12,8 +12,17 @@ Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
 
 
-def with_effect(text: str, effect: str, joint: str, shapes: Mapping[str, float]) -> str:
+def with_effect(
+    text: str, effect: str, joint: str, shapes: Mapping[str, float], everyone: Sequence[str] = ()
+) -> str:
     """The robot file with an effect on one joint more.
+
+    Args:
+        text: of the file.
+        effect: id.
+        joint: name.
+        shapes: of the effect there.
+        everyone: the joints that "all" means.
 
     Raises:
         RobotError: see `with_effects`.
@@ -25,6 +34,8 @@ def with_effect(text: str, effect: str, joint: str, shapes: Mapping[str, float])
     before = effects.get(name, [])
     shaped = any(form.free for form in known.forms) and bool(shapes)
     entry = {"joint": joint, **{k: float(f"{v:.6g}") for k, v in shapes.items()}}
+    if before == "all" and joint not in everyone and everyone:
+        before = list(everyone)
     if before == "all":
         raise RobotError(f"[effects], {effect}: every joint has it already")
     if joint in before:

@@ -11,11 +11,20 @@ import numpy as np
 from modeler.robot import Robot
 from modeler.simulate.closing import followed, motor_torques, rates
 from modeler.simulate.constraints import constraints_of, sampled
+from modeler.simulate.hidden import HiddenEffect
+from modeler.simulate.hidden_bodies import machine
+from modeler.simulate.hidden_draw import complete_effects
 from modeler.simulate.limits import motion_limits
 from modeler.simulate.log import SimulatedLog, Truth
 from modeler.simulate.parameters import PlantParameters, plant_parameters
 from modeler.simulate.plant import torque_function
-from modeler.simulate.sensors import encoder_resolution, quantised
+from modeler.simulate.process import process_torques
+from modeler.simulate.sensors import (
+    encoder_resolution,
+    faults_of,
+    quantised,
+    sampled_torques,
+)
 from modeler.simulate.settings import SimulationSettings
 from modeler.simulate.sharing import told_once
 from modeler.simulate.trajectory import Reference, reference_motion
@@ -40,12 +49,14 @@ def simulate_closed(
         settings.motion, limits, settings.duration, settings.rate, settings.seed
     )
     parameters = plant_parameters(robot, every, settings.parameter_seed)
+    hidden = complete_effects(robot, parameters, every, settings)
     constraints = constraints_of(robot)
     v = followed(robot, constraints, reference.q, progress)
     vd, vdd = rates(constraints, v, reference.qd, reference.qdd)
-    torque, states = torque_function(robot, parameters, every)
+    torque, states = torque_function(*machine(robot, parameters, hidden), every, hidden)
     load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
-    return _log(robot, parameters, reference, settings, motor_torques(constraints, v, load))
+    tau = motor_torques(constraints, v, load)
+    return _log(robot, parameters, reference, settings, tau, hidden)
 
 
 def _log(
@@ -54,9 +65,15 @@ def _log(
     reference: Reference,
     settings: SimulationSettings,
     tau: np.ndarray,
+    hidden: tuple[HiddenEffect, ...],
 ) -> SimulatedLog:
     resolution = encoder_resolution(robot.coordinates, settings)
-    rms = np.sqrt(np.mean(tau**2, axis=0))
+    faults = faults_of([joint.name for joint in robot.coordinates], hidden)
+    needed = np.sqrt(np.mean(tau**2, axis=0))
+    # What pushes on a machine that moves as commanded is pushed back by its motors.
+    tau = tau - process_torques(settings, len(tau), needed)
+    told = sampled_torques(faults, reference.time, tau)
+    rms = np.sqrt(np.mean(told**2, axis=0))
     noise = np.random.default_rng([settings.seed, 3]).normal(size=tau.shape)
     values, drawn = told_once(robot, parameters.standard, parameters.drawn)
     return SimulatedLog(
@@ -66,7 +83,7 @@ def _log(
         time=reference.time,
         q=quantised(reference.q, resolution),
         qc=reference.q,
-        tau=tau + settings.torque_noise * rms * noise,
+        tau=told + settings.torque_noise * rms * noise,
         settings=settings,
-        truth=Truth(reference.q, reference.qd, reference.qdd, tau, values, drawn),
+        truth=Truth(reference.q, reference.qd, reference.qdd, tau, values, drawn, hidden),
     )

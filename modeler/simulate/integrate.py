@@ -29,7 +29,14 @@ def steps_per_tick(plant: Plant, limits: tuple[Limits, ...], tick: float) -> int
         if abs(values[worst]) > fastest:
             n = pose.size
             fastest, joint = abs(values[worst]), int(np.argmax(np.abs(vectors[n : 2 * n, worst])))
-    steps = int(np.ceil(max(tick / _SLOWEST_STEP, tick * fastest / _STABLE)))
+    if plant.fastest * tick / _STABLE > _MOST_STEPS:
+        raise DataError(
+            f"simulation: the state of a hidden effect follows at {plant.fastest:.1e} 1/s at top "
+            f"speed; expected at most {_MOST_STEPS * _STABLE / tick:.1e}; give it a larger "
+            "distance or width, or sample faster"
+        )
+    needed = tick * max(fastest, plant.fastest) / _STABLE
+    steps = int(np.ceil(max(tick / _SLOWEST_STEP, needed)))
     if steps > _MOST_STEPS:
         raise DataError(
             f"simulation, joint {plant.joints[joint]}: friction stops it within "

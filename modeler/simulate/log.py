@@ -3,8 +3,9 @@
 import io
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pyarrow as pa
@@ -12,6 +13,7 @@ import pyarrow.parquet as pq
 
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
+from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.settings import SimulationSettings
 
 
@@ -24,6 +26,7 @@ class Truth:
         tau: (n, joints) motor torque, constant from each sample to the next, N m or N.
         parameters: true standard parameters by name, in table order, SI units.
         drawn: names among these that the robot file leaves open.
+        hidden: effects that the robot file lacks, with all their values.
     """
 
     q: np.ndarray
@@ -32,6 +35,7 @@ class Truth:
     tau: np.ndarray
     parameters: Mapping[str, float]
     drawn: tuple[str, ...]
+    hidden: tuple[HiddenEffect, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +53,7 @@ class SimulatedLog:
             centred at the sample (as current sensors integrate), with noise.
         settings: how it was made.
         truth: what it was made of.
+        further: (n,) other measured columns by name.
     """
 
     robot: str
@@ -60,17 +65,21 @@ class SimulatedLog:
     tau: np.ndarray
     settings: SimulationSettings
     truth: Truth
+    further: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
 
 
 def log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
-    """Columns by name: time, q1.., qc1.., tau1..; a joint without motor has only its q."""
+    """Columns by name: time, q1.., qc1.., tau1.., further ones.
+
+    A joint without motor has only its q.
+    """
     columns = {"time": log.time}
     columns |= {f"q{name}": log.q[:, i] for i, name in enumerate(log.joints)}
     for prefix, values in (("qc", log.qc), ("tau", log.tau)):
         columns |= {
             f"{prefix}{name}": values[:, i] for i, name in enumerate(log.joints) if log.driven[i]
         }
-    return columns
+    return columns | dict(log.further)
 
 
 def write_log(path: Path, log: SimulatedLog) -> None:
@@ -118,5 +127,13 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "torque_noise": log.settings.torque_noise,
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
+        "hidden": told_hidden(log),
     }
     write_atomically(Path(path), json.dumps(content, indent=1) + "\n")
+
+
+def told_hidden(log: SimulatedLog) -> list[dict[str, object]]:
+    """The hidden effects for JSON."""
+    return [
+        {"effect": h.effect, "joint": h.joint, "values": dict(h.values)} for h in log.truth.hidden
+    ]

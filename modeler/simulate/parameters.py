@@ -50,7 +50,7 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
     middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
     links, drawn_links = link_parameters(robot, middle, rng)
     bodies = {name: body_from_standard(values) for name, values in links.items()}
-    scales = _scales(robot, bodies, limits, rng)
+    scales = joint_scales(robot, bodies, limits, rng)
     standard: dict[str, float] = {}
     drawn = list(drawn_links)
     for joint, scale in zip(robot.moving, scales, strict=True):
@@ -93,12 +93,13 @@ def _check_sign(robot: Robot, effect: EffectPhysics, name: str, prefix: str, val
         )
 
 
-def _scales(
+def joint_scales(
     robot: Robot,
     bodies: Mapping[str, Body],
     limits: tuple[Limits, ...],
     rng: np.random.Generator,
 ) -> list[JointScale]:
+    """What is large and small on each moving row, by the torques of the links in random states."""
     dynamics = rigid_dynamics(robot, bodies)
     q, qd = dynamics.q, dynamics.qd
     qdd = ca.SX.sym("qdd", q.shape[0])

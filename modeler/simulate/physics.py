@@ -20,12 +20,16 @@ class Shaft:
         speed: rad/s or m/s.
         settling: speed above which dry friction is fully developed, rad/s or m/s.
         name: prefix for symbols of inner states.
+        load: torque that the links ask of it, inertia and gravity together, N m or N.
+        top: largest speed it is made for, rad/s or m/s.
     """
 
     position: ca.SX
     speed: ca.SX
     settling: float
     name: str
+    load: ca.SX
+    top: float
 
 
 @dataclass(frozen=True)
@@ -37,12 +41,16 @@ class Contribution:
         inertia: moves with the shaft, kg m2 or kg.
         state: (k, 1) symbols of inner states, all 0 at the start.
         rate: (k, 1) their time derivatives.
+        fastest: rate at which inner states follow at top speed, 1/s; 0 if the speed is no matter.
+        temperature: what a thermometer on the joint reads, degC; None if there is none.
     """
 
     torque: ca.SX = field(default_factory=lambda: ca.SX(0))
     inertia: float = 0.0
     state: ca.SX = field(default_factory=lambda: ca.SX(0, 1))
     rate: ca.SX = field(default_factory=lambda: ca.SX(0, 1))
+    fastest: float = 0.0
+    temperature: ca.SX | None = None
 
 
 @dataclass(frozen=True)
@@ -81,7 +89,8 @@ class EffectPhysics:
     signed: tuple[str, ...] = ()
 
 
-def _dry(shaft: Shaft, level: float) -> ca.SX:
+def dry_friction(shaft: Shaft, level: ca.SX | float) -> ca.SX:
+    """Friction of that level against the motion, nearly independent of the speed."""
     # sign(v) with a core 1/1000 of the top speed wide: the joint creeps there instead of sticking,
     # and the equation stays one that Runge-Kutta steps can follow.
     return level * ca.tanh(shaft.speed / shaft.settling)
@@ -109,7 +118,7 @@ PHYSICS: Mapping[str, EffectPhysics] = {
             ("Fs",),
             on_motor=False,
             draw=lambda rng, scale: {"Fs": scale.torque * rng.uniform(0.06, 0.15)},
-            act=lambda shaft, value: Contribution(torque=_dry(shaft, value["Fs"])),
+            act=lambda shaft, value: Contribution(torque=dry_friction(shaft, value["Fs"])),
         ),
         EffectPhysics(
             "offset",
@@ -137,7 +146,7 @@ PHYSICS: Mapping[str, EffectPhysics] = {
                 "Fsm": scale.torque * rng.uniform(0.04, 0.1),
             },
             act=lambda shaft, value: Contribution(
-                torque=value["Fvm"] * shaft.speed + _dry(shaft, value["Fsm"])
+                torque=value["Fvm"] * shaft.speed + dry_friction(shaft, value["Fsm"])
             ),
         ),
     )

@@ -7,29 +7,40 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulate.parameters import PlantParameters, effects_of
-from modeler.simulate.physics import EffectPhysics, Shaft
+from modeler.simulate.hidden import HiddenEffect
+from modeler.simulate.parameters import PlantParameters
 from modeler.simulate.rigid import RigidDynamics, rigid_dynamics, tied_dynamics
+from modeler.simulate.shafts import ShaftEffects, shaft_effects
 from modeler.simulate.ties import tree_from_free, untied
+from modeler.simulate.transmission import Transmissions, transmissions_of
 
-_CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
+_LOAD_PASSES = 3  # friction of a share mu of the load is then exact to about mu^4
 
 
 @dataclass(frozen=True)
 class Plant:
     """M(q) qdd + h(q, qd) + friction(q, qd, z) = tau, and z' = f(q, qd, z) of inner states.
 
-    All functions take and give CasADi columns: q, qd, qdd, tau (joints), z (states).
+    All functions take and give CasADi columns: q, qd, qdd, tau (joints), z (states). Where a
+    transmission gives way, q is the position of the motor; how far the link is ahead of it, and
+    how fast, are the first of the inner states.
 
     Attributes:
         joints: names, in the order of q.
         driven: (joints,) True where a motor sits.
-        states: number of inner states z of effects; all 0 at the start.
+        states: number of inner states z of effects; all 0 at the start, but see `strain`.
         acceleration: (q, qd, z, tau) -> (qdd, z').
-        torque: (q, qd, qdd, z) -> tau.
-        inertia: (q) -> M, rotors included.
-        resistance: (q, qd, z) -> torque that the effects take from the motors.
-        energy: (q, qd) -> (kinetic energy, rotors included; potential energy), J.
+        torque: (q, qd, qdd, z) -> tau, of links that accelerate with their motors.
+        inertia: (q) -> M, rotors included, of links that move with their motors.
+        resistance: (q, qd, z) -> torque that the effects take from the motors, of links that do
+            not accelerate.
+        energy: (q, qd) -> (kinetic energy, rotors included; potential energy), J, of links that
+            move with their motors.
+        strain: (q, z) -> torques that pull on links behind transmissions at rest; none to the
+            others.
+        fastest: rate of inner states at top speed, 1/s; 0 if speed does not make them fast.
+        temperatures: (z) -> readings of thermometers, degC, on the joints of `warmed`.
+        warmed: names of these joints.
     """
 
     joints: tuple[str, ...]
@@ -40,25 +51,25 @@ class Plant:
     inertia: ca.Function
     resistance: ca.Function
     energy: ca.Function
+    strain: ca.Function
+    fastest: float
+    temperatures: ca.Function
+    warmed: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class _Effects:
-    """All effects together: resisting torque, inertia of shafts, inner states and their rates."""
-
-    torque: ca.SX
-    inertia: np.ndarray
-    state: ca.SX
-    rate: ca.SX
-
-
-def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits, ...]) -> Plant:
+def build_plant(
+    robot: Robot,
+    parameters: PlantParameters,
+    limits: tuple[Limits, ...],
+    hidden: tuple[HiddenEffect, ...] = (),
+) -> Plant:
     """The plant with these parameters, in the coordinates of the free joints.
 
     Args:
         robot: without loops.
         parameters: of its links and effects.
         limits: in the order of `robot.moving`; they set the speed scale of dry friction.
+        hidden: further effects on shafts and in transmissions, all their values given.
 
     Raises:
         RobotError: a joint that nothing gives an inertia, or an effect that cannot be simulated.
@@ -67,35 +78,91 @@ def build_plant(robot: Robot, parameters: PlantParameters, limits: tuple[Limits,
     tie = tree_from_free(robot)
     if robot.relations:
         links = tied_dynamics(links, *tie)
-    effects = _effects(robot, parameters, limits, links, tie)
-    q, qd, z = links.q, links.qd, effects.state
-    n = len(robot.free)
-    tau, qdd = ca.SX.sym("tau", n), ca.SX.sym("qdd", n)
-    inertia = links.inertia + ca.SX(effects.inertia)
-    load = links.bias + effects.torque
-    diagonal, lower, order = ca.ldl(inertia, False)  # M = L D L': no pivoting for M > 0
-    solved = ca.ldl_solve(tau - load, diagonal, lower, order)
-    rotors = ca.dot(qd, ca.SX(effects.inertia) @ qd) / 2
-    plant = Plant(
-        joints=tuple(joint.name for joint in robot.free),
-        driven=np.array([joint.actuated for joint in robot.free]),
-        states=z.shape[0],
-        acceleration=ca.Function("acceleration", [q, qd, z, tau], [ca.cse(solved), effects.rate]),
-        torque=ca.Function("torque", [q, qd, qdd, z], [inertia @ qdd + load]),
-        inertia=ca.Function("inertia", [q], [ca.densify(inertia)]),
-        resistance=ca.Function("resistance", [q, qd, z], [effects.torque]),
-        energy=ca.Function("energy", [q, qd], [links.kinetic + rotors, links.potential]),
-    )
+    giving = transmissions_of(robot, hidden)
+    if giving.rows:
+        links = tied_dynamics(links, giving.turns, np.zeros(len(robot.free)))
+        tie = np.hstack([tie[0], np.zeros((len(tie[0]), len(giving.rows)))]), tie[1]
+    effects = shaft_effects(robot, parameters, limits, links, tie, hidden)
+    plant = _assembled(robot, links, effects, giving)
     _check_inertia(robot, plant, of_free(robot, limits))
     return plant
 
 
+def _assembled(
+    robot: Robot, links: RigidDynamics, effects: ShaftEffects, giving: Transmissions
+) -> Plant:
+    n, k = len(robot.free), len(giving.rows)
+    q, qd = links.q[:n, :], links.qd[:n, :]
+    ahead, ahead_rate = links.q[n:, :], links.qd[n:, :]
+    z = ca.vertcat(ahead, ahead_rate, effects.state)
+    tau, qdd = ca.SX.sym("tau", n), ca.SX.sym("qdd", n)
+    inertia = links.inertia + ca.SX(effects.inertia)
+    spring = ca.vertcat(ca.SX.zeros(n), giving.torque(ahead, ahead_rate))
+    solved = _solved(links, effects, inertia, spring, ca.vertcat(tau, ca.SX.zeros(k)))
+    z_rate = ca.vertcat(ahead_rate, solved[n:, :], effects.rate)
+    rotors = ca.dot(qd, ca.SX(effects.inertia[:n, :n]) @ qd) / 2
+    rest = ca.SX.zeros(n + k)
+    at_rest = ca.substitute(links.bias + spring, links.qd, rest)[n:, :]
+
+    def following(expression: ca.SX) -> ca.SX:
+        """Of links that move with their motors."""
+        both, zero = ca.vertcat(ahead, ahead_rate), ca.SX.zeros(2 * k)
+        return ca.substitute(expression, both, zero) if k else expression
+
+    asked = links.inertia[:n, :n] @ qdd + links.bias[:n, :]
+    load = links.bias[:n, :] + _loaded(effects, ca.vertcat(asked, ca.SX.zeros(k)))[:n, :]
+    still = _loaded(effects, links.bias)[:n, :]
+    energies = [following(links.kinetic) + rotors, following(links.potential)]
+    temperatures = ca.vertcat(ca.SX(0, 1), *effects.temperatures.values())
+    return Plant(
+        joints=tuple(joint.name for joint in robot.free),
+        driven=np.array([joint.actuated for joint in robot.free]),
+        states=z.shape[0],
+        acceleration=ca.Function("acceleration", [q, qd, z, tau], [ca.cse(solved[:n, :]), z_rate]),
+        torque=ca.Function("torque", [q, qd, qdd, z], [inertia[:n, :n] @ qdd + load]),
+        inertia=ca.Function("inertia", [q], [ca.densify(following(inertia[:n, :n]))]),
+        resistance=ca.Function("resistance", [q, qd, z], [still]),
+        energy=ca.Function("energy", [q, qd], energies),
+        strain=ca.Function("strain", [q, z], [at_rest]),
+        fastest=effects.fastest,
+        temperatures=ca.Function("temperatures", [z], [temperatures]),
+        warmed=tuple(effects.temperatures),
+    )
+
+
+def _solved(
+    links: RigidDynamics, effects: ShaftEffects, inertia: ca.SX, spring: ca.SX, tau: ca.SX
+) -> ca.SX:
+    """Accelerations of all coordinates."""
+    diagonal, lower, order = ca.ldl(inertia, False)  # M = L D L': no pivoting for M > 0
+
+    def moved(load: ca.SX) -> ca.SX:
+        resisting = links.bias + _loaded(effects, load)
+        return ca.ldl_solve(tau - resisting - spring, diagonal, lower, order)
+
+    solved = moved(links.bias)
+    if not ca.depends_on(effects.torque, effects.load):
+        return solved
+    for _ in range(_LOAD_PASSES):  # friction slows the links, whose load makes the friction
+        solved = moved(links.inertia @ solved + links.bias)
+    return solved
+
+
+def _loaded(effects: ShaftEffects, load: ca.SX) -> ca.SX:
+    if not ca.depends_on(effects.torque, effects.load):
+        return effects.torque
+    return ca.substitute(effects.torque, effects.load, load)
+
+
 def torque_function(
-    robot: Robot, parameters: PlantParameters, limits: tuple[Limits, ...]
+    robot: Robot,
+    parameters: PlantParameters,
+    limits: tuple[Limits, ...],
+    hidden: tuple[HiddenEffect, ...] = (),
 ) -> tuple[ca.Function, int]:
     """(q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
     links = rigid_dynamics(robot, parameters.bodies)
-    effects = _effects(robot, parameters, limits, links, untied(robot))
+    effects = shaft_effects(robot, parameters, limits, links, untied(robot), hidden)
     qdd = ca.SX.sym("qdd", len(limits))
     torque = (links.inertia + ca.SX(effects.inertia)) @ qdd + links.bias + effects.torque
     inputs = [links.q, links.qd, qdd, effects.state]
@@ -114,53 +181,6 @@ def sample_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
     share = np.random.default_rng(0).uniform(size=(count, len(limits)))
     share[0] = 0.5
     return lower + share * (upper - lower)
-
-
-def _effects(
-    robot: Robot,
-    parameters: PlantParameters,
-    limits: tuple[Limits, ...],
-    links: RigidDynamics,
-    tie: tuple[np.ndarray, np.ndarray],
-) -> _Effects:
-    turns, offset = tie
-    n = turns.shape[1]
-    torque, inertia = ca.SX.zeros(n), np.zeros((n, n))
-    states, rates = [ca.SX(0, 1)], [ca.SX(0, 1)]
-    for joint, limit in zip(robot.moving, limits, strict=True):
-        for physics in effects_of(robot, joint.name):
-            all_joints = _shaft_row(robot, joint.name, physics)
-            row = all_joints @ turns
-            shaft = Shaft(
-                position=ca.dot(ca.SX(row), links.q) + float(all_joints @ offset),
-                speed=ca.dot(ca.SX(row), links.qd),
-                settling=_CORE * limit.speed,
-                name=f"{physics.effect}_{joint.name}",
-            )
-            values = {p: parameters.standard[p + joint.name] for p in physics.prefixes}
-            contribution = physics.act(shaft, values)
-            torque += ca.SX(row) * contribution.torque
-            inertia += contribution.inertia * np.outer(row, row)
-            states.append(contribution.state)
-            rates.append(contribution.rate)
-    return _Effects(torque, inertia, ca.vertcat(*states), ca.vertcat(*rates))
-
-
-def _shaft_row(robot: Robot, joint: str, physics: EffectPhysics) -> np.ndarray:
-    """(joints,) shaft speed = row . qd."""
-    names = [moving.name for moving in robot.moving]
-    row = np.zeros(len(names))
-    if not physics.on_motor:
-        row[names.index(joint)] = 1.0
-        return row
-    if joint not in robot.coupling:
-        raise RobotError(
-            f"robot {robot.name}, joint {joint}: {physics.effect} needs the motor's coupling; "
-            f'add {joint} = "q{joint} + ..." under [coupling]'
-        )
-    for name, coefficient in robot.coupling[joint].items():
-        row[names.index(name)] = coefficient
-    return row
 
 
 def _check_inertia(robot: Robot, plant: Plant, limits: tuple[Limits, ...]) -> None:

@@ -10,18 +10,32 @@ from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
 from modeler.simulate.closed import simulate_closed
 from modeler.simulate.controller import ControllerState, Gains, control, felt_inertia, tuned_gains
+from modeler.simulate.hidden import HiddenEffect
+from modeler.simulate.hidden_bodies import machine
+from modeler.simulate.hidden_draw import complete_effects
 from modeler.simulate.integrate import steps_per_tick, tick_function
 from modeler.simulate.limits import motion_limits
 from modeler.simulate.log import SimulatedLog, Truth
 from modeler.simulate.native import FastFunction
 from modeler.simulate.parameters import PlantParameters, plant_parameters
 from modeler.simulate.plant import Plant, build_plant, of_free
-from modeler.simulate.sensors import encoder_resolution, quantised
+from modeler.simulate.process import process_torques
+from modeler.simulate.sensors import (
+    Faults,
+    encoder_resolution,
+    faults_of,
+    logged_torques,
+    quantised,
+    sensed,
+    where_read,
+)
 from modeler.simulate.settings import SimulationSettings, check_settings
 from modeler.simulate.sharing import told_once
 from modeler.simulate.trajectory import Reference, reference_motion
+from modeler.simulate.transmission import settled
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
+_THERMOMETER = 0.01  # K, resolution
 _LOST = 0.5  # tracking error, in ranges of motion, at which the controller has lost the robot
 
 
@@ -32,6 +46,18 @@ class _Run:
     states: np.ndarray  # (n, 2 joints + inner states)
     torques: np.ndarray  # (n, joints)
     measured: np.ndarray  # (n, joints)
+    random: np.ndarray  # (n, joints) torque on the machine beside the motors', as held
+
+
+@dataclass(frozen=True, eq=False)
+class _Encoders:
+    """What the controller sees."""
+
+    faults: Faults
+    resolution: np.ndarray  # (joints,)
+
+    def read(self, q: np.ndarray) -> np.ndarray:
+        return quantised(sensed(self.faults, q), self.resolution)
 
 
 def simulate(
@@ -41,8 +67,8 @@ def simulate(
 ) -> SimulatedLog:
     """A measurement of `robot` under closed-loop control; with loops see `simulate.closed`.
 
-    The robot's effects are simulated as physics; effects that a model of it lacks are given by
-    simulating a robot that has more of them. The same robot and settings give the same bits.
+    The robot's effects are simulated as physics, and so are those of `settings.hidden`, which the
+    robot file lacks. The same robot and settings give the same bits.
 
     Args:
         robot: geometry, effects, and as many nominal parameters as are known.
@@ -64,21 +90,28 @@ def simulate(
         settings.motion, limits, settings.duration, settings.rate, settings.seed
     )
     parameters = plant_parameters(robot, every, settings.parameter_seed)
-    plant = build_plant(robot, parameters, every)
-    highest = _torque_limits(plant, reference, settings)
+    hidden = complete_effects(robot, parameters, every, settings)
+    plant = build_plant(*machine(robot, parameters, hidden), every, hidden)
+    needed = _needed(plant, reference)
+    highest = _torque_limits(plant, needed, settings)
     gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
-    resolution = encoder_resolution(robot.free, settings)
-    run = _closed_loop(plant, gains, reference, resolution, limits, progress)
-    return _log(robot, plant, parameters, reference, settings, run)
+    encoders = _Encoders(faults_of(plant.joints, hidden), encoder_resolution(robot.free, settings))
+    random = process_torques(settings, reference.time.size, np.sqrt(np.mean(needed**2, axis=0)))
+    run = _closed_loop(plant, gains, reference, encoders, limits, random, progress)
+    return _log(robot, plant, parameters, reference, settings, run, hidden)
 
 
-def _torque_limits(plant: Plant, reference: Reference, settings: SimulationSettings) -> np.ndarray:
-    """(joints,) saturation: as set, else twice the torque that the commanded motion needs."""
+def _needed(plant: Plant, reference: Reference) -> np.ndarray:
+    """(about 500, joints) torques of the commanded motion."""
     thinned = slice(None, None, max(1, reference.time.size // 500))
     samples = [values[thinned].T for values in (reference.q, reference.qd, reference.qdd)]
     count = samples[0].shape[1]
-    torques = plant.torque.map(count)(*samples, np.zeros((plant.states, count))).full()
-    needed = 2 * np.max(np.abs(torques), axis=1)
+    return plant.torque.map(count)(*samples, np.zeros((plant.states, count))).full().T
+
+
+def _torque_limits(plant: Plant, torques: np.ndarray, settings: SimulationSettings) -> np.ndarray:
+    """(joints,) saturation: as set, else twice the torque that the commanded motion needs."""
+    needed = 2 * np.max(np.abs(torques), axis=0)
     set_or_needed = [
         settings.torque_limits.get(name, value)
         for name, value in zip(plant.joints, needed, strict=True)
@@ -90,26 +123,28 @@ def _closed_loop(
     plant: Plant,
     gains: Gains,
     reference: Reference,
-    resolution: np.ndarray,
+    encoders: _Encoders,
     limits: tuple[Limits, ...],
+    random: np.ndarray,
     progress: Callable[[float], None] | None,
 ) -> _Run:
     """All ticks: read the encoders, hold the torque asked for one tick ago, move on, control."""
     n, ticks = len(plant.joints), reference.time.size
-    x = np.concatenate([reference.q[0], np.zeros(n + plant.states)])
+    start = where_read(encoders.faults, reference.q[0])
+    x = np.concatenate([start, np.zeros(n), settled(plant.strain, start, plant.states)])
     # The brakes open with the torque that carries the robot, as drives remember it.
     torque = _holding_torque(plant, gains, x)
-    state = ControllerState(quantised(x[:n], resolution), np.zeros(n), torque)
+    state = ControllerState(encoders.read(x[:n]), np.zeros(n), torque)
     steps = steps_per_tick(plant, limits, gains.tick)
     advance = FastFunction(tick_function(plant, gains.tick, steps))
     mass = FastFunction(plant.inertia)
-    run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)))
+    run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)), random)
     for begin in range(0, ticks, _REPORT_EVERY):
         with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
             for k in range(begin, min(begin + _REPORT_EVERY, ticks)):
                 run.states[k], run.torques[k] = x, torque
-                measured = run.measured[k] = quantised(x[:n], resolution)
-                x = advance(x, torque)
+                measured = run.measured[k] = encoders.read(x[:n])
+                x = advance(x, torque + random[k])
                 inertia = felt_inertia(mass(measured).reshape(n, n), plant.driven)
                 command = reference.q[k], reference.qd[k], reference.qdd[k]
                 state, torque = control(gains, state, inertia, measured, command)
@@ -149,12 +184,12 @@ def _log(
     reference: Reference,
     settings: SimulationSettings,
     run: _Run,
+    hidden: tuple[HiddenEffect, ...],
 ) -> SimulatedLog:
     n, ticks = len(plant.joints), reference.time.size
     q, qd, z = run.states[:, :n], run.states[:, n : 2 * n], run.states[:, 2 * n :]
-    qdd = _accelerations(plant.acceleration, q, qd, z, run.torques)
-    before = np.vstack([run.torques[:1], run.torques[:-1]])
-    mean = (before + run.torques) / 2
+    qdd = _accelerations(plant.acceleration, q, qd, z, run.torques + run.random)
+    mean = logged_torques(faults_of(plant.joints, hidden), reference.time, run.torques)
     rms = np.sqrt(np.mean(mean**2, axis=0))
     noise = np.random.default_rng([settings.seed, 3]).normal(size=(ticks, n))
     values, drawn = told_once(robot, parameters.standard, parameters.drawn)
@@ -167,8 +202,20 @@ def _log(
         qc=reference.q,
         tau=mean + settings.torque_noise * rms * noise,
         settings=settings,
-        truth=Truth(q, qd, qdd, run.torques, values, drawn),
+        truth=Truth(q, qd, qdd, run.torques, values, drawn, hidden),
+        further=_thermometers(plant, z),
     )
+
+
+def _thermometers(plant: Plant, z: np.ndarray) -> dict[str, np.ndarray]:
+    """Readings by column name, degC."""
+    if not plant.warmed:
+        return {}
+    readings = plant.temperatures.map(len(z))(z.T).full()
+    return {
+        f"temperature{joint}": np.round(values / _THERMOMETER) * _THERMOMETER
+        for joint, values in zip(plant.warmed, readings, strict=True)
+    }
 
 
 def _accelerations(acceleration: ca.Function, *samples: np.ndarray) -> np.ndarray:

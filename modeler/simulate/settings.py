@@ -7,10 +7,15 @@ from types import MappingProxyType
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits
+from modeler.simulate.hidden import HiddenEffect
 
 MOTIONS = ("exciting", "point-to-point")
 """What the commanded motion may be."""
 
+_NOT_NEGATIVE = (
+    "seed", "parameter_seed", "encoder_counts", "linear_resolution", "torque_noise",
+    "process_noise",
+)  # fmt: skip
 _EMPTY: Mapping = MappingProxyType({})
 _MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 
@@ -35,6 +40,9 @@ class SimulationSettings:
         limits: range of motion by joint, in place of the robot file's.
         torque_limits: largest motor torque by joint, N m or N; where none is given, twice what the
             commanded motion needs.
+        process_noise: standard deviation of a random torque on the machine itself, correlated over
+            30 ms, as a share of the rms torque that the commanded motion needs.
+        hidden: effects that the machine has and the robot file lacks.
     """
 
     motion: str = "exciting"
@@ -49,6 +57,8 @@ class SimulationSettings:
     feedforward: bool = True
     limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
     torque_limits: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    process_noise: float = 0.0
+    hidden: tuple[HiddenEffect, ...] = ()
 
 
 def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:
@@ -71,7 +81,7 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
             f"second, {settings.duration * settings.rate:.3g} samples; expected at most "
             f"{_MOST_SAMPLES:.0e}; simulate a shorter motion or lower the rate"
         )
-    for name in ("seed", "parameter_seed", "encoder_counts", "linear_resolution", "torque_noise"):
+    for name in _NOT_NEGATIVE:
         value = getattr(settings, name)
         if not (math.isfinite(value) and value >= 0):
             raise DataError(f"simulation, {name}: got {value}; expected 0 or more")

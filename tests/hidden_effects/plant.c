@@ -237,7 +237,7 @@ static double uniform(Random *random)
     random->a = b;
     a ^= a << 23;
     random->b = a ^ b ^ (a >> 17) ^ (b >> 26);
-    return (double)(((random->b + b) >> 11) + 0.5) * (1.0 / 9007199254740992.0);
+    return ((double)((random->b + b) >> 11) + 0.5) * (1.0 / 9007199254740992.0);
 }
 
 static Random seeded(uint64_t seed)

@@ -28,12 +28,13 @@ class NoCompiler(RuntimeError):
 
 def compiler() -> list[str]:
     """$CC, else the first of cc, gcc, clang."""
-    if named := os.environ.get("CC"):
-        return shlex.split(named)
-    for name in ("cc", "gcc", "clang"):
-        if shutil.which(name):
-            return [name]
-    raise NoCompiler("none of cc, gcc, clang is found; install one or set CC")
+    named = os.environ.get("CC")
+    for command in [shlex.split(named)] if named else [["cc"], ["gcc"], ["clang"]]:
+        if shutil.which(command[0]):
+            return command
+    raise NoCompiler(
+        f"{f'no {named}' if named else 'none of cc, gcc, clang'} is found; install one or set CC"
+    )
 
 
 @cache

@@ -1,0 +1,96 @@
+"""Run the suite: `python -m tests.hidden_effects --help`."""
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from tests.hidden_effects.case import NONE, Case
+from tests.hidden_effects.drives import NOISE
+from tests.hidden_effects.effects import EFFECTS
+from tests.hidden_effects.score import Score
+from tests.hidden_effects.suite import (
+    ACCEPTANCE,
+    DEVELOPMENT,
+    clean_cases,
+    pair_cases,
+    run,
+    single_cases,
+)
+from tests.hidden_effects.table import line, page
+
+SEEDS = 3  # of every effect at every noise
+PAIRS = 20
+
+
+def parser() -> argparse.ArgumentParser:
+    """Options."""
+    made = argparse.ArgumentParser("python -m tests.hidden_effects", description=__doc__)
+    add = made.add_argument
+    add("--effects", help="names with commas, or none; default: all")
+    add("--noise", default=",".join(NOISE), help="default: %(default)s")
+    seeds = made.add_mutually_exclusive_group()
+    seeds.add_argument("--seeds", help=f"numbers with commas; default: 1 to {SEEDS}")
+    seeds.add_argument(
+        "--acceptance", nargs="?", type=int, const=SEEDS, metavar="N",
+        help=f"the first N (default {SEEDS}) of the seeds {ACCEPTANCE[0]} to {ACCEPTANCE[-1]}",
+    )  # fmt: skip
+    add(
+        "--two", nargs="?", type=int, const=PAIRS, default=0, metavar="N",
+        help=f"and N (default {PAIRS}) pairs of effects at every noise",
+    )  # fmt: skip
+    add("--clean", type=int, default=0, metavar="N", help="and N arms without any, at every noise")
+    add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
+    add("--table", type=Path, help="page to write, in Markdown")
+    add("--jobs", type=int, default=1, help="processes; default: 1")
+    return made
+
+
+def cases_of(options: argparse.Namespace) -> list[Case]:
+    """What the options ask for; ends the program with a line if they make no sense."""
+    names = list(EFFECTS) if options.effects is None else options.effects.split(",")
+    names = [] if names == [NONE] else names
+    noises = options.noise.split(",")
+    for given, known in ((names, EFFECTS), (noises, NOISE)):
+        if unknown := [name for name in given if name not in known]:
+            sys.exit(f"unknown: {', '.join(unknown)}; expected of {', '.join(known)}")
+    pool = ACCEPTANCE if options.acceptance else DEVELOPMENT
+    seeds = list(pool[: options.acceptance or SEEDS])
+    if options.seeds:
+        seeds = [int(seed) for seed in options.seeds.split(",")]
+    if not set(seeds) <= set(pool):
+        sys.exit(f"seeds {options.seeds}: expected of {pool[0]} to {pool[-1]}, or --acceptance")
+    return [
+        *single_cases(names, noises, seeds),
+        *clean_cases(noises, pool[: options.clean]),
+        *pair_cases(noises, pool[: options.two]),
+    ]
+
+
+def _tell(score: Score) -> None:
+    mark = ("ok  " if score.right else "MISS") if score.detectable else "hard"
+    print(f"{mark} {line(score)} [{score.seconds:.1f} s]", flush=True)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run, print, write the page."""
+    options = parser().parse_args(arguments)
+    cases = cases_of(options)
+    if options.out:
+        scores = run(cases, options.out, options.jobs, _tell)
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            scores = run(cases, Path(folder), options.jobs, _tell)
+    seen = [score for score in scores if score.detectable]
+    single = [score for score in seen if len(score.hidden) == 1]
+    good, tied = sum(score.first for score in single), sum(score.tied for score in single)
+    print(f"one effect: {good} of {len(single)} first, {tied} in the tie; "
+          f"{len(scores) - len(seen)} of {len(scores)} cases undetectable")  # fmt: skip
+    if options.table:
+        options.table.parent.mkdir(parents=True, exist_ok=True)
+        options.table.write_text(page(scores), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,135 @@
+"""Is a diagnosis right? From the truth of a case and what was said of it, both as plain data."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from tests.hidden_effects.drives import NOISE
+
+DETECTABLE = 0.25
+"""Least visibility, in rms of the noise of the case: with less, the best that can be had on other
+motion is an error that is 3 % smaller."""
+
+Key = tuple[str, str | None]
+
+
+@dataclass(frozen=True)
+class Score:
+    """One case.
+
+    Attributes:
+        case: name.
+        hidden, said: effect and joint; what was hidden, and what was named, best first.
+        noise: level.
+        robot: kind.
+        visible: of the effect that is hardest to see, in rms of the noise of the case; None if
+            nothing is hidden or it was not computed.
+        verdict: of the diagnosis.
+        first: True if the first effect named is hidden, on its joint.
+        joint: True if the first effect named is on a joint where one is hidden.
+        tied: True if the first effect named or one it is tied with is hidden.
+        found: how many of the hidden effects are named.
+        spurious: how many effects are named that are not hidden.
+        fall: of the held-out error by the first effect, as a share; None without.
+        seconds: of the diagnosis.
+        error: why there is none; empty if there is.
+    """
+
+    case: str
+    hidden: tuple[Key, ...]
+    said: tuple[Key, ...]
+    noise: str
+    robot: str
+    visible: float | None
+    verdict: str
+    first: bool
+    joint: bool
+    tied: bool
+    found: int
+    spurious: int
+    fall: float | None
+    seconds: float
+    error: str = ""
+
+    @property
+    def exact(self) -> bool:
+        """True if all that is hidden is named, and nothing else."""
+        return not self.error and self.found == len(self.hidden) and not self.spurious
+
+    @property
+    def right(self) -> bool:
+        """One effect: it is named first. None or two: exact."""
+        return self.first if len(self.hidden) == 1 else self.exact
+
+    @property
+    def detectable(self) -> bool:
+        """False if the case is too hard for anybody."""
+        return self.visible is None or self.visible >= DETECTABLE
+
+    @property
+    def effects(self) -> str:
+        """Names of what is hidden."""
+        return " + ".join(effect for effect, _ in self.hidden) or "none"
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return asdict(self)
+
+
+def score_from_json(data: Mapping[str, Any]) -> Score:
+    """What `to_json` gave."""
+    keys = {name: tuple((e, j) for e, j in data[name]) for name in ("hidden", "said")}
+    return Score(**{**data, **keys})
+
+
+def scored(case: str, truth: Mapping[str, Any], said: Mapping[str, Any]) -> Score:
+    """A diagnosis (`to_json`) against the truth of its case (`truth.json`)."""
+    hidden, findings = truth["hidden"], said["effects"]
+    named = [_key(finding) for finding in findings]
+    first = findings[0] if findings else None
+    tied = [_key(first), *map(_key, first["ties"])] if first else []
+    visible = min(truth["visible"], default=None)
+    return Score(
+        case=case,
+        hidden=tuple(_key(effect) for effect in hidden),
+        said=tuple(named),
+        noise=truth["noise"],
+        robot=truth["robot"],
+        visible=None if visible is None else visible * NOISE["med"] / NOISE[truth["noise"]],
+        verdict=said["verdict"],
+        first=any(is_it(effect, key) for effect in hidden for key in named[:1]),
+        joint=any(key[1] in joints(effect) for effect in hidden for key in named[:1]),
+        tied=any(is_it(effect, key) for effect in hidden for key in tied),
+        found=sum(any(is_it(effect, key) for key in named) for effect in hidden),
+        spurious=sum(not any(is_it(effect, key) for effect in hidden) for key in named),
+        fall=_fall(first),
+        seconds=said["seconds"],
+    )
+
+
+def failed(case: str, truth: Mapping[str, Any], error: str) -> Score:
+    """A case whose diagnosis ended in an error."""
+    nothing = {"effects": [], "verdict": "error", "seconds": 0.0}
+    data = scored(case, truth, nothing).to_json()
+    return score_from_json(data | {"error": error})
+
+
+def joints(effect: Mapping[str, Any]) -> Sequence[str | None]:
+    """Where a hidden effect may be named; friction between two joints on either."""
+    other = effect["values"].get("with_joint")
+    return [effect["joint"]] if other is None else [effect["joint"], other]
+
+
+def is_it(effect: Mapping[str, Any], key: Key) -> bool:
+    """True if this names a hidden effect."""
+    return key[0] == effect["effect"] and key[1] in joints(effect)
+
+
+def _key(data: Mapping[str, Any]) -> Key:
+    return data["effect"], data["joint"]
+
+
+def _fall(first: Mapping[str, Any] | None) -> float | None:
+    if first is None or not first["error_before"]:
+        return None
+    return 1 - first["error_after"] / first["error_before"]

@@ -1,0 +1,119 @@
+"""Which cases there are, and running them: made once, diagnosed once, remembered in a folder."""
+
+import json
+import multiprocessing
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tests.hidden_effects.case import Case, NoArm, make_case
+from tests.hidden_effects.effects import EFFECTS
+from tests.hidden_effects.score import Score, failed, score_from_json, scored
+
+DEVELOPMENT = range(1, 100)
+"""Seeds to look at, to learn from and to repair with."""
+
+ACCEPTANCE = range(1001, 1100)
+"""Seeds that nobody looks at: run, and published."""
+
+IMPOSSIBLE = frozenset({"elasticity", "backlash"})  # one gear for both
+
+
+def single_cases(effects: Sequence[str], noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
+    """Every effect at every noise with every seed."""
+    chosen = list(seeds)
+    return [Case((name,), noise, seed) for name in effects for noise in noises for seed in chosen]
+
+
+def clean_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
+    """Nothing hidden."""
+    return [Case((), noise, seed) for seed in seeds for noise in noises]
+
+
+def pair_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
+    """Two effects of all, drawn by the seed."""
+    return [Case(_pair(seed), noise, seed) for seed in seeds for noise in noises]
+
+
+def _pair(seed: int) -> tuple[str, ...]:
+    rng = np.random.default_rng([seed, 2])
+    while True:
+        pair = tuple(str(name) for name in rng.choice(sorted(EFFECTS), 2, replace=False))
+        if set(pair) != IMPOSSIBLE:
+            return pair
+
+
+def ran(case: Case, cases: Path) -> Score:
+    """Make a case unless it is there, diagnose it, and only then open its truth."""
+    from tests.hidden_effects.chain import diagnosed
+
+    folder = cases / case.name
+    place = folder / "truth.json"
+    try:
+        if not place.exists():
+            make_case(case, folder)
+    except NoArm as problem:
+        return failed(case.name, _no_truth(case), str(problem))
+    said: dict[str, Any] = {}
+    error = ""
+    try:
+        said = diagnosed(folder)
+        text = json.dumps(said, indent=1) + "\n"
+        (folder / "diagnosis.json").write_text(text, encoding="utf-8")
+    except Exception as problem:
+        error = f"{type(problem).__name__}: {problem}"
+    truth = json.loads(place.read_text(encoding="utf-8"))
+    return failed(case.name, truth, error) if error else scored(case.name, truth, said)
+
+
+def _no_truth(case: Case) -> dict[str, Any]:
+    """Of a case that could not be made: what was asked for, invisible."""
+    hidden: list[dict[str, Any]]
+    hidden = [{"effect": name, "joint": None, "values": {}} for name in case.effects]
+    return {"hidden": hidden, "visible": [0.0], "noise": case.noise, "robot": case.kind or "any"}
+
+
+def run(
+    cases: Sequence[Case], folder: Path, jobs: int = 1, tell: Callable[[Score], None] = print
+) -> list[Score]:
+    """The scores of cases, in their order; those that `folder` remembers are not run again.
+
+    Args:
+        cases: what to run.
+        folder: keeps `cases/` and `results.jsonl`; remove the latter to ask a new program again.
+        jobs: processes.
+        tell: called with every score as it comes.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    results = folder / "results.jsonl"
+    known = _remembered(results)
+    left = [case for case in cases if case.name not in known]
+    for score in _scores(left, folder / "cases", jobs):
+        known[score.case] = score
+        with results.open("a", encoding="utf-8") as lines:
+            lines.write(json.dumps(score.to_json()) + "\n")
+        tell(score)
+    return [known[case.name] for case in cases]
+
+
+def _remembered(results: Path) -> dict[str, Score]:
+    if not results.exists():
+        return {}
+    lines = results.read_text(encoding="utf-8").splitlines()
+    scores = [score_from_json(json.loads(line)) for line in lines]
+    return {score.case: score for score in scores}
+
+
+def _scores(cases: Sequence[Case], folder: Path, jobs: int) -> Iterator[Score]:
+    if jobs == 1:
+        yield from (ran(case, folder) for case in cases)
+        return
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # one core a process
+    fresh = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(jobs, mp_context=fresh) as pool:
+        for future in as_completed([pool.submit(ran, case, folder) for case in cases]):
+            yield future.result()

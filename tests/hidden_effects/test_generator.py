@@ -1,0 +1,137 @@
+"""The simulated arms against other people's mechanics, and the laws that they must keep."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from tests.hidden_effects.case import Case, make_case
+from tests.hidden_effects.drives import equip
+from tests.hidden_effects.effects import BASE, EFFECTS, hide
+from tests.hidden_effects.motion import draw_bounds, motion
+from tests.hidden_effects.plant import rate
+from tests.hidden_effects.robot_file import robot_text
+from tests.hidden_effects.robots import KINDS, draw_arm
+from tests.hidden_effects.sensors import logged_torque
+from tests.hidden_effects.visibility import Trial, visibility
+
+pytestmark = pytest.mark.usefixtures("plant_compiler")
+
+
+def arm(kind="3R", seed=3, seconds=6.0):
+    """An equipped arm, its path and its scales."""
+    rng = np.random.default_rng(seed)
+    plant, _ = draw_arm(rng, kind)
+    bounds = draw_bounds(rng, plant.joints)
+    path = motion(rng, seconds, bounds)
+    return plant, path, equip(plant, bounds, path, "med", rng)
+
+
+def pinocchio_model(pin, plant):
+    model, parent = pin.Model(), 0
+    model.gravity.linear = plant.gravity.copy()
+    for j in range(plant.joints):
+        (ca, sa), (ct, st) = ((np.cos(x), np.sin(x)) for x in (plant.alpha[j], plant.theta0[j]))
+        about_x = np.array([[1, 0, 0], [0, ca, -sa], [0, sa, ca]])
+        about_z = np.array([[ct, -st, 0], [st, ct, 0], [0, 0, 1]])
+        place = pin.SE3(about_x, np.array([plant.d[j], 0, 0]))
+        place *= pin.SE3(about_z, np.array([0, 0, plant.r[j]]))
+        parent = model.addJoint(parent, pin.JointModelRZ(), place, f"joint {j}")
+        body = pin.Inertia(plant.mass[j], plant.centre[j], plant.inertia[j].reshape(3, 3))
+        model.appendBodyToJoint(parent, body, pin.SE3.Identity())
+    return model
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_links_move_as_in_pinocchio(kind):
+    pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: pinocchio is not installed")
+    plant, _ = draw_arm(np.random.default_rng(5), kind)
+    model = pinocchio_model(pin, plant)
+    data = model.createData()
+    q, v, a = np.random.default_rng(6).normal(size=(3, 20, plant.joints))
+    torque, diagonal, gravity = plant.inverse_dynamics(q, v, a)
+    for row in range(20):
+        theirs = pin.rnea(model, data, q[row], v[row], a[row])
+        np.testing.assert_allclose(torque[row], theirs, rtol=0, atol=1e-12 * abs(torque).max())
+        theirs = np.diag(pin.crba(model, data, q[row]))
+        np.testing.assert_allclose(diagonal[row], theirs, rtol=1e-11)
+        theirs = pin.computeGeneralizedGravity(model, data, q[row])
+        np.testing.assert_allclose(gravity[row], theirs, rtol=0, atol=1e-12 * abs(torque).max())
+
+
+def test_motors_drive_links_rotors_and_friction():
+    """torque = links(q, v, a) + Ia a + friction along a motion: the integration is right."""
+    plant, path, _ = arm("3R")
+    plant.noise_torque, plant.encoder_step = 0, 1e-9
+    run = plant.run(path, np.zeros(3), 1)
+    q, v, a = run.link, rate(run.link), rate(rate(run.link))
+    moved = plant.inverse_dynamics(q, v, a)[0] + plant.rotor_inertia * a
+    rubbed = plant.viscous * v + plant.coulomb * np.tanh(v / plant.coulomb_width) + plant.offset
+    torque = logged_torque(run, 0.0)
+    left = (torque - moved - rubbed).std(0) / torque.std(0)
+    assert left.max() < 5e-3  # differences over ticks blur what happens when a speed changes sign
+    assert (rubbed.std(0) / torque.std(0)).min() > 5 * left.max()
+
+
+def test_a_clean_arm_hides_nothing_and_a_spring_is_seen():
+    plant, path, scales = arm("2R", seconds=10.0)
+    admitted = {name: [0, 1] for name in BASE}
+    more = (admitted, 0.0, Trial(path, np.zeros(2), 1), scales)
+    assert visibility(plant, plant, "spring", *more) < 0.25
+    sprung = plant.copy()
+    hide("spring", sprung, scales, np.random.default_rng(1))
+    assert visibility(sprung, plant, "spring", *more) > 0.5
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_every_effect_changes_the_logged_torque(name):
+    plant, path, scales = arm("3R", seconds=4.0)
+    if name == "external_force":
+        scales = dataclasses.replace(scales, seconds=4.0)
+    changed = plant.copy()
+    if name == "rotor_inertia":
+        plant.rotor_inertia[2] *= 0.5
+        changed.rotor_inertia[2] *= 0.5
+    if name in ("viscous", "coulomb", "offset"):
+        for bare in (plant, changed):
+            setattr(bare, name, getattr(bare, name) * 0.01)
+    hidden = hide(name, changed, scales, np.random.default_rng(4))
+    before, after = (
+        logged_torque(x.run(path, np.full(3, 22.0), 1), d)
+        for x, d in ((plant, 0.0), (changed, hidden.delay))
+    )
+    joints = range(3) if hidden.joint is None else [hidden.joint]
+    assert hidden.values
+    assert max(np.abs(after - before)[:, j].max() / scales.rated[j] for j in joints) > 0.01
+
+
+def test_a_seed_is_a_case(tmp_path):
+    case = Case(("offset",), "low", 7, "2R")
+    truths = [make_case(case, tmp_path / name, visible=0) for name in "ab"]
+    assert truths[0] == truths[1]
+    for path in (tmp_path / "a").iterdir():
+        assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes()
+    other = make_case(dataclasses.replace(case, seed=8), tmp_path / "c", visible=0)
+    assert other["plant"] != truths[0]["plant"]
+    missing = truths[0]["hidden"][0]["joint"]
+    kept = "2" if missing == "1" else "1"
+    assert f'offset = ["{kept}"]' in (tmp_path / "a" / "robot.toml").read_text()
+
+
+def test_a_motion_starts_and_ends_at_rest_within_its_bounds():
+    rng = np.random.default_rng(9)
+    bounds = draw_bounds(rng, 4)
+    path = motion(rng, 10.0, bounds)
+    assert path.shape == (20_000, 4)
+    assert not path[0].any() and abs(path[-1]).max() < 1e-3
+    assert (abs(path).max(0) <= bounds.angle * 1.001).all()
+    assert (abs(rate(path)).max(0) <= bounds.speed * 1.05).all()
+
+
+def test_a_robot_file_tells_no_inertia():
+    plant, _, _ = arm("6R")
+    text = robot_text("arm", plant, {"viscous": [0, 1, 2, 3, 4, 5], "offset": [1], "coulomb": []})
+    assert 'viscous = "all"' in text and 'offset = ["2"]' in text and "coulomb" not in text
+    assert '["2", "1", 1, 0, "pi/2", 0, "q2", 0]' in text
+    for mass in plant.mass:
+        assert f"{mass:.3f}"[:5] not in text
