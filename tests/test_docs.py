@@ -23,7 +23,7 @@ from modeler.robot.table import COLUMNS
 ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/processing.md",
        "docs/emitted-c.md", "docs/parallel-robots.md", "docs/orthoglide.md", "docs/evra.md",
-       "docs/sr400.md", "docs/parallel-examples.md")  # fmt: skip
+       "docs/sr400.md", "docs/parallel-examples.md", "docs/diagnosis.md")  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )

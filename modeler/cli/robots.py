@@ -3,6 +3,7 @@
 import argparse
 
 from modeler.cli.console import Json, say
+from modeler.cli.signature import signature_lines
 from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
@@ -96,11 +97,14 @@ def run_effects(args: argparse.Namespace) -> Json:
     chosen = CATALOGUE if args.effect is None else (_effect(args.effect),)
     facts = [_facts(effect) for effect in chosen]
     for fact in facts:
-        say(f"{fact['id']:<17} {fact['equation']:<36} {fact['title']}")
+        say(f"{fact['id']:<22} {fact['equation']}")
+        say(f"  {fact['title']}")
         if args.effect is not None:
             for name, value in fact.items():
-                if name not in ("id", "equation", "title"):
+                if name not in ("id", "equation", "title") and value:
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
+            for line in signature_lines(chosen[0]):
+                say(line)
     return facts
 
 
@@ -121,6 +125,8 @@ def _facts(effect: Effect) -> dict[str, str | list[str]]:
         "equation": effect.equation,
         "parameters": [column.prefix for column in effect.columns],
         "unit": [column.unit_revolute for column in effect.columns],
+        "shapes": [f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free],
+        "same_as": list(effect.same_as),
         "signature": effect.signature,
         "look_alikes": effect.look_alikes,
         "range": effect.range,

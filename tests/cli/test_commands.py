@@ -177,7 +177,7 @@ def test_robots_and_effects(capsys):
     status, out, _ = run(capsys, "effects", "asymmetric_coulomb")
     assert status == 0 and "offset" in out
     status, _, err = run(capsys, "effects", "stricktion")
-    assert status == 1 and "got stricktion; expected one of" in err
+    assert status == 1 and "got stricktion (did you mean" in err
 
 
 MISTAKES = [
