@@ -8,6 +8,8 @@ NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not
 _STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
 _NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
 _MEMORY = 3.5  # samples; filtering and decimation alone leave two or three
+_TOO_LARGE = 0.2  # relative error of which noise is no excuse
+_BURST = 0.5  # share of the squared residual in one short window: an event, not noise
 _LINE = 0.3  # share of the power in one narrow line
 
 
@@ -98,6 +100,8 @@ def looks_like_noise(item: JointComparison) -> bool:
         and _bias(item) is None
         and not _remembers(item)
         and _oscillation(item) is None
+        and item.relative_error < _TOO_LARGE
+        and item.worst.energy_share < _BURST
     )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.contact import Window
+from modeler.diagnose.data_checks import data_lines
 from modeler.diagnose.errors import crossed_errors, held_out_errors
 from modeler.diagnose.gram import VISIBLE
 from modeler.diagnose.judge import Judged
@@ -63,6 +64,7 @@ def assembled(
         held_out=held,
         sentences=(),
         band=data.observation.report.processing.parallel_cutoff or 0.0,
+        data=data_lines(found.start, model.beta),
         changed=data.kept is not None,
         search=found,
     )

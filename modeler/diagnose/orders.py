@@ -9,7 +9,7 @@ from modeler.diagnose.columns import all_columns
 from modeler.diagnose.state import State
 from modeler.effects import effect_named
 
-MOTOR = 60.0
+MOTOR = 70.0
 """Waves per turn from which on a ripple is taken for the motor's: teeth and rollers are fewer."""
 
 LEAST_WAVES = 3.0
@@ -129,6 +129,8 @@ def ripple_candidates(state: State) -> list[Candidate]:
         spectrum = order_spectrum(state, j) if joint.actuated else None
         for order in spectrum.peaks if spectrum else ():
             effect = effect_named("motor_ripple" if order >= MOTOR else "joint_ripple")
-            assert effect is not None
+            runout = effect_named("encoder_eccentricity")
+            assert effect is not None and runout is not None
             found.append(Candidate(effect, effect.forms[0], joint.name, j, {"m": order}))
+            found.append(Candidate(runout, runout.forms[0], joint.name, j, {"k": order}))
     return found

@@ -105,6 +105,7 @@ class Diagnosis:
         held_out: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
         band: Hz up to which residuals were looked at.
+        data: doubts about the logs themselves.
         changed: True if the base parameters were kept and the robot has changed since.
         search: everything behind it.
     """
@@ -119,6 +120,7 @@ class Diagnosis:
     held_out: tuple[str, ...]
     sentences: tuple[str, ...]
     band: float
+    data: tuple[str, ...]
     changed: bool
     search: Search
 
@@ -140,6 +142,7 @@ class Diagnosis:
             "held_out": list(self.held_out),
             "sentences": list(self.sentences),
             "band": self.band,
+            "data": list(self.data),
             "changed": self.changed,
         }
 

@@ -51,6 +51,7 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
                 f"joint {name}: {percent(joint.systematic / left)} of the remaining error "
                 "variance is systematic and not explained by the catalogue"
             )
+    lines += [f"data: {line}" for line in diagnosis.data]
     if not diagnosis.held_out:
         lines.append(
             "no held-out logs: errors are cross-validated within the logs, which flatters effects "

@@ -93,15 +93,21 @@ TRANSMISSION: tuple[Effect, ...] = (
         id="encoder_eccentricity",
         aliases=(),
         title="the encoder disc runs out of centre",
-        equation="links at q + Ec cos q + Es sin q",
+        equation="links at q + Ec cos(k q) + Es sin(k q), k = 1, or the gear ratio",
         forms=(
             form(
-                column("Ec", "cos(q)", "angle", "other"), column("Es", "sin(q)", "angle", "other")
+                column("Ec", "cos(k*q)", "angle", "other"),
+                column("Es", "sin(k*q)", "angle", "other"),
+                shapes=(
+                    Shape(
+                        "k", "number", (1.0,), (0.0, 0.0), "waves per turn: 1, or the gear ratio"
+                    ),
+                ),
             ),
         ),
         acts=Acts.POSITION,
         family="measurement",
-        signature="once per turn, in the parts that depend on gravity and on inertia",
+        signature="waves per turn that grow with the square of the speed, and with gravity",
         look_alikes="first moment of the link; move fast at many poses",
         range="below 1 mrad to some mrad",
         source="Hanselman 1990",

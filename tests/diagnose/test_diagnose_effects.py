@@ -1,5 +1,6 @@
 """Effects hidden in simulated runs, written here as torques: are they named, with their values?"""
 
+import dataclasses
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -146,3 +147,22 @@ def test_the_json_has_the_fields_that_scripts_read(case: Case) -> None:
     fields = {"effect", "joint", "gain", "error_before", "error_after", "parameters", "ties"}
     assert fields | {"evidence"} <= content["effects"][0].keys()
     assert content["joints"].keys() == {"1", "2", "3"}
+
+
+def test_exchanged_and_reversed_channels_are_named_before_any_physics(case: Case) -> None:
+    model = case.fitted(case.train)
+    exchanged = dataclasses.replace(case.holdout, tau=case.holdout.tau[:, [1, 0, 2]])
+    lines = " ".join(diagnose(model, case.compiled, [exchanged], most=0).data)
+    assert "looks like that of joint" in lines
+    reversed_ = dataclasses.replace(case.holdout, tau=case.holdout.tau * [1.0, 1.0, -1.0])
+    lines = " ".join(diagnose(model, case.compiled, [reversed_], most=0).data)
+    assert "joint 3: the measured torque has the other sign" in lines
+
+
+def test_a_joint_that_never_moves_is_said(case: Case) -> None:
+    model = case.fitted(case.train)
+    q = case.holdout.q.copy()
+    q[:, 0] = 0.3
+    still = dataclasses.replace(case.holdout, q=q)
+    lines = diagnose(model, case.compiled, [still], most=0).data
+    assert any("joint 1 never moves" in line for line in lines)
