@@ -1,4 +1,4 @@
-"""What is wrong with the data itself, before any physics is blamed: one line each, with what to do."""
+"""What is wrong with the data itself, before any physics is blamed; one line each."""
 
 import numpy as np
 
@@ -52,8 +52,8 @@ def _motion(state: State, j: int) -> list[str]:
     low, high = np.quantile(np.abs(v), [0.1, 0.9])
     if high < _ONE_SPEED * low:
         found.append(
-            f"joint {joint.name} moves at one speed only ({high:.2g} {joint.unit}/s): friction laws "
-            "cannot be told apart; move at five speeds or more"
+            f"joint {joint.name} moves at one speed only ({high:.2g} {joint.unit}/s): friction "
+            "laws cannot be told apart; move at five speeds or more"
         )
     return found
 

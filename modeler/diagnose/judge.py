@@ -200,8 +200,12 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
             continue
         difference = best.drop - other.drop
         spread = float(np.sqrt(np.sum((difference - difference.mean()) ** 2)))
-        if float(difference.sum()) < TIED * spread or other.candidate.effect.id in (
-            best.candidate.effect.same_as
-        ):
+        same = other.candidate.effect.id in best.candidate.effect.same_as
+        near = (
+            best.gain < NEARLY
+            and other.candidate.joint == best.candidate.joint
+            and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
+        )
+        if float(difference.sum()) < TIED * spread or same or near:
             found.append(other)
     return found

@@ -178,7 +178,7 @@ def visible(columns: Columns) -> bool:
 
 
 def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
-    """The middle of time, and the mean temperature by joint where one is logged."""
+    """The first time, and the mean temperature by joint where one is logged."""
     segments = [part.segment for part in observation.stretches]
     temperature = {}
     for joint in observation.joints:
@@ -187,4 +187,4 @@ def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
                 every = np.concatenate([s.extra[name] for s in segments])
                 temperature[joint.name] = float(every.mean())
                 break
-    return float(np.mean(observation.time)), temperature
+    return float(np.min(observation.time)), temperature

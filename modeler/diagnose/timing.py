@@ -14,7 +14,7 @@ from modeler.observation.motion import low_pass
 SURE = 4.0
 """Least ratio of the instrumental estimate to its standard error."""
 
-CONVENTION = 0.75
+CONVENTION = 0.6
 """Delays below this share of a sample are a convention of the logger, not an effect."""
 
 
