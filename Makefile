@@ -11,7 +11,7 @@ BIN := .venv/bin
 .PHONY: help demo test lint regenerate clean
 
 help:
-	@echo 'make demo         install, then the whole story on a built-in robot: pictures and a page in demo/'
+	@echo 'make demo         install, then a hidden effect found and added, on two built-in robots: pages in demo/'
 	@echo 'make test         install, then ruff, mypy and every test (JOBS=2 processes)'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'

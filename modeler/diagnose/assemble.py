@@ -15,7 +15,7 @@ from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import predictable, repeatable
-from modeler.effects import effect_named
+from modeler.effects import Acts, effect_named
 from modeler.fit import IdentifiedModel
 
 CLOSED = 0.75
@@ -51,7 +51,6 @@ def assembled(
     joints = _joints(found, errors, systematic)
     verdict = _verdict(effects, joints, found)
     data = found.start.data
-    held = other.observation.logs if other else ()
     rivals = found.steps[0].rivals if found.steps else found.last.ranked
     diagnosis = Diagnosis(
         robot=model.spec.robot,
@@ -61,7 +60,7 @@ def assembled(
         rivals=tuple((*r.candidate.key, r.gain) for r in rivals[:8]),
         blind_spots=_blind(found),
         joints=joints,
-        held_out=held,
+        held_out=other.observation.logs if other else (),
         sentences=(),
         band=data.observation.report.processing.parallel_cutoff or 0.0,
         data=data_lines(found.start, model.beta),
@@ -100,7 +99,7 @@ def _finding(
     start, end = _over(found, concerned, before), _over(found, concerned, after)
     closure = _closure(found, concerned, systematic)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
-                                *_same(judged)]))  # fmt: skip
+                                *_same(judged, found)]))  # fmt: skip
     columns = pick.form.columns
     units = [columns[min(k, len(columns) - 1)].unit_revolute for k in range(len(names))]
     return Finding(
@@ -119,9 +118,13 @@ def _finding(
     )
 
 
-def _same(judged: Judged) -> list[Key]:
-    """Effects that no data tell from it."""
-    return [(other, judged.candidate.joint) for other in judged.candidate.effect.same_as]
+def _same(judged: Judged, found: Search) -> list[Key]:
+    """Effects that no data tell from it; whose motor turns two joints is a matter of words."""
+    pick = judged.candidate
+    same: list[Key] = [(other, pick.joint) for other in pick.effect.same_as]
+    if pick.effect.acts is Acts.MOTOR:
+        same.append((pick.effect.id, found.start.data.compiled.spec.joints[pick.index - 1].name))
+    return same
 
 
 def _refines(found: Search, step: Step) -> bool:

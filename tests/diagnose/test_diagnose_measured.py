@@ -1,0 +1,95 @@
+"""Real machines: the effects that others found on them by hand.
+
+The logs are not part of the project; without them these tests are skipped.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from modeler.api import (
+    compare,
+    compile_model,
+    derive,
+    diagnose,
+    fit,
+    generate,
+    load,
+    observe,
+    read_logs,
+)
+from modeler.compiled import load as load_compiled
+from modeler.fit import IdentifiedModel
+from modeler.improve import Logs, add_effect
+
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
+
+pytestmark = [
+    pytest.mark.measured,
+    pytest.mark.skipif(
+        not DATA.is_dir(), reason=f"measured logs are not here: {DATA.parent.name}/{DATA.name}"
+    ),
+]
+
+
+def logs(folder: str, *names: str) -> list[Path]:
+    return [DATA / folder / f"{name}.parquet" for name in names]
+
+
+def fitted(robot: str, training: list[Path]) -> IdentifiedModel:
+    derivation = derive(load(robot))
+    emitted = generate(derivation)
+    return fit(derivation, emitted, observe(compile_model(emitted), training))
+
+
+def ur10e(*names: str) -> list[Path]:
+    return logs("ur10e", *(f"ur-20_{name}" for name in names))
+
+
+TRAINING = ur10e("02_19_14harm50sec", "02_12-50sec_12harm", "02_05-20sec_8harm")
+HELD_OUT = ur10e("02_19_15harm50sec", "01_17-ptp_10_points")
+
+
+def test_emps_has_friction_that_differs_between_the_directions() -> None:
+    """What the benchmark's authors found by hand, and the delay that others found."""
+    model = fitted("emps", logs("emps", "train"))
+    found = diagnose(model, logs("emps", "train"), logs("emps", "pulses"))
+    assert [f.effect for f in found.effects[:2]] == ["asymmetric_viscous", "time_delay"]
+    assert found.effects[0].parameters["Fva1"] == pytest.approx(-37.0, abs=3.0)
+    assert found.joints["1"].error_after < 0.031
+
+
+def test_ur10e_rubs_with_its_load_on_joints_2_and_3() -> None:
+    model = fitted("ur10e", TRAINING)
+    found = diagnose(model, TRAINING, HELD_OUT)
+    first = {(f.effect, f.joint) for f in found.effects[:2]}
+    assert first == {("load_friction", "2"), ("load_friction", "3")}
+
+
+def test_ur10e_the_errors_fall_as_effects_are_added() -> None:
+    model = fitted("ur10e", TRAINING)
+    compiled = load_compiled(model.spec, model.sources)
+    data = Logs(read_logs(compiled, TRAINING), read_logs(compiled, HELD_OUT))
+    for effect, joint in (("load_friction", "2"), ("load_friction", "3"),
+                          ("nonlinear_viscous", "1")):  # fmt: skip
+        model = add_effect(model, load_compiled(model.spec, model.sources), effect, joint, data)
+    errors = {j.joint.name: j.relative_error for j in compare(model, HELD_OUT).joints}
+    assert errors["1"] < 0.07 and errors["2"] < 0.018 and errors["3"] < 0.016
+
+
+def test_ur10e_a_load_is_found_first_with_its_mass() -> None:
+    model = fitted("ur10e", TRAINING)
+    found = diagnose(model, ur10e("02_19_14harm50secLoad"))
+    assert found.effects[0].effect == "payload"
+    assert found.effects[0].parameters["load_10"] == pytest.approx(2.805, rel=0.1)
+
+
+def test_odrive_the_orders_of_its_ripple() -> None:
+    runs = logs("odrive_cogging", *(f"slow2__nocomp_{k}" for k in range(3)))
+    model = fitted("odrive", runs[:2])
+    found = diagnose(model, runs[:2], runs[2:])
+    named = [*found.effects, *found.refinements]
+    orders = [f.parameters["m"] for f in named if f.effect.endswith("ripple")]
+    for order in (7.0, 14.0, 12.0, 28.0):
+        assert any(abs(order - m) < 0.1 for m in orders), order
+    assert found.joints["1"].error_after < 0.33
