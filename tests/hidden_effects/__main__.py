@@ -17,6 +17,7 @@ from tests.hidden_effects.suite import (
     pair_cases,
     run,
     single_cases,
+    withheld_cases,
 )
 from tests.hidden_effects.table import line, page
 
@@ -41,6 +42,13 @@ def parser() -> argparse.ArgumentParser:
         help=f"and N (default {PAIRS}) pairs of effects at every noise",
     )  # fmt: skip
     add("--clean", type=int, default=0, metavar="N", help="and N arms without any, at every noise")
+    add(
+        "--withheld",
+        type=int,
+        default=0,
+        metavar="N",
+        help="and N effects at every noise that the diagnosis may not name",
+    )
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
     add("--table", type=Path, help="page to write, in Markdown")
     add("--jobs", type=int, default=1, help="processes; default: 1")
@@ -65,6 +73,7 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
         *single_cases(names, noises, seeds),
         *clean_cases(noises, pool[: options.clean]),
         *pair_cases(noises, pool[: options.two]),
+        *withheld_cases(noises, pool[: options.withheld]),
     ]
 
 
@@ -83,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         with tempfile.TemporaryDirectory() as folder:
             scores = run(cases, Path(folder), options.jobs, _tell)
     seen = [score for score in scores if score.detectable]
-    single = [score for score in seen if len(score.hidden) == 1]
+    single = [score for score in seen if len(score.hidden) == 1 and not score.withheld]
     good, tied = sum(score.first for score in single), sum(score.tied for score in single)
     print(f"one effect: {good} of {len(single)} first, {tied} in the tie; "
           f"{len(scores) - len(seen)} of {len(scores)} cases undetectable")  # fmt: skip

@@ -37,17 +37,26 @@ NONE = "none"
 
 @dataclass(frozen=True)
 class Case:
-    """What is asked for: no, one or two effects, noise, seed; kind of the arm, None: random."""
+    """What is asked for: no, one or two effects, noise, seed; kind of the arm, None: random.
+
+    Where the effects are withheld, the diagnosis may not name them: whatever it names is wrong.
+    """
 
     effects: tuple[str, ...]
     noise: str
     seed: int
     kind: str | None = None
+    withheld: bool = False
+
+    @property
+    def folder(self) -> str:
+        """Where its files are."""
+        return "-".join(["+".join(self.effects or (NONE,)), self.noise, str(self.seed)])
 
     @property
     def name(self) -> str:
-        """Of its folder."""
-        return "-".join(["+".join(self.effects or (NONE,)), self.noise, str(self.seed)])
+        """Of its result."""
+        return self.folder + ("-withheld" if self.withheld else "")
 
     def stream(self, attempt: int, *more: int) -> np.random.Generator:
         """Random numbers of an attempt at this case."""

@@ -3,20 +3,26 @@
 import os
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from modeler import api
+from modeler.effects import Effect, effect_named
 
 
-def diagnosed(folder: Path) -> dict[str, Any]:
+def diagnosed(folder: Path, withheld: Sequence[str] = ()) -> dict[str, Any]:
     """What `modeler diagnose --json` says of a case, and how long it took ("seconds").
 
     The model is fitted to the training log; it is asked about that log or, if there is one, the
     log with a load. Errors come from the held-out log of the same arm. The truth is not read.
+
+    Args:
+        folder: of the case.
+        withheld: effects that may not be named, nor those that are the same column.
     """
+    same = [other for name in withheld for other in _effect(name).same_as]
     with _own_cache():
         derivation = api.derive(api.load(folder / "robot.toml"))
         emitted = api.generate(derivation)
@@ -27,8 +33,14 @@ def diagnosed(folder: Path) -> dict[str, Any]:
         if (folder / "loaded.parquet").exists():
             asked = [folder / "loaded.parquet", folder / "loaded_holdout.parquet"]
         start = time.perf_counter()
-        found = api.diagnose(model, asked[:1], asked[1:])
+        found = api.diagnose(model, asked[:1], asked[1:], without=[*withheld, *same])
     return found.to_json() | {"seconds": time.perf_counter() - start}
+
+
+def _effect(name: str) -> Effect:
+    effect = effect_named(name)
+    assert effect is not None, name
+    return effect
 
 
 @contextmanager

@@ -33,6 +33,7 @@ class Score:
         fall: of the held-out error by the first effect, as a share; None without.
         seconds: of the diagnosis.
         error: why there is none; empty if there is.
+        withheld: True if what is hidden was not to be named.
     """
 
     case: str
@@ -50,6 +51,12 @@ class Score:
     fall: float | None
     seconds: float
     error: str = ""
+    withheld: bool = False
+
+    @property
+    def stated(self) -> bool:
+        """True if the first effect named is stated as the cause."""
+        return self.verdict == "missing"
 
     @property
     def exact(self) -> bool:
@@ -58,7 +65,9 @@ class Score:
 
     @property
     def right(self) -> bool:
-        """One effect: it is named first. None or two: exact."""
+        """One effect: it is named first; withheld: nothing is stated. None or two: exact."""
+        if self.withheld:
+            return not self.error and not self.stated
         return self.first if len(self.hidden) == 1 else self.exact
 
     @property
@@ -82,7 +91,9 @@ def score_from_json(data: Mapping[str, Any]) -> Score:
     return Score(**{**data, **keys})
 
 
-def scored(case: str, truth: Mapping[str, Any], said: Mapping[str, Any]) -> Score:
+def scored(
+    case: str, truth: Mapping[str, Any], said: Mapping[str, Any], withheld: bool = False
+) -> Score:
     """A diagnosis (`to_json`) against the truth of its case (`truth.json`)."""
     hidden, findings = truth["hidden"], said["effects"]
     named = [_key(finding) for finding in findings]
@@ -104,13 +115,14 @@ def scored(case: str, truth: Mapping[str, Any], said: Mapping[str, Any]) -> Scor
         spurious=sum(not any(is_it(effect, key) for effect in hidden) for key in named),
         fall=_fall(first),
         seconds=said["seconds"],
+        withheld=withheld,
     )
 
 
-def failed(case: str, truth: Mapping[str, Any], error: str) -> Score:
+def failed(case: str, truth: Mapping[str, Any], error: str, withheld: bool = False) -> Score:
     """A case whose diagnosis ended in an error."""
     nothing = {"effects": [], "verdict": "error", "seconds": 0.0}
-    data = scored(case, truth, nothing).to_json()
+    data = scored(case, truth, nothing, withheld).to_json()
     return score_from_json(data | {"error": error})
 
 

@@ -39,6 +39,11 @@ def pair_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
     return [Case(_pair(seed), noise, seed) for seed in seeds for noise in noises]
 
 
+def withheld_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
+    """One effect drawn by the seed, which the diagnosis may not name."""
+    return [Case(_pair(seed)[:1], k, seed, withheld=True) for seed in seeds for k in noises]
+
+
 def _pair(seed: int) -> tuple[str, ...]:
     rng = np.random.default_rng([seed, 2])
     while True:
@@ -51,7 +56,7 @@ def ran(case: Case, cases: Path) -> Score:
     """Make a case unless it is there, diagnose it, and only then open its truth."""
     from tests.hidden_effects.chain import diagnosed
 
-    folder = cases / case.name
+    folder = cases / case.folder
     place = folder / "truth.json"
     try:
         if not place.exists():
@@ -61,13 +66,15 @@ def ran(case: Case, cases: Path) -> Score:
     said: dict[str, Any] = {}
     error = ""
     try:
-        said = diagnosed(folder)
+        said = diagnosed(folder, case.effects if case.withheld else ())
         text = json.dumps(said, indent=1) + "\n"
-        (folder / "diagnosis.json").write_text(text, encoding="utf-8")
+        (folder / f"{case.name}.json").write_text(text, encoding="utf-8")
     except Exception as problem:
         error = f"{type(problem).__name__}: {problem}"
     truth = json.loads(place.read_text(encoding="utf-8"))
-    return failed(case.name, truth, error) if error else scored(case.name, truth, said)
+    if error:
+        return failed(case.name, truth, error, case.withheld)
+    return scored(case.name, truth, said, case.withheld)
 
 
 def _no_truth(case: Case) -> dict[str, Any]:

@@ -23,15 +23,18 @@ have next to nothing to see (less than {least} of the noise) are not counted; th
 def page(scores: Sequence[Score]) -> str:
     """Counts by effect and noise, false alarms, pairs, and every case that went wrong."""
     seen = [score for score in scores if score.detectable]
-    single = [score for score in seen if len(score.hidden) == 1]
+    named = [score for score in seen if not score.withheld]
+    single = [score for score in named if len(score.hidden) == 1]
     noise = ", ".join(f"{100 * share:.3g} % ({name})" for name, share in NOISE.items())
     parts = [INTRODUCTION.format(noise=noise, least=DETECTABLE)]
     if single:
         parts += ["## One effect\n", _singles(single)]
-    if clean := [score for score in seen if not score.hidden]:
+    if clean := [score for score in named if not score.hidden]:
         parts += ["## Nothing hidden\n", _clean(clean)]
-    if pairs := [score for score in seen if len(score.hidden) == 2]:
+    if pairs := [score for score in named if len(score.hidden) == 2]:
         parts += ["## Two effects\n", _pairs(pairs)]
+    if withheld := [score for score in seen if score.withheld]:
+        parts += ["## The hidden effect withheld from the catalogue\n", _withheld(withheld)]
     missed = [score for score in seen if not score.right]
     parts += ["## Misses\n", _list(missed)]
     parts += ["## Undetectable\n", _list([s for s in scores if not s.detectable])]
@@ -92,6 +95,23 @@ def _pairs(scores: Sequence[Score]) -> str:
         counts = [count(some, lambda s: s.first), count(some, lambda s: s.found == 2)]
         rows.append([name, *counts, count(some, lambda s: s.exact), f"{spurious:.2f}"])
     return _table(["Noise", "First is one", "Both", "Exact", "Spurious a case"], rows)
+
+
+def _withheld(scores: Sequence[Score]) -> str:
+    rows = [
+        ["Another effect stated as the cause", count(scores, lambda s: s.stated)],
+        ["Another effect as the closest description", count(scores, _closest)],
+        [
+            "Systematic, and not in the catalogue",
+            count(scores, lambda s: s.verdict == "unexplained"),
+        ],
+        ["Nothing significant", count(scores, lambda s: s.verdict == "nothing significant")],
+    ]
+    return _table(["The diagnosis says", "cases"], rows)
+
+
+def _closest(score: Score) -> bool:
+    return score.verdict == "closest description"
 
 
 def _list(scores: Sequence[Score]) -> str:
