@@ -28,6 +28,10 @@ LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
 
 
+TOUCHED = 0.1
+"""Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
+
+
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None
 ) -> Diagnosis:
@@ -43,7 +47,7 @@ def assembled(
     errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
     systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
     findings = [
-        _finding(found, step, errors[k], errors[k + 1], systematic)
+        _finding(found, step, _touched(step, *chain[k : k + 2]), errors[k : k + 2], systematic)
         for k, step in enumerate(found.steps)
     ]
     findings += _detected(found, window, errors, findings)
@@ -86,8 +90,26 @@ def _systematic(state: State, j: int) -> float:
     return max(predictable(state, j), again if again is not None else 0.0)
 
 
+def _touched(step: Step, before: State, after: State) -> list[int]:
+    """Joints whose residuals the effect explains: its own, or all where they fall most."""
+    if step.pick.local:
+        return [step.pick.index]
+    sigma = before.base.sigma
+    fall = np.array(
+        [
+            float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
+            for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
+        ]
+    )
+    return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
+
+
 def _finding(
-    found: Search, step: Step, before: np.ndarray, after: np.ndarray, systematic: Sequence[float]
+    found: Search,
+    step: Step,
+    concerned: Sequence[int],
+    errors: Sequence[np.ndarray],
+    systematic: Sequence[float],
 ) -> Finding:
     judged, pick = step.judged, step.pick
     names = [*pick.parameter_names()]
@@ -95,8 +117,7 @@ def _finding(
     values = found.end.values[place]
     if len(names) != len(values):
         names = [f"{names[0]}_{k + 1}" for k in range(len(values))]
-    concerned = pick.concerns(len(before))
-    start, end = _over(found, concerned, before), _over(found, concerned, after)
+    start, end = (_over(found, concerned, error) for error in errors)
     closure = _closure(found, concerned, systematic)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
                                 *_same(judged, found)]))  # fmt: skip
@@ -139,8 +160,9 @@ def _refines(found: Search, step: Step) -> bool:
 
 
 def _over(found: Search, concerned: Sequence[int], errors: np.ndarray) -> float:
-    """Relative error over some joints: the rms torque of each is its weight."""
-    size = np.array([float(np.mean(y**2)) if y.size else 0.0 for y in found.start.rows.y])
+    """Relative error over some joints: the torque of each counts in units of what is left of it."""
+    torque = zip(found.end.rows.y, found.end.base.sigma, strict=True)
+    size = np.array([float(np.mean((y / s) ** 2)) if y.size else 0.0 for y, s in torque])
     own = list(concerned)
     total = float(size[own].sum())
     return finite(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.judge import Judged
 from modeler.diagnose.rows import rows_of
 from modeler.diagnose.state import Data, State, columns_of
 
@@ -56,23 +56,27 @@ KEPT = 0.2
 """Share of the expected gain that must come true on held-out motion."""
 
 
-def vetoing(data: Data) -> Callable[[State, State, Candidate, float], bool]:
-    """A veto by held-out logs: True if the errors of an effect's joints do not fall there.
+def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
+    """A veto by held-out logs: True if the errors do not fall there as an effect lets expect.
 
-    Squared errors count in units of each joint's residual on the training logs. The clock of a
-    held-out log may start anew: for effects that depend on time it may also go on where the
-    training logs end, whichever suits them better.
+    The error of its joint counts for what enters that joint alone, else those of all joints:
+    where the model imitates an effect on its own joint, it shows on others. Squared errors count
+    in units of each joint's residual on the training logs. The clock of a held-out log may start
+    anew: for effects that depend on time it may also go on where the training logs end, whichever
+    suits them better.
     """
 
-    def veto(before: State, after: State, candidate: Candidate, gain: float) -> bool:
-        own = candidate.concerns(len(before.rows.y))
+    def veto(before: State, after: State, judged: Judged) -> bool:
+        candidate = judged.candidate
+        own = [candidate.index] if candidate.local else list(range(before.rows.joints))
+        expected = judged.gain if candidate.local else judged.share
         size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in before.rows.y])
         weight = (size / before.base.sigma)[own] ** 2
         timed = "t" in candidate.form.names
         later = [0.0, float(np.ptp(before.data.observation.time))] if timed else [0.0]
         old = min(_weighed(before, data, own, weight, shift) for shift in later)
         new = min(_weighed(after, data, own, weight, shift) for shift in later)
-        return new > old * (1.0 - KEPT * gain)
+        return new > old * (1.0 - KEPT * expected)
 
     return veto
 

@@ -40,6 +40,7 @@ class Judged:
     Attributes:
         candidate: effect, joint, shapes.
         gain: expected fall of the residual variance of its joints on other motion.
+        share: the same of all joints.
         drop: (blocks,) fall there of the squared residual, weighted.
         values: of its parameters, SI.
         deviations: their standard deviations, SI.
@@ -52,6 +53,7 @@ class Judged:
 
     candidate: Candidate
     gain: float
+    share: float
     drop: np.ndarray
     values: np.ndarray
     deviations: np.ndarray
@@ -156,6 +158,7 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i:
     return Judged(
         candidate,
         min(1.0, float(drop.sum()) / max(_at_stake(candidate, ranking), 1e-300)),
+        float(drop.sum()) / max(float(ranking.before.sum()), 1e-300),
         drop,
         ranking.value[own],
         ranking.deviation[own],

@@ -56,9 +56,9 @@ class Search:
     vetoed: tuple[Candidate, ...] = ()
 
 
-Veto = Callable[[State, State, Candidate, float], bool]
+Veto = Callable[[State, State, Judged], bool]
 """True if an effect does not lower the error on held-out logs: state without it, with it, the
-effect, its expected gain."""
+effect as it was judged."""
 
 
 def search(
@@ -87,7 +87,7 @@ def search(
     while judgement.best is not None and len(steps) < most:
         best = judgement.best
         later = extended(state, best.candidate)
-        if veto is not None and veto(state, later, best.candidate, best.gain):
+        if veto is not None and veto(state, later, best):
             vetoed.append(best.candidate)
             judgement = judged_state(state, without, vetoed)
             continue
