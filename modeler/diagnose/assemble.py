@@ -15,6 +15,7 @@ from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import predictable, repeatable
+from modeler.diagnose.values import values_of
 from modeler.effects import Acts, effect_named
 from modeler.fit import IdentifiedModel
 
@@ -47,7 +48,7 @@ def assembled(
     errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
     systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
     findings = [
-        _finding(found, step, _touched(step, *chain[k : k + 2]), errors[k : k + 2], systematic)
+        _finding(found, step, chain[k:], errors[k : k + 2], systematic)
         for k, step in enumerate(found.steps)
     ]
     findings += _detected(found, window, errors, findings)
@@ -107,31 +108,27 @@ def _touched(step: Step, before: State, after: State) -> list[int]:
 def _finding(
     found: Search,
     step: Step,
-    concerned: Sequence[int],
+    chain: Sequence[State],
     errors: Sequence[np.ndarray],
     systematic: Sequence[float],
 ) -> Finding:
     judged, pick = step.judged, step.pick
-    names = [*pick.parameter_names()]
     place = next(i for i, s in enumerate(found.steps) if s is step)
-    values = found.end.values[place]
-    if len(names) != len(values):
-        names = [f"{names[0]}_{k + 1}" for k in range(len(values))]
+    named = values_of(found.end, pick, found.end.values[place], judged.deviations)
+    concerned = _touched(step, *chain[:2])
     start, end = (_over(found, concerned, error) for error in errors)
-    closure = _closure(found, concerned, systematic)
+    closure = _closure(chain, concerned, systematic)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
                                 *_same(judged, found)]))  # fmt: skip
-    columns = pick.form.columns
-    units = [columns[min(k, len(columns) - 1)].unit_revolute for k in range(len(names))]
     return Finding(
         effect=pick.effect.id,
         joint=pick.joint,
         gain=judged.gain,
         error_before=start,
         error_after=end,
-        parameters=dict(zip(names, map(float, values), strict=True)) | dict(pick.shapes),
-        sigmas=dict(zip(names, map(float, judged.deviations), strict=False)),
-        units=dict(zip(names, units, strict=True)),
+        parameters=named.value | dict(pick.shapes),
+        sigmas=named.deviation,
+        units=named.unit,
         ties=ties,
         evidence=evidence(step, start, end),
         closure=closure,
@@ -168,14 +165,27 @@ def _over(found: Search, concerned: Sequence[int], errors: np.ndarray) -> float:
     return finite(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
 
 
-def _closure(found: Search, concerned: Sequence[int], systematic: Sequence[float]) -> float | None:
-    """What the effects explain, over that and what is still systematic, squared residuals."""
+def _closure(
+    chain: Sequence[State], concerned: Sequence[int], systematic: Sequence[float]
+) -> float | None:
+    """What one effect explains, over that, what later ones explain and what stays systematic.
+
+    Squared residuals of the joints it touches. What a wrong name leaves, others are found to mend;
+    so what they explain there counts as left.
+
+    Args:
+        chain: the state before the effect, the one with it, those with the later ones.
+        concerned: joints that it touches.
+        systematic: share of the variance of each joint's last residual.
+    """
+    first, own, last = chain[0], chain[1], chain[-1]
     explained = left = 0.0
     for j in concerned:
-        before = float(np.sum((found.start.residual[j] / found.start.base.sigma[j]) ** 2))
-        after = float(np.sum((found.end.residual[j] / found.start.base.sigma[j]) ** 2))
+        before, after, end = (
+            float(np.sum((s.residual[j] / first.base.sigma[j]) ** 2)) for s in (first, own, last)
+        )
         explained += max(0.0, before - after)
-        left += systematic[j] * after
+        left += max(0.0, after - end) + systematic[j] * end
     return explained / (explained + left) if explained > 0.0 else None
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from modeler.core.contract import ModuleSpec, ParameterSpec
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.signals import Signals
 from modeler.diagnose.tilt import tilt_columns
@@ -11,6 +12,9 @@ FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp,
     "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
 }  # fmt: skip
+
+UNFELT = 1e-12
+"""Columns that are nowhere larger are felt by no joint."""
 
 
 def own_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
@@ -88,14 +92,27 @@ def _motor(candidate: Candidate, signals: Signals) -> np.ndarray:
 def _body(candidate: Candidate, signals: Signals) -> np.ndarray:
     """Columns of the ten inertial parameters of a link, those that any joint feels."""
     model = signals.reference.compiled
-    standard = [p for p in model.spec.standard if p.effect == "rigid_body"]
-    links = list(dict.fromkeys(p.joint for p in standard))
-    own = [
-        i for i, p in enumerate(model.spec.standard)
-        if p.effect == "rigid_body" and p.joint == links[candidate.index]
-    ]  # fmt: skip
+    own = [i for i, _ in _inertial(candidate, model.spec)]
     columns = model.regressor(signals.q, signals.v, signals.a, signals.read)[:, :, own]
-    return columns[:, :, np.abs(columns).max(axis=(0, 1)) > 1e-12]
+    return columns[:, :, np.abs(columns).max(axis=(0, 1)) > UNFELT]
+
+
+def body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
+    """The standard parameters of the columns of a body on a link."""
+    model = signals.reference.compiled
+    every = _inertial(candidate, model.spec)
+    columns = model.regressor(signals.q, signals.v, signals.a, signals.read)
+    largest = np.abs(columns).max(axis=(0, 1))
+    return [parameter for i, parameter in every if largest[i] > UNFELT]
+
+
+def _inertial(candidate: Candidate, spec: ModuleSpec) -> list[tuple[int, ParameterSpec]]:
+    """Inertial parameters of the link that a candidate loads, with their places."""
+    links = [p.joint for p in spec.standard if p.effect == "rigid_body"]
+    own = list(dict.fromkeys(links))[candidate.index]
+    return [
+        (i, p) for i, p in enumerate(spec.standard) if p.effect == "rigid_body" and p.joint == own
+    ]
 
 
 def _passive(candidate: Candidate, signals: Signals) -> np.ndarray:

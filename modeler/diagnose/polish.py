@@ -17,7 +17,7 @@ _STEPS = 8
 
 def polished(state: State, candidate: Candidate) -> Candidate:
     """The candidate at the shapes that explain most: variable projection, one shape at a time."""
-    smooth = [s for s in candidate.form.shapes if s.smooth and len(s.grid) > 1]
+    smooth = [s for s in candidate.form.shapes if _free(s, candidate)]
     if not smooth:
         return candidate
     start = np.array([_coded(shape, candidate.shapes[shape.name]) for shape in smooth])
@@ -25,7 +25,7 @@ def polished(state: State, candidate: Candidate) -> Candidate:
     def lost(x: np.ndarray) -> float:
         return -_explained(state, _at(candidate, smooth, np.clip(x, low, high)))
 
-    reach = np.array([_reach(shape) for shape in smooth])
+    reach = np.array([_reach(state, candidate, shape) for shape in smooth])
     low, high = _limits(state, candidate, smooth)
     if len(smooth) == 1:
         found = minimize_scalar(
@@ -45,30 +45,44 @@ def polished(state: State, candidate: Candidate) -> Candidate:
     return _at(candidate, smooth, np.clip(x, low, high)) if score < lost(start) else candidate
 
 
+def _free(shape: Shape, candidate: Candidate) -> bool:
+    """True if values beside that of the candidate make sense: orders are, if not given."""
+    if shape.scale == "waves":
+        return candidate.shapes[shape.name] not in shape.grid
+    return shape.smooth and len(shape.grid) > 1
+
+
 def _limits(
     state: State, candidate: Candidate, smooth: Sequence[Shape]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Coded limits of the shapes on the candidate's joint."""
     scale = state.scales[max(candidate.index, 0)]
+    if smooth[0].scale == "waves":
+        return np.zeros(1), np.full(1, np.inf)
     ends = [[_coded(shape, end * scale.unit(shape)) for end in shape.limits] for shape in smooth]
     return np.array([e[0] for e in ends]), np.array([e[1] for e in ends])
 
 
+_PLAIN = ("angle", "waves")
+
+
 def _coded(shape: Shape, value: float) -> float:
     """Positive shapes by their logarithm."""
-    return value if shape.scale == "angle" else float(np.log(value))
+    return value if shape.scale in _PLAIN else float(np.log(value))
 
 
-def _reach(shape: Shape) -> float:
-    """How far a value may lie from that of the grid: to the next."""
+def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
+    """How far a value may lie from that of the grid: to the next; half a wave in the stroke."""
     if shape.scale == "angle":
         return 0.3
+    if shape.scale == "waves":
+        return float(np.pi / state.scales[candidate.index].range)
     return float(np.log(shape.grid[1] / shape.grid[0]))
 
 
 def _at(candidate: Candidate, smooth: Sequence[Shape], x: np.ndarray) -> Candidate:
     values = {
-        shape.name: float(v) if shape.scale == "angle" else float(np.exp(v))
+        shape.name: float(v) if shape.scale in _PLAIN else float(np.exp(v))
         for shape, v in zip(smooth, x, strict=True)
     }
     return dataclasses.replace(candidate, shapes={**candidate.shapes, **values})

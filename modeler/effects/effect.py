@@ -34,10 +34,10 @@ class Acts(enum.Enum):
     WINDOW = "pushes on the last link for a while"
 
 
-Scale = Literal["speed", "travel", "load", "number", "angle", "seconds", "hertz"]
+Scale = Literal["speed", "travel", "load", "number", "angle", "seconds", "hertz", "waves"]
 """Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
 travel (for a prismatic joint, thirds of its range of motion); plain numbers, radians, seconds,
-hertz."""
+hertz; waves per turn, found in the order spectrum where the grid has none."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ _FREQUENCY = Shape(
 )
 _GAP = Shape("t0", "load", (0.03, 0.1), (0.0, 0.0), "load over which the gap closes")
 _ORDER = Shape(
-    "m", "number", (), (0.0, 0.0), "waves per turn of the joint (rad), or waves per 2 pi m"
+    "m", "waves", (), (0.0, 0.0), "waves per turn of the joint (rad), or waves per 2 pi m"
 )
 _RIPPLE = (("c", "cos(m*q)"), ("s", "sin(m*q)"))
 
@@ -99,9 +99,7 @@ TRANSMISSION: tuple[Effect, ...] = (
                 column("Ec", "cos(k*q)", "angle", "other"),
                 column("Es", "sin(k*q)", "angle", "other"),
                 shapes=(
-                    Shape(
-                        "k", "number", (1.0,), (0.0, 0.0), "waves per turn: 1, or the gear ratio"
-                    ),
+                    Shape("k", "waves", (1.0,), (0.0, 0.0), "waves per turn: 1, or the gear ratio"),
                 ),
             ),
         ),

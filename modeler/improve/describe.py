@@ -59,8 +59,8 @@ def _passive(text: str, joint: str) -> str:
 def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
     """The shapes of a joint's effect, and where its temperature or time is 0."""
     shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
-    fixed = {shape.name for shape in pick.form.shapes if len(shape.grid) == 1}
-    shapes = {name: value for name, value in shapes.items() if name not in fixed}
+    fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
+    shapes = {name: value for name, value in shapes.items() if fixed.get(name) != value}
     if pick.effect.id == "counterbalance" and _is_first_moment(pick, reference):
         shapes["m"] = 0.0
     if "T" in pick.form.names and pick.joint is not None:

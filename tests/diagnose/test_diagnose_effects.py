@@ -102,7 +102,7 @@ def test_a_load_since_the_fit_is_named_with_its_mass(case: Case, tmp_path: Path)
     assert diagnosis.changed
     first = diagnosis.effects[0]
     assert (first.effect, first.joint) == ("payload", None)
-    assert first.parameters["load_10"] == pytest.approx(1.2, rel=0.1)
+    assert first.parameters["mass"] == pytest.approx(1.2, rel=0.1)
 
 
 def test_a_contact_is_named_with_its_window(case: Case) -> None:

@@ -81,7 +81,7 @@ def test_ur10e_a_load_is_found_first_with_its_mass() -> None:
     model = fitted("ur10e", TRAINING)
     found = diagnose(model, ur10e("02_19_14harm50secLoad"))
     assert found.effects[0].effect == "payload"
-    assert found.effects[0].parameters["load_10"] == pytest.approx(2.805, rel=0.1)
+    assert found.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
 
 
 def test_odrive_the_orders_of_its_ripple() -> None:

@@ -1,0 +1,72 @@
+"""The parameters of an effect that was found: names, values, deviations, units."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.columns import body_parameters
+from modeler.diagnose.state import State
+from modeler.diagnose.tilt import tilt_basis
+from modeler.effects import Acts
+
+
+@dataclass(frozen=True)
+class Values:
+    """By name of the parameter: value, its standard deviation, unit; SI."""
+
+    value: dict[str, float]
+    deviation: dict[str, float]
+    unit: dict[str, str]
+
+
+def values_of(state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray) -> Values:
+    """What people read of an effect.
+
+    A body on a link has its mass and the inertial parameters that the robot feels; a tilted base
+    the change of gravity in frame 0, m/s^2.
+
+    Args:
+        state: with the effect.
+        pick: it.
+        values: of its columns.
+        deviations: theirs.
+    """
+    if pick.effect.acts is Acts.GRAVITY:
+        return _tilt(state, values, deviations)
+    units = _units(state, pick)
+    return Values(
+        dict(zip(units, map(float, values), strict=True)),
+        dict(zip(units, map(float, deviations), strict=False)),
+        units,
+    )
+
+
+def _units(state: State, pick: Candidate) -> dict[str, str]:
+    """Names of the parameters, in the order of the columns, and their units."""
+    if pick.effect.acts is Acts.LINK:
+        felt = body_parameters(pick, state.rows.signals[0])
+        names = [p.name.removesuffix(p.joint) for p in felt]
+        return {
+            "mass" if name == "M" else name: p.unit for name, p in zip(names, felt, strict=True)
+        }
+    joints = state.data.compiled.spec.joints
+    linear = any(joint.name == pick.joint and joint.unit == "m" for joint in joints)
+    return {
+        name: column.unit_prismatic if linear else column.unit_revolute
+        for name, column in zip(pick.parameter_names(), pick.form.columns, strict=True)
+    }
+
+
+def _tilt(state: State, values: np.ndarray, deviations: np.ndarray) -> Values:
+    basis = tilt_basis(state.reference)
+    assert basis is not None
+    axes = np.array([axis for axis, _ in basis[:2]])
+    change = values[:2] @ axes
+    spread = np.sqrt(deviations[:2] ** 2 @ axes**2)
+    names = ("gx", "gy", "gz")
+    return Values(
+        dict(zip(names, map(float, change), strict=True)),
+        dict(zip(names, map(float, spread), strict=True)),
+        dict.fromkeys(names, "m/s^2"),
+    )
