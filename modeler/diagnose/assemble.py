@@ -28,9 +28,11 @@ FELT = 0.005
 LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
 
-
 TOUCHED = 0.1
 """Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
+
+SMALLER = 0.4
+"""Torque of an effect over that of the same effect beside it, below which it only mends that."""
 
 
 def assembled(
@@ -146,12 +148,20 @@ def _same(judged: Judged, found: Search) -> list[Key]:
 
 
 def _refines(found: Search, step: Step) -> bool:
-    """True if an effect of the same family on the same joint was named before."""
+    """True if an effect of the same family on the same joint was named before.
+
+    What moves the links is felt next to its joint too: there the same effect, far smaller, mends
+    the form of the one before.
+    """
     for earlier in found.steps:
         if earlier is step:
             return False
-        same = earlier.pick.joint == step.pick.joint
-        if same and earlier.pick.effect.family == step.pick.effect.family:
+        first, later = earlier.pick, step.pick
+        if first.joint == later.joint and first.effect.family == later.effect.family:
+            return True
+        moves = first.effect is later.effect and first.effect.acts is Acts.POSITION
+        near = abs(first.index - later.index) <= 1
+        if moves and near and step.judged.felt < SMALLER * earlier.judged.felt:
             return True
     return False
 
