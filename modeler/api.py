@@ -129,6 +129,6 @@ def diagnose(
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled = recompile(model)
-    return find_missing(
-        model, compiled, read_logs(compiled, logs), read_logs(compiled, holdout), without
-    )
+    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
+    given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    return find_missing(model, compiled, given, kept, without, catalogue=catalogue)
