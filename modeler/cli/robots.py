@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from modeler.cli.console import Json, say
 from modeler.cli.signature import signature_lines
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE, Effect, Shape, effect_named
+from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
 from modeler.robot.edit import with_effects
 from modeler.robot.place import near
@@ -131,17 +131,10 @@ def _facts(effect: Effect) -> dict[str, str | list[str]]:
         "equation": effect.equation,
         "parameters": [column.prefix for column in effect.columns],
         "unit": [column.unit_revolute for column in effect.columns],
-        "shapes": [f"{s.name}: {_meaning(s)}" for f in effect.forms for s in f.free],
+        "shapes": [f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free],
         "same_as": list(effect.same_as),
         "signature": effect.signature,
         "look_alikes": effect.look_alikes,
         "range": effect.range,
         "source": effect.source,
     }
-
-
-def _meaning(shape: Shape) -> str:
-    """In words; of a shape that a robot file defines, what it says."""
-    if shape.scale != "own":
-        return shape.meaning
-    return f"{shape.meaning}; first tried at {' '.join(f'{value:g}' for value in shape.grid)}"

@@ -70,7 +70,7 @@ def _effect(name: str, catalogue: Sequence[Effect], place: Place) -> Effect:
         names = [known for e in written for known in (e.id, *e.aliases)]
         raise place.error(
             f"there is no effect {shown(name)}{near(name, names)}; expected one of "
-            f"{listed(e.id for e in written)}"
+            f"{listed(e.id for e in written)}, or one that a table [own_effects.{name}] defines"
         )
     if not effect.written:
         raise place.error(

@@ -83,7 +83,7 @@ def _effect(name: str, table: Mapping[str, Any], known: Sequence[Effect], place:
     form = Form(columns, shapes, _memory(columns, shapes, place))
     _check_form(form, acts, place)
     names = [_PLAIN[variable] for variable in _PLAIN if variable in form.names]
-    quantities = " and ".join(names) or "nothing: a constant"
+    quantities = " and ".join(dict.fromkeys(names)) or "time"
     return Effect(
         id=name,
         aliases=(),
@@ -93,8 +93,8 @@ def _effect(name: str, table: Mapping[str, Any], known: Sequence[Effect], place:
         acts=acts,
         family=name,
         signature=f"residual against {quantities}: the curve of its equation",
-        look_alikes="whatever has nearly the same curve on the motion of the logs; move so that "
-        f"the curve differs: {quantities}",
+        look_alikes="whatever has nearly the same curve on the motion of the logs; log more of the "
+        f"range of {quantities}",
         range="parameters not negative" if columns[0].nonnegative else "either sign",
         source="the robot file",
         timing="a" in form.names,
@@ -131,7 +131,8 @@ def _shapes(value: Any, place: Place) -> tuple[Shape, ...]:
             raise here.error("got an empty list; expected values to try first, as in [0.1, 0.3]")
         if len(set(grid)) < len(grid):
             raise here.error(f"got {shown(cell)}; a value stands there twice, name it once")
-        shapes.append(Shape(name, "own", tuple(grid), _limits(grid), "see the equation"))
+        meaning = f"first tried at {' '.join(f'{entry:g}' for entry in grid)}"
+        shapes.append(Shape(name, "own", tuple(grid), _limits(grid), meaning))
     check_combinations(shapes, place)
     return tuple(shapes)
 
