@@ -26,19 +26,18 @@ has changed since the fit."""
 
 
 def diagnose(
-    model: IdentifiedModel,
-    compiled: "CompiledModel",
-    logs: Sequence[Log],
+    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
     holdout: Sequence[Log] = (),
     without: Sequence[str] = (),
     most: int = MOST,
     progress: Callable[[float], None] | None = None,
     catalogue: Sequence[Effect] = CATALOGUE,
-) -> Diagnosis:
+) -> Diagnosis:  # fmt: skip
     """The effects that the model lacks on these logs, with what they would gain.
 
     Args:
-        model, compiled: fitted, and its robot.
+        model: fitted.
+        compiled: its robot.
         logs: to explain.
         holdout: other motion, from which the errors come: it never chooses an effect, but vetoes.
         without: ids of effects, or id@joint, that the user rules out.
