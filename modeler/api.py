@@ -15,6 +15,7 @@ Each step is a function of the stage of that name; use the stages directly for m
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from modeler.compare import Comparison
 from modeler.compare import compare as compare_prediction
@@ -34,7 +35,27 @@ from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.window import window
-from modeler.robot import robot_from_text
+from modeler.robot import Robot, robot_from_text
+from modeler.robot.edit import with_own_effect
+
+
+def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
+    """The robot with the definition of an effect that the catalogue lacks.
+
+        own_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
+
+    `diagnose` then tries it, and `modeler add` can add it: the definition stands in the robot
+    file that the model keeps.
+
+    Args:
+        robot: as it is.
+        name: id of the effect.
+        definition: title, columns, shapes, unit, nonnegative, acts; see docs/robot-file.md.
+
+    Raises:
+        RobotError: a mistake in the definition, or an id that the robot has already.
+    """
+    return robot_from_text(with_own_effect(robot.text, name, definition), robot.name)
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
@@ -129,6 +150,6 @@ def diagnose(
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled = recompile(model)
-    return find_missing(
-        model, compiled, read_logs(compiled, logs), read_logs(compiled, holdout), without
-    )
+    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
+    given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    return find_missing(model, compiled, given, kept, without, catalogue=catalogue)

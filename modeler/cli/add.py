@@ -10,6 +10,7 @@ from modeler.core.files import write_atomically
 from modeler.diagnose import diagnose, write_additions
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, undone
+from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -50,7 +51,8 @@ def run_add(args: argparse.Namespace) -> Json:
         if args.effect == "undo":
             better = undone(model, logs)
         elif args.effect == "auto":
-            found = diagnose(model, compiled, logs.fitted, logs.held_out)
+            catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
+            found = diagnose(model, compiled, logs.fitted, logs.held_out, catalogue=catalogue)
             better = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
             if better is model:
                 raise DataError("auto: nothing that can be added is missing in this model")

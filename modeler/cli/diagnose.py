@@ -8,10 +8,11 @@ from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, diagnose, write_diagnosis
-from modeler.effects import CATALOGUE, effect_named
+from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.observation import Log
 from modeler.observation.log import shared_rows
+from modeler.robot import robot_from_text
 
 
 def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -44,15 +45,18 @@ def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
-    _check_effects(args.without)
     model = load_model(args.model)
+    catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
+    _check_effects(args.without, catalogue)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
         logs = read_logs(compiled, args.logs)
         holdout = read_logs(compiled, args.holdout)
     _check_apart(logs, holdout)
     with progress("looking for missing effects") as bar:
-        diagnosis = diagnose(model, compiled, logs, holdout, args.without, progress=bar)
+        diagnosis = diagnose(
+            model, compiled, logs, holdout, args.without, progress=bar, catalogue=catalogue
+        )
     for line in lines(diagnosis):
         say(line)
     if args.report is not None:
@@ -86,10 +90,10 @@ def lines(diagnosis: Diagnosis) -> list[str]:
     return found
 
 
-def _check_effects(given: Sequence[str]) -> None:
-    known = [effect.id for effect in CATALOGUE]
+def _check_effects(given: Sequence[str], catalogue: Sequence[Effect]) -> None:
+    known = [effect.id for effect in catalogue]
     for text in given:
-        if effect_named(text.partition("@")[0]) is None:
+        if effect_named(text.partition("@")[0], catalogue) is None:
             raise DataError(f"--without {text}: no such effect; expected one of {', '.join(known)}")
 
 

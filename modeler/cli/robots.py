@@ -1,6 +1,7 @@
 """Reading ROBOT as every command does, and `modeler robots`, `modeler effects`."""
 
 import argparse
+from collections.abc import Sequence
 
 from modeler.cli.console import Json, say
 from modeler.cli.signature import signature_lines
@@ -9,8 +10,6 @@ from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
 from modeler.robot.edit import with_effects
 from modeler.robot.place import near
-
-_NAMES = tuple(effect.id for effect in CATALOGUE)
 
 
 def add_robot(parser: argparse.ArgumentParser) -> None:
@@ -31,11 +30,12 @@ def robot_of(args: argparse.Namespace) -> Robot:
     if args.effects is None:
         return robot
     wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
-    unknown = [name for name in wanted if effect_named(name) is None]
+    names = [effect.id for effect in robot.catalogue]
+    unknown = [name for name in wanted if effect_named(name, robot.catalogue) is None]
     if unknown:
         raise RobotError(
-            f"--effects: got {unknown[0]}{near(unknown[0], _NAMES)}; expected some of "
-            f"{', '.join(_NAMES)}, with commas between"
+            f"--effects: got {unknown[0]}{near(unknown[0], names)}; expected some of "
+            f"{', '.join(names)}, with commas between"
         )
     text = with_effects(robot.text, dict.fromkeys(wanted, "all"))
     return robot_from_text(text, f"{args.robot} with --effects")
@@ -88,13 +88,17 @@ def add_effects(commands: "argparse._SubParsersAction[argparse.ArgumentParser]")
         epilog="example: modeler effects coulomb",
     )
     parser.add_argument("effect", metavar="EFFECT", nargs="?", help="one effect, in full")
+    parser.add_argument(
+        "--robot", metavar="ROBOT", help="with the effects that this robot file defines"
+    )
     parser.add_argument("--json", metavar="FILE", help="write the catalogue for machines")
     parser.set_defaults(run=run_effects)
 
 
 def run_effects(args: argparse.Namespace) -> Json:
     """Prints the catalogue, or one page of it."""
-    chosen = CATALOGUE if args.effect is None else (_effect(args.effect),)
+    known = CATALOGUE if args.robot is None else read_robot(args.robot).catalogue
+    chosen = known if args.effect is None else (_effect(args.effect, known),)
     facts = [_facts(effect) for effect in chosen]
     for fact in facts:
         say(f"{fact['id']:<22} {fact['equation']}")
@@ -108,11 +112,13 @@ def run_effects(args: argparse.Namespace) -> Json:
     return facts
 
 
-def _effect(name: str) -> Effect:
-    effect = effect_named(name)
+def _effect(name: str, known: Sequence[Effect]) -> Effect:
+    effect = effect_named(name, known)
     if effect is None:
+        names = [each.id for each in known]
         raise RobotError(
-            f"effects: got {name}{near(name, _NAMES)}; expected one of {', '.join(_NAMES)}"
+            f"effects: got {name}{near(name, names)}; expected one of {', '.join(names)}, or one "
+            "that the file of --robot defines"
         )
     return effect
 

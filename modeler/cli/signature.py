@@ -53,5 +53,6 @@ def _torque(form: Form, axis: str, x: np.ndarray) -> np.ndarray:
     else:
         values[axis] = x
     column = form.columns[-1] if axis == "q" else form.columns[0]
-    result = column.equation.fold(values, _FUNCTIONS, np.pi, float)
-    return np.asarray(result * np.ones_like(x))
+    with np.errstate(all="ignore"):
+        result = column.equation.fold(values, _FUNCTIONS, np.pi, float)
+    return np.nan_to_num(result * np.ones_like(x), posinf=0.0, neginf=0.0)

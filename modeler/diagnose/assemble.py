@@ -307,5 +307,5 @@ def _blind(found: Search) -> tuple[Key, ...]:
         hidden.append(("payload", None))
     named = {step.pick.key for step in found.steps}
     kept = [key for key in dict.fromkeys(hidden) if key not in named]
-    assert all(effect_named(name) is not None for name, _ in kept)
+    assert all(effect_named(name, found.start.data.catalogue) is not None for name, _ in kept)
     return tuple(kept)

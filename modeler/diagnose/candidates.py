@@ -1,4 +1,4 @@
-"""What could be missing: every effect of the catalogue on every joint, over its grid of shapes."""
+"""What could be missing: every effect on every joint, over its grid of shapes."""
 
 import itertools
 from collections.abc import Iterator, Mapping, Sequence, Set
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.contract import ModuleSpec
-from modeler.effects import CATALOGUE, Acts, Effect, Form, Shape
+from modeler.effects import CATALOGUE, RIPPLES, Acts, Effect, Form, Shape
 
 
 @dataclass(frozen=True)
@@ -76,6 +76,7 @@ def candidates(
     scales: Sequence[JointScale],
     has_temperature: Mapping[str, bool],
     present: Set[tuple[str, str]],
+    catalogue: Sequence[Effect] = CATALOGUE,
 ) -> list[Candidate]:
     """All that can be written as columns from the catalogue alone.
 
@@ -86,14 +87,16 @@ def candidates(
         scales: of its joints.
         has_temperature: by joint.
         present: effect and joint of what the model has already.
+        catalogue: the effects there are.
     """
     found: list[Candidate] = []
-    for effect in distinct():
+    for effect in distinct(catalogue):
         if effect.acts in (Acts.JOINT, Acts.POSITION):
             for j, joint in enumerate(spec.joints):
                 if (effect.id, joint.name) not in present and joint.actuated:
                     form = _form(effect, has_temperature.get(joint.name, False))
-                    found += _over_grid(effect, form, joint.name, j, scales[j])
+                    if form is not None:
+                        found += _over_grid(effect, form, joint.name, j, scales[j])
         elif effect.acts in (Acts.TORQUE, Acts.GRAVITY):
             found.append(Candidate(effect, effect.forms[0], None, -1))
         elif effect.acts is Acts.MOTOR:
@@ -103,23 +106,18 @@ def candidates(
     return found
 
 
-def distinct() -> list[Effect]:
+def distinct(catalogue: Sequence[Effect]) -> list[Effect]:
     """The catalogue, one of every class that no data tell apart."""
     found: list[Effect] = []
-    for effect in CATALOGUE:
-        if not any(other.id in effect.same_as for other in found) and effect.id not in _RIPPLES:
+    for effect in catalogue:
+        if not any(other.id in effect.same_as for other in found) and effect.id not in RIPPLES:
             found.append(effect)
     return found
 
 
-_RIPPLES = ("motor_ripple", "joint_ripple")  # their orders come from the spectrum
-
-
-def _form(effect: Effect, has_temperature: bool) -> Form:
-    """The usual form, unless it needs a temperature that was not logged."""
-    if "T" in effect.forms[0].names and not has_temperature:
-        return effect.forms[1]
-    return effect.forms[0]
+def _form(effect: Effect, has_temperature: bool) -> Form | None:
+    """The first form that needs no temperature, unless one was logged; None if there is none."""
+    return next((f for f in effect.forms if has_temperature or "T" not in f.names), None)
 
 
 def _over_grid(

@@ -34,12 +34,13 @@ def own_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
     if memory is not None:
         values["z"] = _state(memory, candidate, signals)
     ones = np.ones(len(signals.q))
-    return np.column_stack(
-        [
-            ones * column.equation.fold(values, FUNCTIONS, np.pi, float)
-            for column in candidate.form.columns
-        ]
-    )
+    with np.errstate(all="ignore"):  # columns that are not finite are not looked at
+        return np.column_stack(
+            [
+                ones * column.equation.fold(values, FUNCTIONS, np.pi, float)
+                for column in candidate.form.columns
+            ]
+        )
 
 
 def _state(memory: Memory, candidate: Candidate, signals: Signals) -> np.ndarray:

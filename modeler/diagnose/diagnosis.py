@@ -13,6 +13,7 @@ from modeler.diagnose.errors import vetoing
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.search import MOST, search
 from modeler.diagnose.state import Data, state_of
+from modeler.effects import CATALOGUE, Effect
 from modeler.fit import IdentifiedModel
 from modeler.observation import Log, Observation
 
@@ -25,40 +26,40 @@ has changed since the fit."""
 
 
 def diagnose(
-    model: IdentifiedModel,
-    compiled: "CompiledModel",
-    logs: Sequence[Log],
+    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
     holdout: Sequence[Log] = (),
     without: Sequence[str] = (),
     most: int = MOST,
     progress: Callable[[float], None] | None = None,
-) -> Diagnosis:
+    catalogue: Sequence[Effect] = CATALOGUE,
+) -> Diagnosis:  # fmt: skip
     """The effects that the model lacks on these logs, with what they would gain.
 
     Args:
         model: fitted.
         compiled: its robot.
         logs: to explain.
-        holdout: other motion, from which the errors come; it never chooses an effect, but effects
-            that raise the error there are not named.
+        holdout: other motion, from which the errors come: it never chooses an effect, but vetoes.
         without: ids of effects, or id@joint, that the user rules out.
         most: effects to name at most.
         progress: called with a share between 0 and 1.
+        catalogue: the effects to try; for those of a robot file too, `Robot.catalogue`.
 
     Raises:
         DataError: no usable row.
     """
     observation = analysed(compiled, logs, model.processing)
-    data = Data(compiled, observation, kept_parameters(model, compiled, logs, observation))
+    kept = kept_parameters(model, compiled, logs, observation)
+    data = Data(compiled, observation, kept, catalogue)
     other = None
     if holdout:
         seen = analysed(compiled, holdout, observation.report.processing, chosen=True)
-        other = Data(compiled, seen, data.kept)
+        other = dataclasses.replace(data, observation=seen)
     veto = vetoing(other) if other is not None else None
     found = search(data, model.beta, without, most, veto, progress)
     window = contact_window(found.end)
     if window is not None and "external_force" not in without:
-        data = Data(compiled, _masked(observation, window), data.kept)
+        data = dataclasses.replace(data, observation=_masked(observation, window))
         found = search(data, model.beta, without, most, veto, progress)
     if progress is not None:
         progress(1.0)

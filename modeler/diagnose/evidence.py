@@ -18,6 +18,7 @@ from modeler.compare.picture import (
 from modeler.diagnose.orders import order_spectrum
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.state import State, columns_of
+from modeler.effects import RIPPLES
 
 _BINS = 40
 _DOTS = 1500
@@ -48,7 +49,7 @@ def evidence_picture(found: Search, step: Step) -> Picture:
         Panel(before.title, before.x_label, before.y_label, (*before.series, drawn), zero=True),
         after,
     ]
-    if pick.effect.id.endswith("ripple"):
+    if pick.effect.id in RIPPLES:
         panels.append(_orders(state, step, j, unit))
     name = f"joint {pick.joint}" if pick.joint is not None else "the whole robot"
     return Picture(

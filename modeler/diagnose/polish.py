@@ -63,12 +63,13 @@ def _limits(
     return np.array([e[0] for e in ends]), np.array([e[1] for e in ends])
 
 
-_PLAIN = ("angle", "waves")
-
-
 def _coded(shape: Shape, value: float) -> float:
     """Positive shapes by their logarithm."""
-    return value if shape.scale in _PLAIN else float(np.log(value))
+    return float(np.log(value)) if shape.limits[0] > 0.0 else value
+
+
+def _decoded(shape: Shape, x: float) -> float:
+    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
 
 
 def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
@@ -77,14 +78,12 @@ def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
         return 0.3
     if shape.scale == "waves":
         return float(np.pi / state.scales[candidate.index].range)
-    return float(np.log(shape.grid[1] / shape.grid[0]))
+    gaps = np.diff([_coded(shape, value) for value in shape.grid])
+    return float(gaps.max() if shape.scale == "own" else gaps[0])
 
 
 def _at(candidate: Candidate, smooth: Sequence[Shape], x: np.ndarray) -> Candidate:
-    values = {
-        shape.name: float(v) if shape.scale in _PLAIN else float(np.exp(v))
-        for shape, v in zip(smooth, x, strict=True)
-    }
+    values = {shape.name: _decoded(shape, v) for shape, v in zip(smooth, x, strict=True)}
     return dataclasses.replace(candidate, shapes={**candidate.shapes, **values})
 
 

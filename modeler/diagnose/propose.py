@@ -1,11 +1,11 @@
-"""All candidates of a state: those of the catalogue's grids, and those that the data suggest."""
+"""All candidates of a state: those of the effects' grids, and those that the data suggest."""
 
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate, candidates
 from modeler.diagnose.orders import ripple_candidates
 from modeler.diagnose.state import State
-from modeler.effects import effect_named
+from modeler.effects import RIPPLES, effect_named
 
 
 def proposals(state: State) -> list[Candidate]:
@@ -14,18 +14,18 @@ def proposals(state: State) -> list[Candidate]:
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
-    found = candidates(spec, state.scales, temperature, present)
+    found = candidates(spec, state.scales, temperature, present, state.data.catalogue)
     found = [c for c in found if _lasts(state, c)]
     found += ripple_candidates(state)
     if changed:
         found += load_candidates(state)
-    taken = {pick.key for pick in state.picks if not pick.effect.id.endswith("ripple")}
+    taken = {pick.key for pick in state.picks if pick.effect.id not in RIPPLES}
     return [candidate for candidate in found if candidate.key not in taken]
 
 
 def _lasts(state: State, candidate: Candidate) -> bool:
     """False for a warm-up much faster or slower than the logs can show."""
-    if "tau" not in candidate.shapes:
+    if candidate.effect.id != "temperature_friction" or "tau" not in candidate.shapes:
         return True
     span = float(np.ptp(state.data.observation.time))
     return 0.1 * span <= candidate.shapes["tau"] <= 3.0 * span

@@ -113,7 +113,7 @@ def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
     if not diagnosis.effects:
         return diagnosis.verdict, ""
     first = diagnosis.effects[0]
-    effect = effect_named(first.effect)
+    effect = effect_named(first.effect, diagnosis.search.start.data.catalogue)
     assert effect is not None
     size = f"{percent(first.error_before)} \u2192 {percent(first.error_after)}"
     return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}"
@@ -210,7 +210,7 @@ def _joints(diagnosis: Diagnosis) -> str:
 def _blind(diagnosis: Diagnosis) -> str:
     lines = []
     for effect_id, joint in diagnosis.blind_spots:
-        effect = effect_named(effect_id)
+        effect = effect_named(effect_id, diagnosis.search.start.data.catalogue)
         assert effect is not None
         lines.append(
             f"<li>{html.escape(_name(effect_id, joint))}: {html.escape(effect.look_alikes)}</li>"

@@ -10,6 +10,7 @@ from modeler.diagnose.judge import Judged, Judgement, alternatives, judge
 from modeler.diagnose.polish import polished
 from modeler.diagnose.propose import proposals
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.effects import RIPPLES
 
 MOST = 8
 """Effects named in one diagnosis."""
@@ -133,7 +134,7 @@ def judged_state(
 
 
 def _ripples(candidate: Candidate) -> bool:
-    return candidate.effect.id.endswith("ripple")
+    return candidate.effect.id in RIPPLES
 
 
 def _ruled_out(candidate: Candidate, without: Sequence[str]) -> bool:

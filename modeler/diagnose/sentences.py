@@ -63,11 +63,11 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
 def _headline(diagnosis: Diagnosis) -> str:
     first = diagnosis.effects[0] if diagnosis.effects else None
     if diagnosis.verdict == "missing" and first is not None:
-        return f"missing: {_named(first)}"
+        return f"missing: {_named(first, diagnosis)}"
     if diagnosis.verdict == "closest description" and first is not None:
         return (
-            f"closest description: {_named(first)}; it explains only part of what is systematic, "
-            "so the cause may be outside the catalogue"
+            f"closest description: {_named(first, diagnosis)}; it explains only part of what is "
+            "systematic, so the cause may be outside the catalogue"
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"
@@ -76,8 +76,8 @@ def _headline(diagnosis: Diagnosis) -> str:
     return "nothing significant: no effect of the catalogue would lower the error by more than 3 %"
 
 
-def _named(finding: Finding) -> str:
-    effect = effect_named(finding.effect)
+def _named(finding: Finding, diagnosis: Diagnosis) -> str:
+    effect = effect_named(finding.effect, diagnosis.search.start.data.catalogue)
     assert effect is not None
     return f"{effect.title} ({finding.effect}), {where(finding.joint)}"
 

@@ -14,6 +14,7 @@ from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
 from modeler.diagnose.rank import Ranking, rank
 from modeler.diagnose.rows import Columns, Rows, rows_of
 from modeler.diagnose.signals import Reference
+from modeler.effects import CATALOGUE, Effect
 from modeler.observation import Observation
 
 if TYPE_CHECKING:
@@ -28,11 +29,13 @@ class Data:
         compiled: the robot.
         observation: of the training logs, in the band of the analysis.
         kept: (c,) base parameters that are not fitted again; None: they are.
+        catalogue: the effects that may be missing.
     """
 
     compiled: "CompiledModel"
     observation: Observation
     kept: np.ndarray | None = None
+    catalogue: Sequence[Effect] = CATALOGUE
 
     @cached_property
     def blocks(self) -> Blocks:

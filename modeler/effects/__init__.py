@@ -1,7 +1,9 @@
 """The catalogue of physical effects, each defined once."""
 
 from modeler.effects.catalogue import CATALOGUE as CATALOGUE
+from modeler.effects.catalogue import RIPPLES as RIPPLES
 from modeler.effects.catalogue import effect_named as effect_named
+from modeler.effects.effect import VARIABLES as VARIABLES
 from modeler.effects.effect import Acts as Acts
 from modeler.effects.effect import Effect as Effect
 from modeler.effects.effect import EffectColumn as EffectColumn

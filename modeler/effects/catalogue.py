@@ -1,5 +1,7 @@
 """The effects, in the order in which their parameters stand after the link's own."""
 
+from collections.abc import Sequence
+
 from modeler.effects.bodies import BODIES
 from modeler.effects.effect import Effect
 from modeler.effects.friction import FRICTION
@@ -9,6 +11,15 @@ from modeler.effects.transmission import TRANSMISSION
 CATALOGUE: tuple[Effect, ...] = (*STANDARD, *FRICTION, *BODIES, *TRANSMISSION)
 
 
-def effect_named(name: str) -> Effect | None:
-    """The effect with that id or alias; None if there is none."""
-    return next((e for e in CATALOGUE if name == e.id or name in e.aliases), None)
+RIPPLES = ("motor_ripple", "joint_ripple")
+"""Ids of effects that a joint may have several times: their orders come from the spectrum."""
+
+
+def effect_named(name: str, among: Sequence[Effect] = CATALOGUE) -> Effect | None:
+    """The effect with that id or alias; None if there is none.
+
+    Args:
+        name: as in robot files.
+        among: the catalogue, or that of a robot with effects of its own (`Robot.catalogue`).
+    """
+    return next((e for e in among if name == e.id or name in e.aliases), None)

@@ -34,10 +34,11 @@ class Acts(enum.Enum):
     WINDOW = "pushes on the last link for a while"
 
 
-Scale = Literal["speed", "travel", "load", "number", "angle", "seconds", "hertz", "waves"]
+Scale = Literal["speed", "travel", "load", "number", "angle", "seconds", "hertz", "waves", "own"]
 """Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
 travel (for a prismatic joint, thirds of its range of motion); plain numbers, radians, seconds,
-hertz; waves per turn, found in the order spectrum where the grid has none."""
+hertz; waves per turn, found in the order spectrum where the grid has none; what a robot file gives
+for an effect of its own, SI."""
 
 
 @dataclass(frozen=True)
@@ -153,8 +154,8 @@ class Effect:
         equation: for people.
         forms: how it may be written; the first is the usual one.
         acts: on what.
-        family: friction | load | transmission | measurement | inertia: leftovers of one family on
-            one joint refine each other.
+        family: friction | load | transmission | measurement | inertia, or the id of an effect of a
+            robot file: leftovers of one family on one joint refine each other.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         look_alikes: what it is mistaken for, and which motion tells them apart.

@@ -18,7 +18,7 @@ from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import judged_state
 from modeler.diagnose.state import Data, State, state_of
-from modeler.effects import Acts, Effect, effect_named
+from modeler.effects import CATALOGUE, RIPPLES, Acts, Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
 from modeler.improve.describe import described
 from modeler.observation import Log, Processing, observe
@@ -56,14 +56,18 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = effect_named(name)
+    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
+    effect = effect_named(name, catalogue)
     if effect is None:
-        raise DataError(f"{name}: no such effect; `modeler effects` lists them")
+        raise DataError(
+            f"{name}: no such effect; `modeler effects` lists them, and this robot file defines "
+            f"{', '.join(e.id for e in catalogue[len(CATALOGUE) :]) or 'none of its own'}"
+        )
     observation = analysed(compiled, logs.fitted, model.processing)
     kept = kept_parameters(model, compiled, logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
-    state = state_of(Data(compiled, observation, kept), (), model.beta)
+    state = state_of(Data(compiled, observation, kept, catalogue), (), model.beta)
     best = _best(model, state, effect, joint)
     return _added(model, compiled, state, best.candidate, best.values, logs)
 
@@ -101,7 +105,7 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
 def _best(model: IdentifiedModel, state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
     present = {(p.effect, p.joint) for p in model.spec.standard}
-    repeats = effect.id.endswith("ripple")
+    repeats = effect.id in RIPPLES
     if joint is not None and (effect.id, joint) in present and not repeats:
         raise DataError(f"{effect.id}: joint {joint} has it in this model already")
     names = [item.name for item in model.spec.joints]

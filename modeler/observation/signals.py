@@ -29,6 +29,6 @@ def _signal(signal: SignalSpec, segment: Segment, names: list[str]) -> np.ndarra
         if name in segment.extra:
             return segment.extra[name]
     raise DataError(
-        f"no column temperature{signal.joint} or temperature: the model's friction of joint "
-        f"{signal.joint} depends on it; log it, or take temperature_friction out of the model"
+        f"no column temperature{signal.joint} or temperature: an effect of the model on joint "
+        f"{signal.joint} depends on it; log it, or take that effect out of the robot file"
     )

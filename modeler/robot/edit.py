@@ -1,11 +1,15 @@
 """Changing the effects of a robot file, and nothing else in it."""
 
+import json
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE, effect_named
+from modeler.effects import CATALOGUE, Effect, effect_named
+from modeler.robot.own_effects import read_own_effects
+from modeler.robot.place import Place
 from modeler.robot.robot import INERTIAL
 
 Effects = Mapping[str, str | list]
@@ -28,11 +32,11 @@ def with_effect(
         RobotError: see `with_effects`.
     """
     effects: dict[str, str | list] = dict(tomllib.loads(text).get("effects", {}))
-    known = effect_named(effect)
+    known = effect_named(effect, _catalogue(text))
     assert known is not None
-    name = next((n for n in effects if effect_named(n) is known), effect)
+    ids = (known.id, *known.aliases)
+    name = next((n for n in effects if n in ids), effect)
     before = effects.get(name, [])
-    shaped = any(form.free for form in known.forms) and bool(shapes)
     entry = {"joint": joint, **{k: float(f"{v:.6g}") for k, v in shapes.items()}}
     if before == "all" and joint not in everyone and everyone:
         before = list(everyone)
@@ -40,8 +44,33 @@ def with_effect(
         raise RobotError(f"[effects], {effect}: every joint has it already")
     if joint in before:
         raise RobotError(f"[effects], {effect}: joint {joint} has it already")
-    effects[name] = [*before, entry if shaped else joint]
+    if shapes:  # tables and names do not mix
+        before = [{"joint": b} if isinstance(b, str) else b for b in before]
+    effects[name] = [*before, entry if shapes else joint]
     return with_effects(text, effects)
+
+
+def with_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
+    """The robot file with the definition of one effect more.
+
+    Args:
+        text: of the file.
+        name: id of the effect.
+        definition: its table, as in [own_effects.<id>].
+
+    Raises:
+        RobotError: the file defines it already.
+    """
+    if name in tomllib.loads(text).get("own_effects", {}):
+        raise RobotError(f"[own_effects.{name}]: the robot has it already; choose another name")
+    lines = [f"{_toml_key(key)} = {_toml(value)}" for key, value in definition.items()]
+    return "\n".join([text.rstrip("\n"), "", f"[own_effects.{_toml_key(name)}]", *lines]) + "\n"
+
+
+def _catalogue(text: str) -> tuple[Effect, ...]:
+    """The effects that the robot of the file may have."""
+    own = tomllib.loads(text).get("own_effects", {})
+    return (*CATALOGUE, *read_own_effects(own, Place("robot file")))
 
 
 def with_reference(text: str, values: Mapping[str, float]) -> str:
@@ -94,16 +123,17 @@ def with_effects(text: str, effects: Effects) -> str:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     kept, table = [], ""
+    catalogue = _catalogue(text)
     for line in text.splitlines():
         if line.startswith("["):
             table = line.split("#")[0].strip()
-        gone = table == "[parameters]" and not _belongs(_key(line), effects)
+        gone = table == "[parameters]" and not _belongs(_key(line), effects, catalogue)
         if table != "[effects]" and not gone:
             kept.append(line)
     lines = ["[effects]", *(f"{name} = {_toml(joints)}" for name, joints in effects.items())]
     changed = "\n".join([*kept, "", *lines]) + "\n"
     try:
-        same = _others(text, effects) == _others(changed, effects)
+        same = _others(text, effects, catalogue) == _others(changed, effects, catalogue)
     except tomllib.TOMLDecodeError:
         same = False
     if not same:
@@ -114,12 +144,13 @@ def with_effects(text: str, effects: Effects) -> str:
     return changed
 
 
-def _others(text: str, effects: Effects) -> dict:
+def _others(text: str, effects: Effects, catalogue: Sequence[Effect]) -> dict:
     """What the file says but for its effects and the values of effects that are gone."""
     document = tomllib.loads(text)
     document.pop("effects", None)
     values = document.get("parameters", {})
-    return document | {"parameters": {n: v for n, v in values.items() if _belongs(n, effects)}}
+    kept = {n: v for n, v in values.items() if _belongs(n, effects, catalogue)}
+    return document | {"parameters": kept}
 
 
 def _key(line: str) -> str:
@@ -128,15 +159,15 @@ def _key(line: str) -> str:
     return found[1] if found else ""
 
 
-def _belongs(parameter: str, effects: Effects) -> bool:
+def _belongs(parameter: str, effects: Effects, catalogue: Sequence[Effect]) -> bool:
     """True if the parameter is a link's, or one of these effects'; the longest prefix tells."""
-    owners = {c.prefix: e.id for e in CATALOGUE for form in e.forms for c in form.columns}
+    owners = {c.prefix: e.id for e in catalogue for form in e.forms for c in form.columns}
     prefixes = [p for p in (*INERTIAL, *owners) if parameter.startswith(p)]
     prefix = max(prefixes, key=len, default="")
     if prefix not in owners:
         return True
     for name, joints in effects.items():
-        effect = effect_named(name)
+        effect = effect_named(name, catalogue)
         if effect is not None and effect.id == owners[prefix]:
             return joints == "all" or any(
                 parameter[len(prefix) :] == (entry["joint"] if isinstance(entry, dict) else entry)
@@ -147,9 +178,19 @@ def _belongs(parameter: str, effects: Effects) -> bool:
 
 def _toml(value: object) -> str:
     if isinstance(value, str):
-        return f'"{value}"'
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, bool):
+        return str(value).lower()
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + "}"
+        return (
+            "{"
+            + ", ".join(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in value.items())
+            + "}"
+        )
     if isinstance(value, list):
         return "[" + ", ".join(_toml(entry) for entry in value) + "]"
     return repr(value)
+
+
+def _toml_key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)

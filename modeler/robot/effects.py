@@ -1,10 +1,11 @@
 """The table [effects] of a robot file: which joint has which effect, and of what shape."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
+from modeler.effects import Acts, Effect, Form, effect_named
 from modeler.robot.cells import plain_number, table_at
+from modeler.robot.finite import check_finite
 from modeler.robot.joint import Joint
 from modeler.robot.place import Place, listed, near, shown
 from modeler.robot.robot import EffectInstance, EffectUse
@@ -15,7 +16,11 @@ _ZERO = {"t": "t0", "T": "T0"}
 
 
 def read_effects(
-    value: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+    value: Any,
+    moving: Mapping[str, Joint],
+    coupling: Coupling,
+    catalogue: Sequence[Effect],
+    place: Place,
 ) -> tuple[EffectUse, ...]:
     """Effects and their joints, in catalogue order.
 
@@ -23,12 +28,19 @@ def read_effects(
     motors; passive joints have an effect only if they are named. Effects with shape parameters
     stand as a list of tables: stribeck = [{joint = "2", vs = 0.1, d = 1}].
 
+    Args:
+        value: the table.
+        moving: the joints by name.
+        coupling: motors that turn with several of them.
+        catalogue: the effects there are, those of the file included.
+        place: of the table.
+
     Raises:
         RobotError: unknown effects, joints or shapes.
     """
     uses: dict[str, EffectUse] = {}
     for name, cell in table_at(value, place, '[effects] viscous = "all"').items():
-        effect = _effect(name, place)
+        effect = _effect(name, catalogue, place)
         if effect.id in uses:
             raise place.error(
                 f"{shown(name)} is {effect.id}, which stands there already; keep one of them"
@@ -40,30 +52,25 @@ def read_effects(
         elif effect.forms[0].free:
             raise here.error(f"got {shown(cell)}; expected its shapes, as in {_example(effect)}")
         else:
-            joints = _joints(effect, cell, moving, coupling, here)
-            fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
-            shaped = tuple(EffectInstance(name, 0, fixed) for name in joints) if fixed else ()
-            uses[effect.id] = EffectUse(effect.id, joints, shaped)
-    return tuple(uses[e.id] for e in CATALOGUE if e.id in uses and uses[e.id].joints)
+            uses[effect.id] = _plain(effect, _joints(effect, cell, moving, coupling, here))
+    return tuple(uses[e.id] for e in catalogue if e.id in uses and uses[e.id].joints)
 
 
-def needs_reference(use: EffectUse, instance: EffectInstance) -> bool:
+def needs_reference(effect: Effect, instance: EffectInstance) -> bool:
     """True if the effect depends on the torques of the links."""
-    effect = effect_named(use.effect)
-    assert effect is not None
     loads = {"load", "static", "torque"}
     named = not effect.forms[instance.form].names.isdisjoint(loads)
     return named or effect.acts is Acts.POSITION
 
 
-def _effect(name: str, place: Place) -> Effect:
-    effect = effect_named(name)
-    written = [e for e in CATALOGUE if e.written]
+def _effect(name: str, catalogue: Sequence[Effect], place: Place) -> Effect:
+    effect = effect_named(name, catalogue)
+    written = [e for e in catalogue if e.written]
     if effect is None:
         names = [known for e in written for known in (e.id, *e.aliases)]
         raise place.error(
             f"there is no effect {shown(name)}{near(name, names)}; expected one of "
-            f"{listed(e.id for e in written)}"
+            f"{listed(e.id for e in written)}, or one that a table [own_effects.{name}] defines"
         )
     if not effect.written:
         raise place.error(
@@ -79,6 +86,13 @@ def _check_motors(effect: Effect, coupling: Coupling, place: Place) -> None:
             "acts on motors that turn with several joints, and the file couples none; add a "
             'table [coupling] with a line such as "6" = "q5 + q6"'
         )
+
+
+def _plain(effect: Effect, joints: tuple[str, ...]) -> EffectUse:
+    """The effect on joints that are only named; shapes of one value have that value."""
+    fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+    shaped = tuple(EffectInstance(name, 0, fixed) for name in joints) if fixed else ()
+    return EffectUse(effect.id, joints, shaped)
 
 
 def _joints(
@@ -123,6 +137,7 @@ def _shaped(
         form = _form(effect, given, place)
         shapes = {s.name: s.grid[0] for s in effect.forms[form].shapes if len(s.grid) == 1}
         shapes |= {k: plain_number(v, place.at(k), "0.1") for k, v in given.items()}
+        check_finite(effect.forms[form], place.at(f"joint {shown(name)}"), shapes)
         before = sum(other.joint == name for other in found)
         found.append(EffectInstance(name, form, shapes, f"_{before + 1}" if before else ""))
     joints = tuple(name for name in moving if any(i.joint == name for i in found))

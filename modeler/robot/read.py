@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE
 from modeler.robot.builtin import builtin_names, builtin_text
 from modeler.robot.cells import form_at, list_at, plain_number, table_at, text_at
 from modeler.robot.effects import needs_reference, read_effects
 from modeler.robot.joint import Joint
 from modeler.robot.legs import expanded, leg_names
 from modeler.robot.loops import read_home, read_loops
+from modeler.robot.own_effects import read_own_effects
 from modeler.robot.place import Place, listed, near, shown
 from modeler.robot.platform import read_platform
 from modeler.robot.relations import read_relations
@@ -37,8 +37,8 @@ from modeler.robot.table import Row, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "links", "effects", "coupling", "parameters",
-    "reference", "drive_gains", "limits", "physical", "terms",
+    "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
+    "parameters", "reference", "drive_gains", "limits", "physical", "terms",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -119,7 +119,11 @@ def _with_tables(
     """The robot with what the tables say that name its joints."""
     moving = {joint.name: joint for joint in robot.moving}
     coupling = read_coupling(document.get("coupling", {}), moving, values, place.at("[coupling]"))
-    effects = read_effects(document.get("effects", {}), moving, coupling, place.at("[effects]"))
+    own = read_own_effects(document.get("own_effects", {}), place)
+    robot = dataclasses.replace(robot, own_effects=own)
+    effects = read_effects(
+        document.get("effects", {}), moving, coupling, robot.catalogue, place.at("[effects]")
+    )
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= read_links(document.get("links", {}), moving, place.at("[links]"))
     robot = dataclasses.replace(robot, links=links, effects=effects)
@@ -134,7 +138,7 @@ def _with_tables(
         shared=shared,
         reference=_reference(document, robot, known, place.at("[reference]")),
         coupling=coupling,
-        priority=_priority(document.get("priority", []), known, moving, place.at("priority")),
+        priority=_priority(document.get("priority", []), known, robot, place.at("priority")),
         parameters=_parameters(document.get("parameters", {}), known, place.at("[parameters]")),
         drive_gains=read_drive_gains(
             document.get("drive_gains", {}), moving, place.at("[drive_gains]")
@@ -264,7 +268,12 @@ def _reference(
     document: Mapping[str, Any], robot: Robot, known: tuple[str, ...], place: Place
 ) -> dict[str, float]:
     """The table, which effects need that depend on what the links ask of the joints."""
-    needed = [use.effect for use in robot.effects for i in use.instances if needs_reference(use, i)]
+    needed = [
+        effect.id
+        for joint in robot.moving
+        for effect, _, instance in robot.effects_on(joint.name)
+        if needs_reference(effect, instance)
+    ]
     if needed and "reference" not in document:
         raise place.error(
             f"is missing; {needed[0]} depends on the torques of the links: state their parameters "
@@ -273,13 +282,11 @@ def _reference(
     return read_reference(document.get("reference", {}), known, place)
 
 
-def _priority(
-    value: Any, known: tuple[str, ...], moving: Mapping[str, Joint], place: Place
-) -> tuple[str, ...]:
+def _priority(value: Any, known: tuple[str, ...], robot: Robot, place: Place) -> tuple[str, ...]:
     """The patterns that match a parameter; those of effects that the robot lacks are left out."""
     patterns = list_at(value, place, '["ZZ*", "Ia?"]')
-    prefixes = [c.prefix for effect in CATALOGUE for form in effect.forms for c in form.columns]
-    possible = [*known, *(prefix + name for prefix in prefixes for name in moving)]
+    prefixes = [c.prefix for e in robot.catalogue for form in e.forms for c in form.columns]
+    possible = [*known, *(prefix + joint.name for prefix in prefixes for joint in robot.moving)]
     for pattern in patterns:
         pattern = text_at(pattern, place, '"ZZ*"')
         if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from modeler.core.expression import Expression
-from modeler.effects import Effect, Form, effect_named
+from modeler.effects import CATALOGUE, Effect, Form, effect_named
 from modeler.robot.joint import Joint
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
@@ -34,7 +34,7 @@ class EffectInstance:
 
 @dataclass(frozen=True)
 class EffectUse:
-    """An effect of the catalogue, and where the robot has it.
+    """An effect of the catalogue or of the robot file, and where the robot has it.
 
     Attributes:
         effect: id.
@@ -122,6 +122,7 @@ class Robot:
         symbols: declared geometric symbols and their values, in file order; a value is a number
             or an expression without joint variables.
         joints: rows of the table; each stands after its antecedent.
+        own_effects: effects that the file defines itself.
         effects: physical effects beyond rigid links, in catalogue order.
         coupling: motor rows that turn with several joints: name of the joint whose motor it is ->
             {joint: coefficient}; motor speed = sum of coefficient * qd (gear ratio taken out).
@@ -150,6 +151,7 @@ class Robot:
     gravity: tuple[Expression, Expression, Expression]
     symbols: Mapping[str, Expression]
     joints: tuple[Joint, ...]
+    own_effects: tuple[Effect, ...] = ()
     effects: tuple[EffectUse, ...] = ()
     coupling: Mapping[str, Mapping[str, float]] = field(default_factory=lambda: _EMPTY)
     priority: tuple[str, ...] = ()
@@ -198,6 +200,11 @@ class Robot:
         name = self.platform[-1]
         return tuple(f"{prefix}{name}" for prefix in self.inertial(name))
 
+    @property
+    def catalogue(self) -> tuple[Effect, ...]:
+        """The effects that the robot may have: those of the catalogue, then its own."""
+        return (*CATALOGUE, *self.own_effects)
+
     def inertial(self, name: str) -> tuple[str, ...]:
         """Prefixes of the inertial parameters of the link of that row."""
         return self.links.get(name, INERTIAL)
@@ -210,7 +217,7 @@ class Robot:
         """The effects of a joint, in catalogue order."""
         found = []
         for use in self.effects:
-            effect = effect_named(use.effect)
+            effect = effect_named(use.effect, self.catalogue)
             if effect is None:  # one that only the simulator would refuse
                 continue
             for instance in use.instances:

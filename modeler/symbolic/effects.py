@@ -1,10 +1,12 @@
-"""Columns of effects as expressions of the graph, from the equations of the catalogue."""
+"""Columns of effects as expressions of the graph, from the equations that define them."""
 
+import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING
 
+from modeler.core.errors import DerivationError
 from modeler.effects import Acts
 from modeler.symbolic.columns import StandardColumn
 from modeler.symbolic.derivative import derivatives
@@ -46,9 +48,8 @@ def _equation(model: "SymbolicModel", column: StandardColumn) -> Expr:
             values["T"] = read - values.get("T0", zero)
         else:
             values["z"] = read
-    return graph.lift(
-        column.column.equation.fold(values, functions_of(graph), None, graph.constant)
-    )
+    pi = graph.constant(Fraction(repr(math.pi)))
+    return graph.lift(column.column.equation.fold(values, functions_of(graph), pi, graph.constant))
 
 
 def functions_of(graph: Graph) -> Mapping[str, Callable[[Expr], Expr]]:
@@ -78,14 +79,24 @@ def _moved(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
 
     The change is the column's equation, dq(q); speeds and accelerations change by its time
     derivatives.
+
+    Raises:
+        DerivationError: the equation has a part without derivative.
     """
-    assert column.shaft is not None
+    assert column.column is not None and column.shaft is not None
     n = model.geometry.coordinates
     speeds = {f"q[{k}]": model.inputs("qd")[k] for k in range(n)}
     rates = speeds | {f"qd[{k}]": model.inputs("qdd")[k] for k in range(n)}
     dq = _equation(model, column)
-    (dv,) = derivatives([dq], speeds)
-    (da,) = derivatives([dv], rates)
+    try:
+        (dv,) = derivatives([dq], speeds)
+        (da,) = derivatives([dv], rates)
+    except DerivationError as error:
+        raise DerivationError(
+            f'{column.name}: "{column.column.equation.text}" moves the position and is '
+            f"differentiated twice, but {error}; expected sums, products, whole powers, sqrt, exp, "
+            "sin, cos, tan, tanh"
+        ) from None
     direction: dict[str, Expr] = {}
     for k, coefficient in column.shaft.items():
         for kind, change in (("q", dq), ("qd", dv), ("qdd", da)):

@@ -1,0 +1,155 @@
+"""Effects that a robot file defines: their columns in the emitted C against numpy."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from modeler.api import compile_model, derive, generate, load, own_effect
+from modeler.compiled import CompiledModel
+from modeler.core.errors import EmitError
+from modeler.robot import Robot, robot_from_text
+from modeler.robot.edit import with_effect, with_reference
+
+SAMPLES = 50
+JOINT = 1  # joint "2"
+REFERENCE = {"ZZ1": 1.2, "ZZ2": 3.0, "MX2": 3.0, "MX3": 1.1, "ZZ3": 0.4}
+Columns = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], list[np.ndarray]]
+
+# definition, its shapes on the joint, the same in numpy (of q, v, a and the signal)
+OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
+    "eddy_brake": (
+        {"columns": {"Keb": "v*exp(-((q - c)/w)**2)"}, "shapes": {"c": [-1, 1], "w": [0.1, 0.3]}},
+        {"c": 0.7, "w": 0.2},
+        lambda q, v, a, s: [v * np.exp(-(((q - 0.7) / 0.2) ** 2))],
+    ),
+    "two_columns": (
+        {"columns": {"Ka": "a*sin(pi*q)", "Kb": "abs(v)**p*sign(v)"}, "shapes": {"p": 1.5}},
+        {},
+        lambda q, v, a, s: [a * np.sin(np.pi * q), np.abs(v) ** 1.5 * np.sign(v)],
+    ),
+    "hook": (
+        {"columns": {"Kh": "z*tanh(q)"}, "shapes": {"d": [0.01, 0.1]}},
+        {"d": 0.03},
+        lambda q, v, a, s: [s * np.tanh(q)],
+    ),
+    "fading": (
+        {"columns": {"Kf": "v*exp(-t/tau)"}, "shapes": {"tau": [5, 50]}},
+        {"tau": 20.0, "t0": 0.5},
+        lambda q, v, a, s: [v * np.exp(-(s - 0.5) / 20.0)],
+    ),
+    "warm": (
+        {"columns": {"Kw": "T*v**3"}},
+        {"T0": 0.25},
+        lambda q, v, a, s: [(s - 0.25) * v**3],
+    ),
+}
+
+
+def arm_with(name: str, definition: dict, shapes: dict[str, float]) -> Robot:
+    """The demonstration arm with the effect on joint 2."""
+    robot = own_effect(load("demo-arm"), name, **definition)
+    return robot_from_text(with_effect(robot.text, name, "2", shapes), name)
+
+
+def columns_of(robot: Robot, name: str, compiled: CompiledModel, phi: np.ndarray) -> np.ndarray:
+    """(n, joints, k) columns of the effect on joint 2."""
+    names = [p.name for p in compiled.spec.standard]
+    effect = next(e for e in robot.own_effects if e.id == name)
+    return phi[:, :, [names.index(f"{column.prefix}2") for column in effect.columns]]
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_c_computes_the_equation_of_the_robot_file(name: str) -> None:
+    definition, shapes, expected = OWN[name]
+    robot = arm_with(name, definition, shapes)
+    derivation = derive(robot)
+    assert derivation.base.proof.kind == "exact"
+    compiled = compile_model(generate(derivation))
+    generator = np.random.default_rng(3)
+    q, v, a = generator.uniform(-2.0, 2.0, (3, SAMPLES, 3))
+    s = generator.uniform(0.1, 0.9, (SAMPLES, len(compiled.spec.signals)))
+    signals = s if s.size else None
+    phi = compiled.regressor(q, v, a, signals)
+    got = columns_of(robot, name, compiled, phi)
+    wanted = expected(q[:, JOINT], v[:, JOINT], a[:, JOINT], s[:, 0] if s.size else np.zeros(0))
+    np.testing.assert_allclose(got[:, JOINT], np.column_stack(wanted), rtol=1e-12, atol=1e-14)
+    assert not np.delete(got, JOINT, axis=1).any()
+    # Torques: base parameters by the grouping relations against standard parameters.
+    chi = generator.normal(size=phi.shape[2])
+    beta = compiled.base_parameters(chi)
+    standard = phi @ chi
+    for base in (
+        compiled.base_regressor(q, v, a, signals) @ beta,
+        compiled.inverse_dynamics(q, v, a, beta, signals),
+    ):
+        np.testing.assert_allclose(base, standard, rtol=0, atol=1e-12 * np.abs(standard).max())
+
+
+def test_a_load_is_that_of_the_reference() -> None:
+    definition = {"columns": {"Kl": "load*static*sign(v)"}}
+    text = own_effect(load("demo-arm"), "gear", **definition).text
+    text = with_reference(with_effect(text, "gear", "2", {}), REFERENCE)
+    robot = robot_from_text(text, "gear")
+    compiled = compile_model(generate(derive(robot)))
+    q, v, a = np.random.default_rng(4).uniform(-2.0, 2.0, (3, SAMPLES, 3))
+    names = [p.name for p in compiled.spec.standard]
+    chi = np.array([REFERENCE.get(name, 0.0) for name in names])
+    phi = compiled.regressor(q, v, a)
+    still = compiled.regressor(q, np.zeros_like(q), np.zeros_like(q))
+    expected = (phi @ chi)[:, JOINT] * (still @ chi)[:, JOINT] * np.sign(v[:, JOINT])
+    got = columns_of(robot, "gear", compiled, phi)[:, JOINT, 0]
+    np.testing.assert_allclose(got, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+
+
+def test_what_moves_the_position_moves_the_links() -> None:
+    """Column of the C against differences of the inverse dynamics along q + e tanh(k q)."""
+    definition = {"columns": {"Kp": "tanh(k*q)"}, "shapes": {"k": 2}, "acts": "position"}
+    text = own_effect(load("demo-arm"), "runout", **definition).text
+    text = with_reference(with_effect(text, "runout", "2", {}), REFERENCE)
+    robot = robot_from_text(text, "runout")
+    compiled = compile_model(generate(derive(robot)))
+    chi = np.array([REFERENCE.get(p.name, 0.0) for p in compiled.spec.standard])
+    q, v, a = np.random.default_rng(5).uniform(-1.0, 1.0, (3, SAMPLES, 3))
+    got = columns_of(robot, "runout", compiled, compiled.regressor(q, v, a))[:, :, 0]
+    x, dx, ddx = (y[:, JOINT] for y in (q, v, a))
+    slope = 2.0 / np.cosh(2.0 * x) ** 2
+    curve = -4.0 * np.tanh(2.0 * x) * slope
+    dq, dv, da = (np.zeros_like(q) for _ in range(3))
+    dq[:, JOINT], dv[:, JOINT] = np.tanh(2.0 * x), slope * dx
+    da[:, JOINT] = slope * ddx + curve * dx**2
+    e = 1e-6
+    ahead = compiled.regressor(q + e * dq, v + e * dv, a + e * da) @ chi
+    behind = compiled.regressor(q - e * dq, v - e * dv, a - e * da) @ chi
+    np.testing.assert_allclose(got, (ahead - behind) / (2.0 * e), rtol=1e-6, atol=1e-6)
+
+
+@pytest.mark.parametrize("equation", ["v", "sign(v)", "1", "2*v**2 - v*0.5"])
+def test_columns_that_others_have_are_grouped_in_numbers(equation: str) -> None:
+    """The base has full rank whatever the user writes twice."""
+    columns = {"Ka": equation, "Kb": f"3*({equation})"}
+    robot = arm_with("twice", {"columns": columns}, {})
+    derivation = derive(robot)
+    assert derivation.base.proof.kind == "numeric"
+    compiled = compile_model(generate(derivation))
+    q, v, a = np.random.default_rng(6).uniform(-2.0, 2.0, (3, 200, 3))
+    phi = compiled.regressor(q, v, a)
+    base = compiled.base_regressor(q, v, a)
+    flat = base.reshape(-1, base.shape[2])
+    assert np.linalg.matrix_rank(flat / np.linalg.norm(flat, axis=0)) == base.shape[2]
+    chi = np.random.default_rng(7).normal(size=phi.shape[2])
+    np.testing.assert_allclose(base @ compiled.base_parameters(chi), phi @ chi, atol=1e-9)
+
+
+def test_robots_with_loops_take_effects_of_speed_only() -> None:
+    """They say which effects have no C there."""
+    slow = own_effect(load("five-bar"), "slow", columns={"Kv": "v*abs(v)"})
+    joint = slow.coordinates[0].name
+    with pytest.raises(EmitError, match="has loops"):
+        own = own_effect(load("five-bar"), "place", columns={"Kq": "q*v"})
+        generate(derive(robot_from_text(with_effect(own.text, "place", joint, {}), "five-bar")))
+    compiled = compile_model(
+        generate(derive(robot_from_text(with_effect(slow.text, "slow", joint, {}), "five-bar")))
+    )
+    names = [p.name for p in compiled.spec.standard]
+    assert f"Kv{joint}" in names

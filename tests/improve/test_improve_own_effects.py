@@ -1,0 +1,157 @@
+"""An effect that only the robot file knows: found on its joint, added, judged, taken out."""
+
+import dataclasses
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler import api
+from modeler.cli import main
+from modeler.compiled import load as load_compiled
+from modeler.core.errors import DataError
+from modeler.fit import load_model, save_model
+from modeler.improve import Logs, add_effect, undone
+from modeler.observation import Log
+from modeler.robot import robot_from_text
+from tests.diagnose.conftest import Case, motion, on_joint
+from tests.diagnose.conftest import case as case  # the fixture
+
+DRAG, CENTRE, WIDTH = 4.0, 0.7, 0.2  # N m s/rad, rad, rad; the grid has neither value
+OWN = """
+[own_effects.eddy_brake]
+title = "drag of a magnet"
+columns = {Keb = "v*exp(-((q - c)/w)**2)"}
+shapes = {c = [-1, 0, 1], w = [0.1, 0.3]}
+unit = "N*m*s/rad"
+nonnegative = true
+
+[own_effects.cold]
+columns = {Kc = "T*v**3"}
+"""
+
+
+def brake(log: Log) -> np.ndarray:
+    """The torque of the magnet on joint 2."""
+    q, v = motion(log)
+    return on_joint(log, 1, DRAG * v[:, 1] * np.exp(-(((q[:, 1] - CENTRE) / WIDTH) ** 2)))
+
+
+@pytest.fixture(scope="module")
+def own(case: Case) -> Case:
+    """The demonstration arm whose file defines two effects that it has on no joint."""
+    robot = robot_from_text(api.load("demo-arm").text + OWN, "arm.toml")
+    return dataclasses.replace(case, derivation=api.derive(robot))
+
+
+def test_it_is_found_added_judged_and_taken_out(own: Case, tmp_path: Path) -> None:
+    fitted, train, holdout = own.hidden(brake)
+    save_model(tmp_path / "arm.json", fitted)
+    model = load_model(tmp_path / "arm.json")  # what a colleague gets: nothing but this file
+    diagnosis = api.diagnose(model, [train], [holdout])
+    first = diagnosis.effects[0]
+    assert (diagnosis.verdict, first.effect, first.joint) == ("missing", "eddy_brake", "2")
+    assert len(diagnosis.effects) == 1
+    assert first.parameters["Keb2"] == pytest.approx(DRAG, rel=0.04)
+    assert first.parameters["c"] == pytest.approx(CENTRE, abs=0.02)
+    assert first.parameters["w"] == pytest.approx(WIDTH, rel=0.04)
+    assert first.error_after < 0.2 * first.error_before
+    assert first.units["Keb2"] == "N*m*s/rad"
+    assert "drag of a magnet (eddy_brake), joint 2" in diagnosis.sentences[0]
+
+    logs = Logs([train], [holdout])
+    better = add_effect(model, own.compiled, "eddy_brake", None, logs)
+    values = {p.name: p.value for p in better.fit.parameters}
+    assert values["Keb2"] == pytest.approx(DRAG, rel=0.04)
+    assert better.history[1].error < 0.2 * better.history[0].error
+    (use,) = [u for u in robot_from_text(better.robot_text, "b").effects if u.shaped]
+    assert (use.effect, use.joints) == ("eddy_brake", ("2",))
+    assert use.instances[0].shapes["c"] == pytest.approx(CENTRE, abs=0.02)
+
+    with pytest.raises(DataError, match="joint 2 has it in this model already"):
+        compiled = load_compiled(better.spec, better.sources)
+        add_effect(better, compiled, "eddy_brake", "2", logs)
+    back = undone(better, logs)
+    assert back.robot_text == model.robot_text
+    np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
+
+
+def test_without_the_definition_the_catalogue_is_all_there_is(own: Case) -> None:
+    model, train, holdout = own.hidden(brake)
+    bare = dataclasses.replace(model, robot_text=model.robot_text.replace(OWN, ""))
+    diagnosis = api.diagnose(bare, [train], [holdout])
+    assert "eddy_brake" not in {f.effect for f in (*diagnosis.effects, *diagnosis.refinements)}
+    with pytest.raises(DataError, match=r"eddy_brake: no such effect; .* defines none of its own"):
+        add_effect(bare, own.compiled, "eddy_brake", "2", Logs([train]))
+
+
+def test_nothing_is_named_where_nothing_is_hidden(own: Case) -> None:
+    diagnosis = api.diagnose(own.fitted(own.train), [own.train], [own.holdout])
+    assert diagnosis.verdict == "nothing significant" and not diagnosis.effects
+
+
+def test_one_that_reads_a_temperature_is_tried_where_one_is_logged(own: Case) -> None:
+    def heat(log: Log) -> np.ndarray:
+        return 30.0 + 20.0 * (1.0 - np.exp(-log.time / 12.0))
+
+    def cold(log: Log) -> np.ndarray:
+        _, v = motion(log)
+        return on_joint(log, 2, 0.1 * (heat(log) - mean) * v[:, 2] ** 3)
+
+    mean = float(np.mean(heat(own.train)))  # of the logs that are fitted: there T is 0
+    model, train, holdout = own.hidden(cold)
+    logs = Logs([train], [holdout])
+    with pytest.raises(DataError, match="cold: these logs show nothing of it"):
+        add_effect(model, own.compiled, "cold", "3", logs)
+    warm = [dataclasses.replace(log, extra={"temperature": heat(log)}) for log in (train, holdout)]
+    first = api.diagnose(model, warm[:1], warm[1:]).effects[0]
+    assert (first.effect, first.joint) == ("cold", "3")
+    better = add_effect(model, own.compiled, "cold", "3", Logs(warm[:1], warm[1:]))
+    values = {p.name: p.value for p in better.fit.parameters}
+    assert values["Kc3"] == pytest.approx(0.1, rel=0.1)
+    (use,) = [u for u in robot_from_text(better.robot_text, "b").effects if u.shaped]
+    assert use.instances[0].shapes["T0"] == pytest.approx(mean, abs=0.5)
+
+
+def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """fit, diagnose, add, undo and the page of the effect, as a user types them."""
+    _, train, holdout = own.hidden(brake)
+    place = {name: str(tmp_path / name) for name in ("arm.toml", "r.toml", "m", "m2", "m1")}
+    Path(place["arm.toml"]).write_text(own.derivation.robot.text, encoding="utf-8")
+    logs = []
+    for name, log in (("train", train), ("holdout", holdout)):
+        header = "time,q1,q2,q3,tau1,tau2,tau3"
+        table = np.column_stack([log.time, log.q, log.tau])
+        logs.append(str(tmp_path / f"{name}.csv"))
+        np.savetxt(logs[-1], table, delimiter=",", header=header, comments="")
+    assert main(["effects", "eddy_brake", "--robot", place["arm.toml"]]) == 0
+    out = capsys.readouterr().out
+    assert "drag of a magnet" in out and "N*m*s/rad" in out and "first tried at -1 0 1" in out
+    assert "*****" in out and "torque against position" in out  # the picture
+    assert main(["effects", "--robot", place["arm.toml"]]) == 0
+    assert "cold" in capsys.readouterr().out
+    assert main(["effects", "eddy_brak", "--robot", place["arm.toml"]]) == 1
+    assert 'did you mean "eddy_brake"' in capsys.readouterr().err
+    assert main(["effects", "eddy_brake"]) == 1
+    assert "or one that the file of --robot defines" in capsys.readouterr().err
+
+    assert main(["fit", place["arm.toml"], logs[0], "--out", place["m"]]) == 0
+    words = [place["m"], logs[0], "--holdout", logs[1]]
+    capsys.readouterr()
+    assert main(["diagnose", *words, "--report", str(tmp_path / "d.html")]) == 0
+    assert "missing: drag of a magnet (eddy_brake), joint 2" in capsys.readouterr().out
+    assert "drag of a magnet" in (tmp_path / "d.html").read_text(encoding="utf-8")
+    assert main(["diagnose", *words, "--without", "eddy_brak"]) == 1
+    assert re.search(r"no such effect; expected one of .*eddy_brake", capsys.readouterr().err)
+
+    words = [logs[0], "--holdout", logs[1], "--robot", place["r.toml"], "--out"]
+    assert main(["add", place["m"], "eddy_brake", "--joint", "2", *words, place["m2"]]) == 0
+    assert "+ eddy_brake @2" in capsys.readouterr().out
+    assert "eddy_brake = [{joint" in Path(place["r.toml"]).read_text(encoding="utf-8")
+    assert main(["derive", place["r.toml"], "--no-terms"]) == 0
+    assert "Keb2 = Keb2" in capsys.readouterr().out
+    assert main(["add", place["m2"], "undo", *words, place["m1"]]) == 0
+    assert "eddy_brake = [" not in Path(place["r.toml"]).read_text(encoding="utf-8")
+    assert main(["add", place["m"], "auto", *words, place["m1"]]) == 0
+    assert "+ eddy_brake @2" in capsys.readouterr().out
