@@ -76,7 +76,8 @@ def make_case(case: Case, folder: Path, visible: float | None = None) -> dict[st
     Args:
         case: what is asked for.
         folder: made if need be.
-        visible: least visibility of every effect; 0 takes the first draw, None what is usual.
+        visible: least visibility of every effect; 0 takes the first draw, None what is
+            usual of its kind.
 
     Raises:
         NoArm: none was found that can have these effects, visibly.

@@ -55,10 +55,11 @@ def pinched_dress(draw: Draw) -> Hidden:
 def hose_across(draw: Draw) -> Hidden:
     """k (q_i + c q_k - s) on i and c times it on k: a hose that both joints stretch."""
     i, plant, k = draw.joint, draw.plant, _another(draw)
-    weaker = min(draw.scales.rated[i], draw.scales.rated[k])
+    weaker, angles = min(draw.scales.rated[[i, k]]), draw.scales.bounds.angle
     plant.hose_joint, plant.hose_with = i, k
     plant.hose_ratio = draw.sign() * draw.between(0.6, 1.6)
-    plant.hose_stiffness = draw.between(0.06, 0.14) * weaker / draw.angle
+    longest = angles[i] + abs(plant.hose_ratio) * angles[k]
+    plant.hose_stiffness = draw.between(0.06, 0.14) * weaker / longest
     plant.hose_rest = draw.between(-0.4, 0.4)
     values = {"with_joint": str(k + 1), "k": plant.hose_stiffness}
     return Hidden(i, values | {"c": plant.hose_ratio, "s": plant.hose_rest})
