@@ -131,8 +131,8 @@ def dragging_brake(draw: Draw) -> Hidden:
 def sloshing_load(draw: Draw) -> Hidden:
     """A mass held by a spring and a damper on the last link: it swings at 1 to 3 Hz."""
     plant, last = draw.plant, draw.n - 1
-    mass = draw.between(0.1, 0.3) * plant.mass[last]
-    hertz, damping = draw.between(1, 3), draw.between(0.03, 0.12)
+    mass = draw.between(0.04, 0.12) * plant.mass[last]
+    hertz, damping = draw.between(1, 3), draw.between(0.04, 0.15)
     plant.slosh_mass, plant.slosh_stiffness = mass, mass * (2 * np.pi * hertz) ** 2
     plant.slosh_damping = 2 * damping * mass * 2 * np.pi * hertz
     plant.slosh_point = 1.8 * plant.centre[last]
@@ -152,7 +152,7 @@ def strap_to_base(draw: Draw) -> Hidden:
     size = np.linalg.norm(base) * np.linalg.norm(point)
     plant.strap_link, plant.strap_base, plant.strap_point = link, base, point
     plant.strap_length = draw.between(0.5, 0.9) * np.linalg.norm(base)
-    plant.strap_stiffness = draw.between(0.2, 0.5) * draw.scales.rated[link] / size
+    plant.strap_stiffness = draw.between(0.1, 0.25) * draw.scales.rated[link] / size
     values = {"k": plant.strap_stiffness, "free": plant.strap_length}
     return Hidden(link, values | {"base": base, "point": point})
 
