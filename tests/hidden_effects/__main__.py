@@ -17,6 +17,7 @@ from tests.hidden_effects.suite import (
     pair_cases,
     run,
     single_cases,
+    stranger_cases,
     withheld_cases,
 )
 from tests.hidden_effects.table import line, page
@@ -49,6 +50,13 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="and N effects at every noise that the diagnosis may not name",
     )
+    add(
+        "--strangers",
+        type=int,
+        default=0,
+        metavar="N",
+        help="and every cause outside the catalogue at every noise, with the first N seeds",
+    )
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
     add("--table", type=Path, help="page to write, in Markdown")
     add("--jobs", type=int, default=1, help="processes; default: 1")
@@ -74,6 +82,7 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
         *clean_cases(noises, pool[: options.clean]),
         *pair_cases(noises, pool[: options.two]),
         *withheld_cases(noises, pool[: options.withheld]),
+        *stranger_cases(noises, pool[: options.strangers]),
     ]
 
 
@@ -92,10 +101,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         with tempfile.TemporaryDirectory() as folder:
             scores = run(cases, Path(folder), options.jobs, _tell)
     seen = [score for score in scores if score.detectable]
-    single = [score for score in seen if len(score.hidden) == 1 and not score.withheld]
+    to_name = [score for score in seen if not score.withheld and not score.stranger]
+    single = [score for score in to_name if len(score.hidden) == 1]
     good, tied = sum(score.first for score in single), sum(score.tied for score in single)
     print(f"one effect: {good} of {len(single)} first, {tied} in the tie; "
           f"{len(scores) - len(seen)} of {len(scores)} cases undetectable")  # fmt: skip
+    if strangers := [score for score in seen if score.stranger]:
+        print(f"outside the catalogue: {sum(score.stated for score in strangers)} of "
+              f"{len(strangers)} stated as something else")  # fmt: skip
     if options.table:
         options.table.parent.mkdir(parents=True, exist_ok=True)
         options.table.write_text(page(scores), encoding="utf-8")

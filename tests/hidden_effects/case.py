@@ -24,12 +24,15 @@ from tests.hidden_effects.plant import Plant, Run
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import draw_arm
 from tests.hidden_effects.sensors import log, write
+from tests.hidden_effects.stranger_effects import STRANGERS
 from tests.hidden_effects.visibility import Trial, visibility
 
 KINDS_OF_EFFECTS = (friction_effects, body_effects, drive_effects)  # importing them fills EFFECTS
+KNOWN = EFFECTS | STRANGERS
 
 ATTEMPTS = 15
 VISIBLE = 0.5  # of the medium noise: what is less to be seen is drawn again
+STRANGER_VISIBLE = 1.0  # of a stranger
 TRAIN, HOLDOUT = 20.0, 15.0  # s of moves, and as many of a Fourier series
 LATER = 45.0  # s: the held-out log of what changes with time begins here
 NONE = "none"
@@ -38,6 +41,8 @@ NONE = "none"
 @dataclass(frozen=True)
 class Case:
     """What is asked for: no, one or two effects, noise, seed; kind of the arm, None: random.
+
+    A stranger is a case as any other, with a name of `STRANGERS`.
 
     Where the effects are withheld, the diagnosis may not name them: whatever it names is wrong.
     """
@@ -65,18 +70,21 @@ class Case:
         return np.random.default_rng([self.seed, tag, attempt, *more])
 
 
-def make_case(case: Case, folder: Path, visible: float = VISIBLE) -> dict[str, Any]:
+def make_case(case: Case, folder: Path, visible: float | None = None) -> dict[str, Any]:
     """Write a case and give its truth; `truth.json` is written last.
 
     Args:
         case: what is asked for.
         folder: made if need be.
-        visible: least visibility of every effect; 0 takes the first draw.
+        visible: least visibility of every effect; 0 takes the first draw, None what is
+            usual of its kind.
 
     Raises:
         NoArm: none was found that can have these effects, visibly.
     """
-    assert set(case.effects) <= EFFECTS.keys(), case.effects
+    assert set(case.effects) <= KNOWN.keys(), case.effects
+    if visible is None:
+        visible = STRANGER_VISIBLE if set(case.effects) & STRANGERS.keys() else VISIBLE
     for attempt in range(ATTEMPTS):
         try:
             return _Attempt(case, attempt).write(folder, visible)
@@ -117,7 +125,7 @@ class _Attempt:
 
     def _hide(self, names: list[str]) -> None:
         for name in names:
-            self.hidden[name] = hide(name, self.loaded, self.scales, self._own(name))
+            self.hidden[name] = hide(name, self.loaded, self.scales, self._own(name), KNOWN)
 
     def _joint(self, name: str) -> int:
         joint = self.hidden[name].joint
@@ -179,7 +187,7 @@ class _Attempt:
     def _visibility(self, name: str) -> float:
         """Of one effect, as if it were alone; others that are missing in the file stay away."""
         alone = self.plain.copy()
-        hidden = hide(name, alone, self.scales, self._own(name))
+        hidden = hide(name, alone, self.scales, self._own(name), KNOWN)
         admitted = dict(self.admitted)
         for other in set(BASE) & self.hidden.keys() - {name}:
             admitted[other] = sorted([*admitted[other], self._joint(other)])

@@ -2,7 +2,7 @@
    cascade of position and speed control at 1 kHz. */
 #include <math.h>
 
-#include "rigid_body.h"
+#include "strangers.h"
 
 #define STEPS 4 /* of a tick */
 static const double TICK = 1e-3, STEP = 1e-3 / STEPS;
@@ -10,7 +10,12 @@ static const double TICK = 1e-3, STEP = 1e-3 / STEPS;
 typedef struct {
     double link, link_speed, motor, motor_speed, bristle, cable, temperature, torque;
 } Joint;
-enum { STATES = sizeof(Joint) / sizeof(double) };
+typedef struct {
+    Joint joint[MAX_JOINTS];
+    Slosh slosh;
+} State;
+
+enum { OF_JOINT = sizeof(Joint) / sizeof(double), OF_SLOSH = sizeof(Slosh) / sizeof(double) };
 
 size_t plant_size(void)
 {
@@ -97,13 +102,13 @@ static double ripple(double size, double order, double phase, double q)
 }
 
 /* Torque that a motor has left for rotor and gear. */
-static double left_of_drive(const Plant *p, int j, double time, const Joint *x, double q,
+static double left_of_drive(const Plant *p, int j, double time, double given, double q,
                             double rubbed, double noise)
 {
     double rippled =
         ripple(p->motor_ripple[j], p->motor_ripple_order[j], p->motor_ripple_phase[j], q) +
         ripple(p->joint_ripple[j], p->joint_ripple_order[j], p->joint_ripple_phase[j], q);
-    return (1 + p->gain_error[j]) * x->torque - rubbed - p->offset[j] -
+    return (1 + p->gain_error[j]) * given - rubbed - p->offset[j] -
            p->drift[j] * (time + p->clock) - rippled - noise;
 }
 
@@ -142,12 +147,18 @@ typedef struct {
 static void follow(const Plant *p, double time, const Joint *x, Input in, const Dynamics *now,
                    Joint *change, double *left, double *pushed)
 {
+    double torque[MAX_JOINTS], angle[MAX_JOINTS];
+    for (int j = 0; j < p->joints; j++) {
+        torque[j] = x[j].torque;
+        angle[j] = x[j].link;
+    }
     for (int j = 0; j < p->joints; j++) {
         int soft = p->flexible[j] > 0.5;
         double q = soft ? x[j].motor : x[j].link, v = soft ? x[j].motor_speed : x[j].link_speed;
         double load = p->load_static[j] > 0.5 ? now->gravity[j] : in.load[j];
         double rubbed = friction(p, j, q, v, &x[j], load, &change[j].bristle);
-        left[j] = left_of_drive(p, j, time, &x[j], q, rubbed, in.noise[j]);
+        rubbed += strange_friction(p, j, time + p->clock, angle, v, load, now);
+        left[j] = left_of_drive(p, j, time, delivered(p, j, torque), q, rubbed, in.noise[j]);
         change[j].cable = cable_change(p, j, x[j].link_speed, x[j].cable);
         double stretched = x[j].link - p->spring_rest[j];
         pushed[j] = -(p->cable_torque[j] * x[j].cable + p->spring_stiffness[j] * stretched +
@@ -161,10 +172,12 @@ static void follow(const Plant *p, double time, const Joint *x, Input in, const 
 }
 
 /* x' and the torque that goes into the links. */
-static void derivative(const Plant *p, double time, const Joint *x, Input in, Joint *change,
-                       double *load)
+static void derivative(const Plant *p, double time, const State *state, Input in,
+                       State *state_change, double *load)
 {
     int n = p->joints;
+    const Joint *x = state->joint;
+    Joint *change = state_change->joint;
     double q[MAX_JOINTS], v[MAX_JOINTS], motor_speed[MAX_JOINTS];
     double left[MAX_JOINTS], pushed[MAX_JOINTS], a[MAX_JOINTS];
     double matrix[MAX_JOINTS][MAX_JOINTS];
@@ -178,6 +191,8 @@ static void derivative(const Plant *p, double time, const Joint *x, Input in, Jo
     follow(p, time, x, in, &now, change, left, pushed);
     if (p->coupled) coupled_friction(p, motor_speed, left);
     contact(p, time + p->clock, &now, pushed);
+    strange_push(p, q, &now, pushed);
+    slosh_push(p, v, &now, &state->slosh, &state_change->slosh, pushed);
     for (int j = 0; j < n; j++) {
         for (int k = 0; k < n; k++) matrix[j][k] = now.inertia[j][k];
         change[j].motor = change[j].motor_speed = 0;
@@ -199,29 +214,36 @@ static void derivative(const Plant *p, double time, const Joint *x, Input in, Jo
     }
 }
 
-static void moved(int n, const Joint *from, double step, const Joint *change, Joint *to)
+static void move(int count, const double *from, double step, const double *change, double *to)
 {
-    for (int k = 0; k < n * STATES; k++)
-        ((double *)to)[k] = ((const double *)from)[k] + step * ((const double *)change)[k];
+    for (int k = 0; k < count; k++) to[k] = from[k] + step * change[k];
+}
+
+static void moved(int n, const State *from, double step, const State *change, State *to)
+{
+    move(n * OF_JOINT, (const double *)from->joint, step, (const double *)change->joint,
+         (double *)to->joint);
+    move(OF_SLOSH, (const double *)&from->slosh, step, (const double *)&change->slosh,
+         (double *)&to->slosh);
 }
 
 /* One step; load: the torque that went into the links when it began. */
-static void runge_kutta(const Plant *p, double time, Joint *x, Input in, double *load)
+static void runge_kutta(const Plant *p, double time, State *x, Input in, double *load)
 {
     int n = p->joints;
-    Joint k1[MAX_JOINTS], k2[MAX_JOINTS], k3[MAX_JOINTS], k4[MAX_JOINTS], y[MAX_JOINTS];
+    State k1, k2, k3, k4, y;
     double unused[MAX_JOINTS];
-    derivative(p, time, x, in, k1, load);
-    moved(n, x, STEP / 2, k1, y);
-    derivative(p, time + STEP / 2, y, in, k2, unused);
-    moved(n, x, STEP / 2, k2, y);
-    derivative(p, time + STEP / 2, y, in, k3, unused);
-    moved(n, x, STEP, k3, y);
-    derivative(p, time + STEP, y, in, k4, unused);
-    moved(n, x, STEP / 6, k1, x);
-    moved(n, x, STEP / 3, k2, x);
-    moved(n, x, STEP / 3, k3, x);
-    moved(n, x, STEP / 6, k4, x);
+    derivative(p, time, x, in, &k1, load);
+    moved(n, x, STEP / 2, &k1, &y);
+    derivative(p, time + STEP / 2, &y, in, &k2, unused);
+    moved(n, x, STEP / 2, &k2, &y);
+    derivative(p, time + STEP / 2, &y, in, &k3, unused);
+    moved(n, x, STEP, &k3, &y);
+    derivative(p, time + STEP, &y, in, &k4, unused);
+    moved(n, x, STEP / 6, &k1, x);
+    moved(n, x, STEP / 3, &k2, x);
+    moved(n, x, STEP / 3, &k3, x);
+    moved(n, x, STEP / 6, &k4, x);
 }
 
 /* xorshift128+, and normal numbers by Box and Muller. */
@@ -289,25 +311,44 @@ static void control(const Plant *p, const double *read, const double *wanted,
     }
 }
 
+/* The torques as logged with which the drives give what is wanted of them. */
+static void ask_drives(const Plant *p, const double *wanted, double *torque)
+{
+    for (int j = 0; j < p->joints; j++) torque[j] = wanted[j];
+    for (int round = 0; round < 200; round++) {
+        double given[MAX_JOINTS];
+        for (int j = 0; j < p->joints; j++) given[j] = delivered(p, j, torque);
+        for (int j = 0; j < p->joints; j++) torque[j] += wanted[j] - given[j];
+    }
+}
+
 /* At rest where it is wanted first, held by the motors. */
-static void begin(const Plant *p, const double *wanted, const double *temperature, Joint *x,
+static void begin(const Plant *p, const double *wanted, const double *temperature, State *state,
                   Controller *c, double *load)
 {
-    double q[MAX_JOINTS], still[MAX_JOINTS] = {0};
+    double q[MAX_JOINTS], still[MAX_JOINTS] = {0}, pushed[MAX_JOINTS] = {0}, held[MAX_JOINTS];
     Dynamics now;
+    Slosh unchanged;
     for (int j = 0; j < p->joints; j++) q[j] = wanted[j] - p->encoder_offset[j];
     links_dynamics(p, q, still, &now);
+    strange_push(p, q, &now, pushed);
+    slosh_rest(p, &now, &state->slosh);
+    slosh_push(p, still, &now, &state->slosh, &unchanged, pushed);
     for (int j = 0; j < p->joints; j++) {
-        double held = now.bias[j] + p->offset[j] + p->drift[j] * p->clock +
-                      p->spring_stiffness[j] * (q[j] - p->spring_rest[j]) +
-                      counterbalance(p, j, q[j]);
-        held /= 1 + p->gain_error[j];
-        x[j] = (Joint){.link = q[j], .motor = q[j], .temperature = temperature[j], .torque = held};
-        if (p->flexible[j] > 0.5) x[j].link -= now.bias[j] / p->gear_stiffness[j];
-        if (p->flexible[j] > 1.5) x[j].link -= 0.5 * p->gap[j] * (now.bias[j] > 0 ? 1 : -1);
-        c->integral[j] = c->command[j] = c->next[j] = held;
+        held[j] = now.bias[j] + p->offset[j] + p->drift[j] * p->clock +
+                  p->spring_stiffness[j] * (q[j] - p->spring_rest[j]) + counterbalance(p, j, q[j]);
+        held[j] = (held[j] - pushed[j]) / (1 + p->gain_error[j]);
+    }
+    ask_drives(p, held, c->command);
+    for (int j = 0; j < p->joints; j++) {
+        Joint *x = &state->joint[j];
+        *x = (Joint){.link = q[j], .motor = q[j], .temperature = temperature[j]};
+        x->torque = c->command[j];
+        if (p->flexible[j] > 0.5) x->link -= now.bias[j] / p->gear_stiffness[j];
+        if (p->flexible[j] > 1.5) x->link -= 0.5 * p->gap[j] * (now.bias[j] > 0 ? 1 : -1);
+        c->integral[j] = c->next[j] = c->command[j];
         c->speed[j] = 0;
-        c->last[j] = encoder_reads(p, j, x[j].motor);
+        c->last[j] = encoder_reads(p, j, x->motor);
         load[j] = now.bias[j];
     }
 }
@@ -319,10 +360,11 @@ int simulate(const Plant *p, int ticks, const double *wanted, const double *want
     int n = p->joints;
     double noise[MAX_JOINTS], load[MAX_JOINTS], next_load[MAX_JOINTS];
     double keeps = exp(-STEP / p->noise_time), fresh = sqrt(1 - keeps * keeps);
-    Joint x[MAX_JOINTS];
+    State state;
+    const Joint *x = state.joint;
     Controller controller;
     Random random = seeded(seed);
-    begin(p, wanted, temperature_at_start, x, &controller, load);
+    begin(p, wanted, temperature_at_start, &state, &controller, load);
     for (int j = 0; j < n; j++) noise[j] = p->noise_torque[j] * normal(&random);
     for (int i = 0; i < ticks; i++) {
         for (int j = 0; j < n; j++) {
@@ -335,7 +377,7 @@ int simulate(const Plant *p, int ticks, const double *wanted, const double *want
         for (int s = 0; s < STEPS; s++) {
             for (int j = 0; j < n; j++) torque[(STEPS * i + s) * n + j] = x[j].torque;
             Input input = {controller.command, noise, load};
-            runge_kutta(p, i * TICK + s * STEP, x, input, next_load);
+            runge_kutta(p, i * TICK + s * STEP, &state, input, next_load);
             for (int j = 0; j < n; j++) {
                 load[j] = next_load[j];
                 noise[j] = keeps * noise[j] + fresh * p->noise_torque[j] * normal(&random);

@@ -41,6 +41,19 @@ typedef struct {
     double drift[8];      /* N m/s */
     /* a force of the base frame on a point of the last link, from start to end */
     double contact_start, contact_end, contact_force[3], contact_point[3];
+    /* strangers: torque, of what no catalogue holds; see strangers.c */
+    double pinch_torque[8], pinched_by[8], pinch_angle[8], pinch_width[8];
+    double pocket_viscous[8], pocket_angle[8];
+    double seal_torque[8], seal_speed[8], seal_width[8];
+    double bearing_share[8];
+    double back_driven_torque[8], back_driven_load[8];
+    double brake_torque[8], brake_start[8], brake_lasts[8], brake_period[8];
+    double saturation[8], dead_torque[8], crosstalk[8], crosstalk_from[8];
+    int hose_joint, hose_with;
+    double hose_stiffness, hose_ratio, hose_rest;
+    int strap_link; /* from a point of the base frame to one of this link */
+    double strap_stiffness, strap_length, strap_base[3], strap_point[3];
+    double slosh_mass, slosh_stiffness, slosh_damping, slosh_point[3]; /* on the last link */
     /* controller: speed reference = speed + position_gain error; PI on the speed */
     double position_gain[8], speed_gain[8], integral_gain[8], torque_limit[8];
     double encoder_step[8], speed_filter; /* rad; rad/s */

@@ -128,13 +128,15 @@ static void take_on(Body *body, const Link *link, double mass)
 static void joint_row(const Plant *plant, const Body *body, int j, Dynamics *found)
 {
     const double *axis = found->axis[j], *origin = found->origin[j];
-    Vector about, arm, weight, force, lever, moment, shifted;
+    Vector about, tilt, arm, weight, force, lever, moment, shifted;
     cross(origin, body->force, about);
     for (int i = 0; i < 3; i++) {
         about[i] = body->moment[i] - about[i];
         arm[i] = body->mass_moment[i] - body->mass * origin[i];
     }
     found->bias[j] = dot(axis, about);
+    cross(axis, about, tilt);
+    found->tilting[j] = sqrt(dot(tilt, tilt));
     cross(arm, plant->gravity, weight);
     found->gravity[j] = -dot(axis, weight);
     cross(axis, arm, force);

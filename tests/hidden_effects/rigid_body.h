@@ -11,6 +11,7 @@ typedef struct {
     double inertia[MAX_JOINTS][MAX_JOINTS];
     double bias[MAX_JOINTS];    /* torque without acceleration */
     double gravity[MAX_JOINTS]; /* torque that holds the arm at rest */
+    double tilting[MAX_JOINTS]; /* moment across the axis without acceleration */
     Vector axis[MAX_JOINTS], origin[MAX_JOINTS];
     Matrix rotation[MAX_JOINTS];
 } Dynamics;

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from tests.hidden_effects.drives import NOISE
+from tests.hidden_effects.stranger_effects import STRANGERS
 
 DETECTABLE = 0.25
 """Least visibility, in rms of the noise of the case: with less, the best that can be had on other
@@ -54,6 +55,11 @@ class Score:
     withheld: bool = False
 
     @property
+    def stranger(self) -> bool:
+        """True if what is hidden is in nobody's catalogue."""
+        return any(effect in STRANGERS for effect, _ in self.hidden)
+
+    @property
     def stated(self) -> bool:
         """True if the first effect named is stated as the cause."""
         return self.verdict == "missing"
@@ -65,8 +71,8 @@ class Score:
 
     @property
     def right(self) -> bool:
-        """One effect: it is named first; withheld: nothing is stated. None or two: exact."""
-        if self.withheld:
+        """One effect: named first; withheld or a stranger: nothing stated. None or two: exact."""
+        if self.withheld or self.stranger:
             return not self.error and not self.stated
         return self.first if len(self.hidden) == 1 else self.exact
 

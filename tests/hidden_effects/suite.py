@@ -13,6 +13,7 @@ import numpy as np
 from tests.hidden_effects.case import Case, NoArm, make_case
 from tests.hidden_effects.effects import EFFECTS
 from tests.hidden_effects.score import Score, failed, score_from_json, scored
+from tests.hidden_effects.stranger_effects import STRANGERS
 
 DEVELOPMENT = range(1, 100)
 """Seeds to look at, to learn from and to repair with."""
@@ -42,6 +43,11 @@ def pair_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
 def withheld_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
     """One effect drawn by the seed, which the diagnosis may not name."""
     return [Case(_pair(seed)[:1], k, seed, withheld=True) for seed in seeds for k in noises]
+
+
+def stranger_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
+    """Every cause outside the catalogue at every noise with every seed."""
+    return single_cases(list(STRANGERS), noises, seeds)
 
 
 def _pair(seed: int) -> tuple[str, ...]:

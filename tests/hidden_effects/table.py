@@ -15,15 +15,16 @@ and the logs only. Joint and values are drawn; noise is {noise} of the torque.
 *First*: the effect named first is the hidden one, on its joint. *Joint*: it is on that joint.
 *Tie*: the hidden effect is the one named first, or one that is said to be as likely.
 *Exact*: what is hidden is named, and nothing else. *Fall*: median fall of the held-out error of
-the joint by the effect named first, where it is right. Cases where even a perfect diagnosis would
-have next to nothing to see (less than {least} of the noise) are not counted; they are listed below.
+the joint by the effect named first, where it is right. Where the cause is outside the catalogue, or
+withheld from it, nothing may be stated as a fact. Cases where even a perfect diagnosis would have
+next to nothing to see (less than {least} of the noise) are not counted; they are listed below.
 """
 
 
 def page(scores: Sequence[Score]) -> str:
     """Counts by effect and noise, false alarms, pairs, and every case that went wrong."""
     seen = [score for score in scores if score.detectable]
-    named = [score for score in seen if not score.withheld]
+    named = [score for score in seen if not score.withheld and not score.stranger]
     single = [score for score in named if len(score.hidden) == 1]
     noise = ", ".join(f"{100 * share:.3g} % ({name})" for name, share in NOISE.items())
     parts = [INTRODUCTION.format(noise=noise, least=DETECTABLE)]
@@ -35,6 +36,8 @@ def page(scores: Sequence[Score]) -> str:
         parts += ["## Two effects\n", _pairs(pairs)]
     if withheld := [score for score in seen if score.withheld]:
         parts += ["## The hidden effect withheld from the catalogue\n", _withheld(withheld)]
+    if strangers := [score for score in seen if score.stranger]:
+        parts += ["## Causes outside the catalogue\n", _strangers(strangers)]
     missed = [score for score in seen if not score.right]
     parts += ["## Misses\n", _list(missed)]
     parts += ["## Undetectable\n", _list([s for s in scores if not s.detectable])]
@@ -108,6 +111,21 @@ def _withheld(scores: Sequence[Score]) -> str:
         ["Nothing significant", count(scores, lambda s: s.verdict == "nothing significant")],
     ]
     return _table(["The diagnosis says", "cases"], rows)
+
+
+def _strangers(scores: Sequence[Score]) -> str:
+    verdicts: list[Callable[[Score], bool]] = [
+        lambda s: s.stated,
+        _closest,
+        lambda s: s.verdict == "unexplained",
+        lambda s: s.verdict == "nothing significant",
+    ]
+    rows = []
+    for name in [*dict.fromkeys(score.effects for score in scores), "**all**"]:
+        some = [score for score in scores if name in (score.effects, "**all**")]
+        rows.append([name, *(count(some, verdict) for verdict in verdicts)])
+    header = ["Cause", "Another effect stated", "Closest description", "Unexplained"]
+    return _table([*header, "Nothing significant"], rows)
 
 
 def _closest(score: Score) -> bool:

@@ -5,7 +5,9 @@ import json
 import pytest
 
 from tests.hidden_effects.__main__ import cases_of, parser
+from tests.hidden_effects.effects import EFFECTS
 from tests.hidden_effects.score import failed, score_from_json, scored
+from tests.hidden_effects.stranger_effects import STRANGERS
 from tests.hidden_effects.suite import ACCEPTANCE, DEVELOPMENT, pair_cases
 from tests.hidden_effects.table import page
 
@@ -89,6 +91,40 @@ def test_the_page_counts():
     assert "- none-med-2" in misses and "- spring-high-1" in hard
 
 
+STRANGER = ("dead_band", "2", {})
+VERDICTS = {
+    "missing": ([finding("coulomb", "2")], False),
+    "closest description": ([finding("coulomb", "2")], True),
+    "unexplained": ([], True),
+    "nothing significant": ([], True),
+}
+
+
+def of_stranger(verdict, cause=STRANGER):
+    findings, _ = VERDICTS[verdict]
+    return scored(f"{cause[0]}-{verdict}", truth(cause), said(*findings) | {"verdict": verdict})
+
+
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_of_a_stranger_nothing_may_be_stated(verdict):
+    score = of_stranger(verdict)
+    assert score.stranger and score.right == VERDICTS[verdict][1]
+    assert not scored("a", truth(SPRING), said()).stranger
+    assert not failed("a", truth(STRANGER), "DataError: no rows").right
+
+
+def test_the_page_has_a_row_for_every_stranger():
+    scores = [of_stranger(verdict) for verdict in VERDICTS]
+    scores += [of_stranger("unexplained", ("hose_across", "1", {"with_joint": "2"}))]
+    text = page(scores)
+    assert "| dead_band | 1/4 | 1/4 | 1/4 | 1/4 |" in text
+    assert "| hose_across | 0/1 | 0/1 | 1/1 | 0/1 |" in text
+    assert "| **all** | 1/5 | 1/5 | 2/5 | 1/5 |" in text
+    assert "## One effect" not in text and "## Two effects" not in text
+    misses, _ = text.split("## Misses")[1].split("## Undetectable")
+    assert misses.count("\n- ") == 1 and "- dead_band-missing" in misses
+
+
 def cases(*arguments):
     return cases_of(parser().parse_args(arguments))
 
@@ -110,3 +146,14 @@ def test_seeds_are_for_development_or_for_acceptance():
 def test_pairs_are_two_effects_that_one_arm_can_have():
     pairs = [set(case.effects) for case in pair_cases(["med"], [*DEVELOPMENT, *ACCEPTANCE])]
     assert all(len(pair) == 2 and pair != {"elasticity", "backlash"} for pair in pairs)
+
+
+def test_strangers_come_only_where_they_are_asked_for():
+    asked = cases("--effects", "none", "--noise", "low,med", "--strangers", "2")
+    assert {case.effects for case in asked} == {(name,) for name in STRANGERS}
+    assert len(asked) == 4 * len(STRANGERS)
+    assert {case.seed for case in asked} == set(DEVELOPMENT[:2])
+    accepted = cases("--effects", "none", "--acceptance", "--strangers", "1")
+    assert {case.seed for case in accepted} == {ACCEPTANCE[0]}
+    others = cases("--two", "30", "--clean", "3", "--withheld", "30")
+    assert {name for case in others for name in case.effects} <= EFFECTS.keys()
