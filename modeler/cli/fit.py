@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, progress, say, working
 from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
@@ -217,10 +217,12 @@ def run_compare(args: argparse.Namespace) -> Json:
         if line.startswith(_TRAINING):
             say(line)
     if args.report is not None:
-        place = write_report(Path(args.report), comparison, lines)
+        with working("drawing the page"):
+            place = write_report(Path(args.report), comparison, lines)
         say(f"written: {place}")
     if args.pictures is not None:
-        written = write_pictures(Path(args.pictures), comparison)
+        with progress("drawing pictures") as bar:
+            written = write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
     return comparison.as_dict()
 

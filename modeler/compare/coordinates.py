@@ -33,7 +33,7 @@ DRIFTS = ("temperature", "time")
 
 
 def coordinates_of(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]:
-    """Those that the logs hold of one joint; temperature only where every row that counts has it."""
+    """Those that the logs hold of one joint; temperature only where every used row has it."""
     used = prediction.used[:, joint]
     missing = set()
     if prediction.travel is None:

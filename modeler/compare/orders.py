@@ -33,9 +33,7 @@ class OrderSpectrum:
     power: float
 
 
-def order_spectrum(
-    q: np.ndarray, r: np.ndarray, unit: str, reached: float
-) -> OrderSpectrum | None:
+def order_spectrum(q: np.ndarray, r: np.ndarray, unit: str, reached: float) -> OrderSpectrum | None:
     """(2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
 
     A wave A cos(m q + phase) that is passed often gives A at m. Positions are sorted into cells,

@@ -1,12 +1,12 @@
-"""What the variance of a joint's torque is made of: explained, repeatable but not explained, noise."""
+"""What the variance of a joint's torque is made of: explained, repeatable, noise."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from modeler.compare.prediction import Prediction, full_rate
 from modeler.compare.predictable import LEAST, Moved, predictable
+from modeler.compare.prediction import Prediction, full_rate
 from modeler.compare.repetition import Repetition, met
 from modeler.compare.structure import Structure
 
@@ -138,7 +138,7 @@ def _folds(run: np.ndarray) -> np.ndarray:
 
 
 def _moved(prediction: Prediction, joint: int, rows: np.ndarray) -> Moved | None:
-    """Motion of all joints on the rows of one; None if rows are few, or another joint's are lost."""
+    """Motion on the rows of one joint; None if they are few, or another joint has none there."""
     q, v, a = (x[rows] for x in (prediction.q, prediction.qd, prediction.qdd))
     if rows.size < LEAST or not all(np.isfinite(x).all() for x in (q, v, a)):
         return None

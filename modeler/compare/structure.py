@@ -65,7 +65,8 @@ def structure(prediction: Prediction, joint: int) -> Structure | None:
         shares=shares,
         together=max(alone, explained_share(motion, e, *_MOTION)),
         across=tuple(
-            (info.name, _across(speeds[:, other], e)) for other, info in enumerate(prediction.joints)
+            (info.name, _across(speeds[:, other], e))
+            for other, info in enumerate(prediction.joints)
         ),
         motors=tuple(
             (motor.name, _across(speeds @ np.asarray(motor.coefficients), e))
