@@ -28,7 +28,8 @@ _CLOUD = Style(GREY, width=2.6, opacity=0.45)
 _MEAN = Style(BLUE, width=1.6)
 _BACK = Style(VERMILLION, width=1.6)
 _FLOOR = Style(ORANGE, width=1.2, dash=True)
-_ACROSS = {7: 4, 8: 4}  # panels side by side, by their number; else three
+_WAVES = Style(BLUE, width=0.8)
+_ACROSS = 3  # panels side by side
 
 
 def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
@@ -39,9 +40,8 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
         if coordinate.id != "direction"
     ]
     drawn += [_spectrum_panel(item), _order_panel(item)]
-    across = _ACROSS.get(len(drawn), 3)
-    drawn += [_EMPTY] * (-len(drawn) % across)
-    rows = [tuple(drawn[k : k + across]) for k in range(0, len(drawn), across)]
+    drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
+    rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_residual",
@@ -49,7 +49,7 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
         caption=_CAPTION,
         panels=tuple(rows),
         heights=tuple(1.0 / len(rows) for _ in rows),
-        widths=tuple(1.0 / across for _ in range(across)),
+        widths=(1 / 3, 1 / 3, 1 / 3),
         height=310 * len(rows),
     )
 
@@ -175,6 +175,6 @@ def _order_panel(item: JointComparison) -> Panel:
         title=title,
         x_label=f"waves per {per} of the joint [1/{per}]",
         y_label=f"amplitude [{unit}]",
-        series=(Curve("residual", x, y, _MEAN), Curve("floor", x, floor, _FLOOR)),
+        series=(Curve("residual", x, y, _WAVES), Curve("floor", x, floor, _FLOOR)),
         scale="log",
     )
