@@ -169,8 +169,8 @@ def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
         for first, other in given[:index]:
             if shared_rows(log, other.content, other.time[0], other.time[-1]):
                 raise DataError(
-                    f"{place}: got rows of {first} again; rows that repeat make every sigma too "
-                    "small; give each row once"
+                    f"{place}: got rows of {first} again; rows that repeat count twice, and their "
+                    "noise looks like something that returns; give each row once"
                 )
     places = {log.name: place for place, log in bare}
     for place, log in loaded:
@@ -232,6 +232,7 @@ def judged(
 ) -> tuple[Comparison, list[str]]:
     """The comparison on logs, and where everything came from, in lines."""
     read = read_logs(compiled, logs)
+    _check_logs(_given(logs, read), [])
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
     lines = [

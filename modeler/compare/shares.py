@@ -94,7 +94,11 @@ def _returning(
         rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
         other = met(full, joint, partner, prediction.time[rows])
         there = np.isfinite(other)
+        if not there.any():
+            continue
         own = e[rows][there]
+        if _copies(own, other[there]):
+            continue
         product = own * other[there]
         products += float(product.sum())
         squares += float(own @ own)
@@ -106,6 +110,11 @@ def _returning(
     if squares == 0.0:
         return 0.0, 0.0
     return float(np.clip(products / squares, 0.0, 1.0)), float(np.sqrt(scatter)) / squares
+
+
+def _copies(first: np.ndarray, second: np.ndarray) -> bool:
+    """True if these are the same measurements given twice: their noise is alike, too."""
+    return bool(np.median(np.abs(first - second) > 1e-3 * np.abs(first)) < 0.5)
 
 
 def _starts(size: int) -> np.ndarray:
