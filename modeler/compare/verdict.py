@@ -205,10 +205,14 @@ def _other_joint(item: JointComparison) -> str | None:
 
 
 def _ripple(item: JointComparison) -> str | None:
-    strong = [line for line in lines(item) if line.share >= NOTICEABLE]
+    if item.orders is None:
+        return None
+    orders, per = waves(item)
+    # the slowest waves of the spectrum are patterns over position, named elsewhere
+    fast = [line for line in lines(item) if line.waves > 2.0 * orders[0]]
+    strong = [line for line in fast if line.share >= NOTICEABLE]
     if not strong:
         return None
-    _, per = waves(item)
     line = strong[0]
     return (
         f"it ripples with {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
