@@ -114,17 +114,7 @@ def _draw(axes: Any, series: Series) -> None:
     if isinstance(series, Heat):
         _draw_heat(axes, series)
     elif isinstance(series, Bars):
-        stacked = series.base is not None
-        drawn = axes.bar(
-            series.names,
-            series.values,
-            bottom=series.base,
-            color=series.style.color,
-            width=0.6,
-            label=series.label,
-        )
-        place: Any = {"label_type": "center", "color": "white"} if stacked else {"padding": 2}
-        axes.bar_label(drawn, labels=list(series.texts), **place)
+        _draw_bars(axes, series)
     elif isinstance(series, Means):
         axes.errorbar(
             series.x,
@@ -152,6 +142,20 @@ def _draw(axes: Any, series: Series) -> None:
             label=series.label,
             rasterized=isinstance(series, Points),
         )
+
+
+def _draw_bars(axes: Any, series: Bars) -> None:
+    stacked = series.base is not None
+    drawn = axes.bar(
+        series.names,
+        series.values,
+        bottom=series.base,
+        color=series.style.color,
+        width=0.6,
+        label=series.label,
+    )
+    place: Any = {"label_type": "center", "color": "white"} if stacked else {"padding": 2}
+    axes.bar_label(drawn, labels=list(series.texts), **place)
 
 
 def _draw_heat(axes: Any, heat: Heat) -> None:

@@ -138,10 +138,12 @@ def _check_cutoff(logs: Sequence[Log], pieces: Sequence[Piece], processing: Proc
     for piece in pieces:
         rate = 1.0 / piece.step
         if given >= 0.5 * rate and piece.qdd is None:
+            log = logs[piece.run]
             raise DataError(
-                f"{logs[piece.run].name}: position filter (--cutoff) of {given:g} Hz on a log "
+                f"{log.name}: position filter (--cutoff) of {given:g} Hz on a log "
                 f"sampled at {rate:.4g} Hz; expected less than its Nyquist frequency of "
                 f"{0.5 * rate:.4g} Hz; give `modeler fit` a lower --cutoff, or sample faster"
+                + "".join(f"; {log.name}: {note}" for note in log.notes)
             )
 
 
