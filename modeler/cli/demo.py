@@ -98,11 +98,14 @@ def _simulated(story: Story, out: Path, name: str, seed: int, duration: float) -
 
 
 def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: Path) -> None:
-    comparison, provenance = judged(model, [str(log)], compiled)
+    with working("predicting"):
+        comparison, provenance = judged(model, [str(log)], compiled)
     for line in (*comparison.summary().splitlines(), *verdict(comparison)):
         say(f"   {line}")
-    write_report(out / "compare.html", comparison, provenance)
-    write_pictures(out / "pictures", comparison)
+    with working("drawing the page"):
+        write_report(out / "compare.html", comparison, provenance)
+    with progress("drawing pictures") as bar:
+        write_pictures(out / "pictures", comparison, bar)
 
 
 def _improved(

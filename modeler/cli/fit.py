@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, progress, say, working
 from modeler.cli.options import add_number
 from modeler.cli.robots import add_robot, robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
@@ -169,8 +169,8 @@ def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
         for first, other in given[:index]:
             if shared_rows(log, other.content, other.time[0], other.time[-1]):
                 raise DataError(
-                    f"{place}: got rows of {first} again; rows that repeat make every sigma too "
-                    "small; give each row once"
+                    f"{place}: got rows of {first} again; rows that repeat count twice, and their "
+                    "noise looks like something that returns; give each row once"
                 )
     places = {log.name: place for place, log in bare}
     for place, log in loaded:
@@ -217,10 +217,12 @@ def run_compare(args: argparse.Namespace) -> Json:
         if line.startswith(_TRAINING):
             say(line)
     if args.report is not None:
-        place = write_report(Path(args.report), comparison, lines)
+        with working("drawing the page"):
+            place = write_report(Path(args.report), comparison, lines)
         say(f"written: {place}")
     if args.pictures is not None:
-        written = write_pictures(Path(args.pictures), comparison)
+        with progress("drawing pictures") as bar:
+            written = write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
     return comparison.as_dict()
 
@@ -230,6 +232,7 @@ def judged(
 ) -> tuple[Comparison, list[str]]:
     """The comparison on logs, and where everything came from, in lines."""
     read = read_logs(compiled, logs)
+    _check_logs(_given(logs, read), [])
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
     lines = [

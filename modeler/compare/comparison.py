@@ -8,9 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from modeler.compare.by_log import LogError, errors_by_log
+from modeler.compare.orders import OrderSpectrum
 from modeler.compare.prediction import JointInfo, Prediction, check_prediction, residual
+from modeler.compare.repetition import Repetition, repetitions
+from modeler.compare.ripple import lines, ripple
+from modeler.compare.scale import Scale, scale
+from modeler.compare.shares import Shares, shares
 from modeler.compare.spectrum import Spectrum, spectrum
 from modeler.compare.structure import Structure, structure
+from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
 
 
@@ -40,6 +47,9 @@ class JointComparison:
     worst: Window
     structure: Structure | None  # None: too few samples to tell
     spectrum: Spectrum | None  # None: no segment long enough
+    shares: Shares | None  # None: too few samples to tell
+    scale: Scale | None  # None: too few samples, or a constant
+    orders: OrderSpectrum | None  # None: too few samples, or the joint rests
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +61,8 @@ class Comparison:
     relative_error: float  # over all joints, rows stacked (N m and N together); NaN: no torque
     joints: tuple[JointComparison, ...]
     unjudged: tuple[tuple[str, str], ...]  # joint name, why
+    logs: tuple[LogError, ...]
+    repeated: tuple[Repetition, ...]  # empty: no motion was made twice
 
     def as_dict(self) -> dict[str, Any]:
         """The comparison as plain numbers and text; undefined numbers are None."""
@@ -61,6 +73,10 @@ class Comparison:
             "relative_error": _defined(self.relative_error),
             "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
             "unjudged": dict(self.unjudged),
+            "by_log": [_log_dict(log) for log in self.logs],
+            "repeated": [
+                {"method": item.kind, "periods": list(item.periods)} for item in self.repeated
+            ],
         }
 
     def to_json(self) -> str:
@@ -69,23 +85,7 @@ class Comparison:
 
     def summary(self) -> str:
         """Plain-text table, one line per joint, units in the table."""
-        head = (
-            f"{'joint':<6}{'error':>8}{'rms':>13}{'largest':>13}  {'at':<28}{'R2':>7}{'bias':>13}"
-        )
-        lines = [head]
-        for item in self.joints:
-            unit = item.joint.effort_unit
-            moment = f"{item.largest.time:.2f} s of {item.largest.log}"
-            lines.append(
-                f"{item.joint.name:<6}{item.relative_error:>7.1%} "
-                f"{item.rms:>8.3g} {unit:<4}{item.largest.value:>8.3g} {unit:<4}  {moment:<28}"
-                f"{_or_dash(item.r2, '.3f'):>6} {item.bias:>8.2g} {unit}"
-            )
-        lines += [f"{name:<6}not judged: {reason}" for name, reason in self.unjudged]
-        lines.append(
-            f"{'all':<6}{_or_dash(self.relative_error, '.1%'):>7}  of {self.samples} samples"
-        )
-        return "\n".join(line.rstrip() for line in lines)
+        return summary(self)
 
 
 def compare(prediction: Prediction) -> Comparison:
@@ -100,6 +100,7 @@ def compare(prediction: Prediction) -> Comparison:
     """
     check_prediction(prediction)
     e = residual(prediction)
+    repeated = repetitions(prediction)
     judged, unjudged = [], []
     for index, info in enumerate(prediction.joints):
         rows = prediction.used[:, index]
@@ -108,7 +109,7 @@ def compare(prediction: Prediction) -> Comparison:
         elif not prediction.measured[rows, index].any():
             unjudged.append((info.name, "measured torque is zero in every sample that counts"))
         else:
-            judged.append(_compare_joint(prediction, index, e[:, index]))
+            judged.append(_compare_joint(prediction, index, e[:, index], repeated))
     used = prediction.used
     size = float(np.linalg.norm(prediction.measured[used]))
     error = float(np.linalg.norm(e[used]))
@@ -118,15 +119,20 @@ def compare(prediction: Prediction) -> Comparison:
         relative_error=error / size if size else math.nan,
         joints=tuple(judged),
         unjudged=tuple(unjudged),
+        logs=errors_by_log(prediction),
+        repeated=repeated,
     )
 
 
-def _compare_joint(prediction: Prediction, index: int, e: np.ndarray) -> JointComparison:
+def _compare_joint(
+    prediction: Prediction, index: int, e: np.ndarray, repeated: tuple[Repetition, ...]
+) -> JointComparison:
     rows = prediction.used[:, index]
     counted, measured = e[rows], prediction.measured[rows, index]
     top = int(np.nanargmax(np.abs(e)))
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
+    found = structure(prediction, index)
     return JointComparison(
         joint=prediction.joints[index],
         index=index,
@@ -143,17 +149,16 @@ def _compare_joint(prediction: Prediction, index: int, e: np.ndarray) -> JointCo
         ),
         regions=velocity_regions(prediction.qd[rows, index], counted),
         worst=worst_window(prediction, e),
-        structure=structure(prediction, index),
+        structure=found,
         spectrum=spectrum(prediction, e),
+        shares=shares(prediction, index, e, repeated, found),
+        scale=scale(measured, prediction.predicted[rows, index]),
+        orders=ripple(prediction, index),
     )
 
 
 def _defined(value: float) -> float | None:
     return value if math.isfinite(value) else None
-
-
-def _or_dash(value: float, form: str) -> str:
-    return format(value, form) if math.isfinite(value) else "-"
 
 
 def _joint_dict(item: JointComparison) -> dict[str, Any]:
@@ -175,6 +180,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
             "shares": dict(found.shares),
             "together": found.together,
             "across": dict(found.across),
+            "motors": dict(found.motors),
         },
         "spectrum": None
         if colour is None
@@ -184,4 +190,29 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
             "peak": colour.peak,
             "peak_share": colour.peak_share,
         },
+        **_shares_dict(item),
+        "scale": None if item.scale is None else dataclasses.asdict(item.scale),
+        "orders": None
+        if item.orders is None
+        else [dataclasses.asdict(line) for line in lines(item)],
+    }
+
+
+def _shares_dict(item: JointComparison) -> dict[str, Any]:
+    found = item.shares
+    return {
+        "explained": _defined(item.r2),
+        "systematic": None if found is None else found.systematic,
+        "floor": None if found is None else found.floor,
+        "method": None if found is None else found.method,
+        "systematic_sigma": None if found is None else found.sigma,
+    }
+
+
+def _log_dict(found: LogError) -> dict[str, Any]:
+    return {
+        "log": found.log,
+        "samples": found.samples,
+        "relative_error": _defined(found.relative_error),
+        "joints": {name: _defined(error) for name, error in found.joints},
     }

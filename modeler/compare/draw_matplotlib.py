@@ -87,6 +87,9 @@ def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
 
 
 def _draw_panel(axes: Any, panel: Panel) -> None:
+    if not panel.series:
+        axes.set_axis_off()
+        return
     axes.set_title(panel.title)
     axes.set_ylabel(panel.y_label)
     if panel.scale == "log" and any(
@@ -111,8 +114,7 @@ def _draw(axes: Any, series: Series) -> None:
     if isinstance(series, Heat):
         _draw_heat(axes, series)
     elif isinstance(series, Bars):
-        drawn = axes.bar(series.names, series.values, color=series.style.color, width=0.6)
-        axes.bar_label(drawn, labels=list(series.texts), padding=2)
+        _draw_bars(axes, series)
     elif isinstance(series, Means):
         axes.errorbar(
             series.x,
@@ -140,6 +142,20 @@ def _draw(axes: Any, series: Series) -> None:
             label=series.label,
             rasterized=isinstance(series, Points),
         )
+
+
+def _draw_bars(axes: Any, series: Bars) -> None:
+    stacked = series.base is not None
+    drawn = axes.bar(
+        series.names,
+        series.values,
+        bottom=series.base,
+        color=series.style.color,
+        width=0.6,
+        label=series.label,
+    )
+    place: Any = {"label_type": "center", "color": "white"} if stacked else {"padding": 2}
+    axes.bar_label(drawn, labels=list(series.texts), **place)
 
 
 def _draw_heat(axes: Any, heat: Heat) -> None:

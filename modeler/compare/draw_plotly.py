@@ -46,6 +46,7 @@ def _figure(picture: Picture) -> go.Figure:
         font={"family": "system-ui, sans-serif", "size": 12, "color": "#222"},
         legend={"orientation": "h", "x": 0, "y": 1, "yref": "container", "yanchor": "top"},
         hovermode="closest",
+        barmode="overlay",
     )
     return figure
 
@@ -79,6 +80,9 @@ def _add_panel(figure: go.Figure, panel: Panel, at: tuple[int, int], labelled: s
             **place,
         )
     figure.update_yaxes(title_text=panel.y_label, **place)
+    if not panel.series:
+        figure.update_xaxes(visible=False, **place)
+        figure.update_yaxes(visible=False, **place)
     if panel.scale == "log":
         figure.update_xaxes(type="log", **place)
         figure.update_yaxes(type="log", exponentformat="power", **place)
@@ -92,7 +96,8 @@ def _trace(series: Series) -> Any:
             x=series.names,
             y=_compact(series.values),
             text=series.texts,
-            textposition="outside",
+            base=None if series.base is None else _compact(series.base),
+            textposition="outside" if series.base is None else "inside",
             cliponaxis=False,
             marker_color=series.style.color,
             name=series.label,

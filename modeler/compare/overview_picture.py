@@ -3,46 +3,56 @@
 import numpy as np
 
 from modeler.compare.comparison import Comparison
-from modeler.compare.coordinates import COORDINATES
+from modeler.compare.coordinates import COORDINATES, coordinates_of
 from modeler.compare.picture import BLUE, Bars, Heat, Panel, Picture, Style
+from modeler.compare.share_picture import share_panels
+from modeler.compare.table import METHODS
 from modeler.compare.where import REGIONS
 
 
 def overview_picture(comparison: Comparison) -> Picture:
-    """Bars of relative error, and heat maps of velocity regions, coordinates, other joints."""
+    """Relative error, regions of velocity; stacked shares; coordinates, other joints."""
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
     bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
-    coordinates = tuple(coordinate.id for coordinate in COORDINATES)
     panels = (
         (
             Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
             Panel("Where: share of squared residual [%]", "velocity", "joint",
                   (_regions(comparison),)),
         ),
+        share_panels(comparison),
         (
-            Panel("Follows its own ... [%]", "coordinate", "joint",
-                  (_shares(comparison, coordinates),)),
-            Panel("Follows the velocity of joint ... [%]", "joint moving", "joint",
+            Panel("Follows its own ... [%]", "coordinate", "joint", (_shares(comparison),)),
+            Panel("Follows the velocity of ... [%]", "joint or motor moving", "joint",
                   (_across(comparison),)),
         ),
     )  # fmt: skip
     return Picture(
         name="overview",
         title="All joints",
-        caption=(
-            "Top left: unexplained share of each joint's torque. Top right: in which velocity "
-            "region the squared residual sits, and in brackets the share of the samples there; "
-            "fast is beyond 40 %, around zero within 5 % of the joint's own top speed. Bottom: "
-            "share of the residual variance that a curve over that coordinate predicts on motion "
-            "not used to fit it; noise gives 0. Coordinates move together, so shares overlap. A "
-            "cell away from the diagonal (bottom right) that beats the diagonal points to coupled "
-            "drives."
-        ),
+        caption=_caption(comparison),
         panels=panels,
-        heights=(0.5, 0.5),
+        heights=(1 / 3, 1 / 3, 1 / 3),
         widths=(0.5, 0.5),
-        height=max(520, 240 + 2 * 44 * len(names)),
+        height=max(780, 360 + 3 * 44 * len(names)),
+    )
+
+
+def _caption(comparison: Comparison) -> str:
+    methods = {item.shares.method for item in comparison.joints if item.shares is not None}
+    how = "; ".join(METHODS[name] for name in METHODS if name in methods)
+    return (
+        "Top left: unexplained share of each joint's torque. Top right: in which velocity region "
+        "the squared residual sits, and in brackets the share of the samples there; fast is beyond "
+        "40 %, around zero within 5 % of the joint's own top speed. Middle: the variance of the "
+        "torque, and that of what is left alone. "
+        + (f"Repeatable is {how}; noise is the rest. " if how else "")
+        + "Bottom: share of the residual variance that a curve over that coordinate predicts on "
+        "motion not used to fit it; noise gives 0. Coordinates move together, so shares overlap. A "
+        "cell (bottom right) that beats that of the joint itself points to a motor that turns with "
+        "several joints: its friction follows the speed of the motor, and that is a sum of joint "
+        "speeds."
     )
 
 
@@ -55,23 +65,33 @@ def _regions(comparison: Comparison) -> Heat:
     return _heat(comparison, "share of squared residual", REGIONS, energy, texts)
 
 
-def _shares(comparison: Comparison, coordinates: tuple[str, ...]) -> Heat:
-    columns = (*coordinates, "all motion")
+def _shares(comparison: Comparison) -> Heat:
+    held = {
+        coordinate.id
+        for item in comparison.joints
+        for coordinate in coordinates_of(comparison.prediction, item.index)
+    }
+    names = [coordinate.id for coordinate in COORDINATES if coordinate.id in held]
+    columns = (*names, "all motion")
     rows = [
         [np.nan] * len(columns)
         if item.structure is None
-        else [*(item.structure.share(name) for name in coordinates), item.structure.together]
+        else [*(item.structure.share(name) for name in names), item.structure.together]
         for item in comparison.joints
     ]
     return _heat(comparison, "explained share", columns, np.array(rows), None)
 
 
 def _across(comparison: Comparison) -> Heat:
-    columns = tuple(info.name for info in comparison.prediction.joints)
+    prediction = comparison.prediction
+    columns = (
+        *(f"joint {info.name}" for info in prediction.joints),
+        *(f"motor {motor.name}" for motor in prediction.motors),
+    )
     rows = [
         [np.nan] * len(columns)
         if item.structure is None
-        else [share for _, share in item.structure.across]
+        else [share for _, share in (*item.structure.across, *item.structure.motors)]
         for item in comparison.joints
     ]
     return _heat(comparison, "explained share", columns, np.array(rows), None)

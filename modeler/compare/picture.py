@@ -7,7 +7,7 @@ import numpy as np
 
 # Okabe and Ito, "Color Universal Design" (2008): told apart by colour-blind readers.
 BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
-GREY = "#9A9A9A"
+GREY, SLATE = "#9A9A9A", "#6F6F6F"
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,14 @@ class Means:
 
 @dataclass(frozen=True, eq=False)
 class Bars:
-    """One bar for each name, its number printed at its end."""
+    """One bar for each name, its number printed at its end; inside it where bars are stacked."""
 
     label: str
     names: tuple[str, ...]
     values: np.ndarray
     texts: tuple[str, ...]
     style: Style
+    base: np.ndarray | None = None  # where each bar begins, of stacked bars
 
 
 @dataclass(frozen=True, eq=False)

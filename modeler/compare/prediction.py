@@ -19,6 +19,25 @@ class JointInfo:
     effort_unit: Literal["N m", "N"]
 
 
+@dataclass(frozen=True)
+class Motor:
+    """A motor with friction of its own that turns with several joints ([coupling])."""
+
+    name: str  # "5+6"
+    coefficients: tuple[float, ...]  # (joints,) its speed is coefficients . qd
+
+
+@dataclass(frozen=True, eq=False)
+class FullRate:
+    """The samples from which the rows were made; m samples, stacked log after log."""
+
+    run: np.ndarray  # (m,) index into logs
+    time: np.ndarray  # (m,) s, as in the log
+    q: np.ndarray  # (m, joints) rad or m
+    residual: np.ndarray  # (m, joints) N m or N, not filtered; NaN where it does not count
+    filtered: np.ndarray  # (m, joints) through the filter of the rows; NaN where it cannot count
+
+
 @dataclass(frozen=True, eq=False)
 class Prediction:
     """Measured and predicted torque after the same filtering of both sides.
@@ -39,12 +58,24 @@ class Prediction:
     measured: np.ndarray  # (n, joints) N m or N
     predicted: np.ndarray  # (n, joints) N m or N
     used: np.ndarray  # (n, joints) bool: rows that count (not masked for low speed, saturation)
+    travel: np.ndarray | None = None  # (n, joints) rad or m since the last reversal
+    temperature: np.ndarray | None = None  # (n, joints) as logged; NaN where it was not
+    full: FullRate | None = None  # None: the rows are all there is
+    motors: tuple[Motor, ...] = ()
 
 
 def residual(prediction: Prediction) -> np.ndarray:
     """Measured minus predicted torque, NaN where the row does not count, (n, joints)."""
     difference = np.asarray(prediction.measured - prediction.predicted, dtype=float)
     return np.where(prediction.used, difference, np.nan)
+
+
+def full_rate(prediction: Prediction) -> FullRate:
+    """The samples behind the rows, or the rows themselves."""
+    if prediction.full is not None:
+        return prediction.full
+    e = residual(prediction)
+    return FullRate(prediction.run, prediction.time, prediction.q, e, e)
 
 
 def spans(segment: np.ndarray) -> list[slice]:
@@ -81,7 +112,8 @@ def _check_shapes(prediction: Prediction) -> None:
     if columns == 0:
         raise ShapeError("joints: got none; expected at least one joint to compare")
     expected = {name: (rows,) for name in ("time", "run", "segment")}
-    matrices = {name: (rows, columns) for name in (*_MATRICES, "used")}
+    further = [n for n in ("travel", "temperature") if getattr(prediction, n) is not None]
+    matrices = {name: (rows, columns) for name in (*_MATRICES, "used", *further)}
     for name, shape in {**expected, **matrices}.items():
         got = np.shape(getattr(prediction, name))
         if got != shape:
@@ -89,6 +121,8 @@ def _check_shapes(prediction: Prediction) -> None:
                 f"{name}: got shape {got}, expected {shape} ({rows} samples, {columns} joints); "
                 "give one row per sample and one column per joint"
             )
+    if prediction.full is not None:
+        _check_full(prediction.full, columns)
     if prediction.used.dtype != np.bool_:
         raise ShapeError(
             f"used: got {prediction.used.dtype}, expected bool; write `used.astype(bool)`"
@@ -99,6 +133,17 @@ def _check_shapes(prediction: Prediction) -> None:
             f"run: got log index {prediction.run[outside][0]}, expected 0 to "
             f"{len(prediction.logs) - 1} ({len(prediction.logs)} logs); name every log in `logs`"
         )
+
+
+def _check_full(full: FullRate, columns: int) -> None:
+    rows = full.time.size
+    for name in ("run", "q", "residual", "filtered"):
+        got, shape = np.shape(getattr(full, name)), (rows,) if name == "run" else (rows, columns)
+        if got != shape:
+            raise ShapeError(
+                f"full.{name}: got shape {got}, expected {shape} ({rows} samples, {columns} "
+                "joints); give one row per sample and one column per joint"
+            )
 
 
 def _check_finite(prediction: Prediction, name: str) -> None:

@@ -4,7 +4,7 @@ import base64
 import html
 import math
 import statistics
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from string import Template
 
@@ -16,6 +16,7 @@ from modeler.compare.draw_plotly import figure_json
 from modeler.compare.overview_picture import overview_picture
 from modeler.compare.picture import Picture, picture_csv
 from modeler.compare.pictures import all_pictures, joint_pictures
+from modeler.compare.table import method_lines, or_dash, share_text
 from modeler.compare.verdict import (
     best_other,
     best_pattern,
@@ -24,6 +25,7 @@ from modeler.compare.verdict import (
     kind_of_residual,
     looks_like_noise,
     percent,
+    wrong_scale,
 )
 from modeler.core.files import write_atomically
 
@@ -39,7 +41,7 @@ _HERE = Path(__file__).parent
 _HEAD = (
     '<tr><th>joint</th><th class="text">relative error</th><th>rms residual</th>'
     '<th>rms torque</th><th>largest residual</th><th class="text">at</th><th>R&sup2;</th>'
-    "<th>mean residual</th><th>samples</th></tr>"
+    "<th>repeatable</th><th>noise</th><th>mean residual</th><th>samples</th></tr>"
 )
 
 
@@ -61,19 +63,29 @@ def write_report(path: Path, comparison: Comparison, provenance: Sequence[str] =
     return path
 
 
-def write_pictures(folder: Path, comparison: Comparison) -> tuple[Path, ...]:
+def write_pictures(
+    folder: Path, comparison: Comparison, progress: Callable[[float], None] | None = None
+) -> tuple[Path, ...]:
     """Write every picture as PNG and SVG and its numbers as CSV; returns the paths written.
+
+    Args:
+        folder: made if it is not there.
+        comparison: from `compare`.
+        progress: called with the share done, 0 to 1.
 
     Raises:
         ModelerError: the folder cannot be written.
     """
     written = []
-    for picture in all_pictures(comparison):
+    pictures = all_pictures(comparison)
+    for number, picture in enumerate(pictures, start=1):
         files = {**images(picture), "csv": picture_csv(picture).encode()}
         for kind, content in files.items():
             place = Path(folder) / f"{picture.name}.{kind}"
             write_atomically(place, content)
             written.append(place)
+        if progress is not None:
+            progress(number / len(pictures))
     return tuple(written)
 
 
@@ -88,6 +100,8 @@ def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
         facts="\n".join(_fact(name, text) for name, text in _facts(comparison)),
         verdict="\n".join(_verdict_lines(comparison)),
         table="\n".join([_HEAD, *(_table_row(item, comparison) for item in comparison.joints)]),
+        method=html.escape(" ".join(f"{line}." for line in method_lines(comparison))),
+        logs=_log_table(comparison),
         overview=figure_html(overview_picture(comparison), titled=False)
         if comparison.joints
         else "",
@@ -144,7 +158,9 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
     named = []
     for item in joints:
         pattern, other = best_pattern(item), best_other(item)
-        if other is not None:
+        if wrong_scale(item) is not None and item.scale is not None:
+            named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
+        elif other is not None:
             named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
         elif pattern is not None:
             named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
@@ -196,11 +212,40 @@ def _table_row(item: JointComparison, comparison: Comparison) -> str:
         f"<td>{item.measured_rms:.3g} {unit}</td>",
         f"<td>{item.largest.value:.3g} {unit}</td>",
         f'<td class="text">{at}</td>',
-        f"<td>{'-' if math.isnan(item.r2) else f'{item.r2:.4f}'}</td>",
+        f"<td>{or_dash(item.r2, '.4f')}</td>",
+        *_share_cells(item),
         f"<td>{item.bias:+.2g} {unit}</td>",
         f"<td>{item.samples}</td>",
     ]
     return f"<tr>{''.join(cells)}</tr>"
+
+
+def _share_cells(item: JointComparison) -> tuple[str, str]:
+    if item.shares is None:
+        return "<td>-</td>", "<td>-</td>"
+    return (
+        f"<td>{share_text(item.shares.systematic)}</td>",
+        f"<td>{share_text(item.shares.floor)}</td>",
+    )
+
+
+def _log_table(comparison: Comparison) -> str:
+    """Relative error of each log and joint; nothing for a single log."""
+    if len(comparison.logs) < 2:
+        return ""
+    names = [html.escape(name) for name, _ in comparison.logs[0].joints]
+    head = "".join(f"<th>joint {name}</th>" for name in names)
+    rows = "\n".join(
+        f'<tr><td class="text">{html.escape(item.log)}</td><td>{item.samples}</td>'
+        f"<td>{or_dash(item.relative_error, '.1%')}</td>"
+        + "".join(f"<td>{or_dash(error, '.1%')}</td>" for _, error in item.joints)
+        + "</tr>"
+        for item in comparison.logs
+    )
+    return (
+        '<table><caption>Relative error by log.</caption><tr><th class="text">log</th>'
+        f"<th>samples</th><th>all</th>{head}</tr>\n{rows}</table>"
+    )
 
 
 def _joint_section(comparison: Comparison, item: JointComparison) -> str:

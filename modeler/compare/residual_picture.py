@@ -3,10 +3,22 @@
 import numpy as np
 
 from modeler.compare.comparison import JointComparison
-from modeler.compare.coordinates import COORDINATES, coordinate_unit, coordinate_values
-from modeler.compare.picture import BLUE, GREY, Curve, Means, Panel, Picture, Points, Style
+from modeler.compare.coordinates import coordinate_unit, coordinate_values, coordinates_of
+from modeler.compare.picture import (
+    BLUE,
+    GREY,
+    ORANGE,
+    VERMILLION,
+    Curve,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Style,
+)
 from modeler.compare.prediction import Prediction
-from modeler.compare.thinning import thin_points
+from modeler.compare.ripple import lines, waves
+from modeler.compare.thinning import thin_curves, thin_points
 from modeler.compare.time_picture import running_time
 
 _DOTS = 1200
@@ -14,37 +26,50 @@ _BINS = 24
 _FEWEST = 8  # samples of a bin whose mean is drawn
 _CLOUD = Style(GREY, width=2.6, opacity=0.45)
 _MEAN = Style(BLUE, width=1.6)
+_BACK = Style(VERMILLION, width=1.6)
+_FLOOR = Style(ORANGE, width=1.2, dash=True)
+_WAVES = Style(BLUE, width=0.8)
+_ACROSS = 3  # panels side by side
 
 
 def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
-    """Six panels: velocity, position, acceleration; load, time, spectrum."""
-    panels = {
-        coordinate.id: _against(prediction, item, coordinate.id, coordinate.label)
-        for coordinate in COORDINATES
+    """A panel for each coordinate that the logs hold, then both spectra."""
+    drawn = [
+        _against(prediction, item, coordinate.id, coordinate.label)
+        for coordinate in coordinates_of(prediction, item.index)
         if coordinate.id != "direction"
-    }
+    ]
+    drawn += [_spectrum_panel(item), _order_panel(item)]
+    drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
+    rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_residual",
         title=f"Joint {name}: does the residual still have structure?",
-        caption=(
-            "Grey: samples. Blue: mean of the residual in each bin, whiskers two standard errors "
-            "(from the spread between separate passes through the bin; none where there was only "
-            "one). A blue line that leaves zero by more than its whiskers is a pattern the model "
-            "does not have: a step at zero velocity looks like Coulomb friction, a slope like "
-            "viscous friction, a wave over position like gravity or ripple, a slope over "
-            "acceleration like inertia. The percentage is the share of the residual variance that "
-            "such a curve predicts on motion not used to draw it. A flat spectrum is noise, a "
-            "narrow peak an oscillation."
-        ),
-        panels=(
-            (panels["velocity"], panels["position"], panels["acceleration"]),
-            (panels["load"], panels["time"], _spectrum_panel(item)),
-        ),
-        heights=(0.5, 0.5),
+        caption=_CAPTION,
+        panels=tuple(rows),
+        heights=tuple(1.0 / len(rows) for _ in rows),
         widths=(1 / 3, 1 / 3, 1 / 3),
-        height=620,
+        height=310 * len(rows),
     )
+
+
+_EMPTY = Panel("", "", "", ())
+
+_CAPTION = (
+    "Grey: samples. Blue: mean of the residual in each bin, whiskers two standard errors (from the "
+    "spread between separate passes through the bin; none where there was only one). A blue line "
+    "that leaves zero by more than its whiskers is a pattern the model does not have: a step at "
+    "zero velocity looks like Coulomb friction, a slope like viscous friction, a wave over "
+    "position like gravity or ripple, a slope over acceleration like inertia, a curve that starts "
+    "anew at every reversal (travel) like presliding. Over temperature, blue is motion in the "
+    "positive and red in the negative direction: friction that changes moves them apart or "
+    "together. The percentage is the share of the residual variance that such a curve predicts on "
+    "motion not used to draw it; of a temperature, what it adds to the direction of motion. A flat "
+    "spectrum is noise, a narrow peak over frequency an oscillation, a narrow peak over waves per "
+    "turn something that turns: teeth, magnets, rollers. Waves per turn of the motor are those per "
+    "turn of the joint over the gear ratio, which a robot file does not hold."
+)
 
 
 def binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -85,20 +110,29 @@ def _against(prediction: Prediction, item: JointComparison, coordinate: str, lab
     else:
         x, marks = coordinate_values(prediction, item.index, coordinate)[rows], ()
     kept = thin_points(x, e, _DOTS)
-    centre, mean, error = binned_means(x, e)
     title = label[0].upper() + label[1:]
     if item.structure is not None:
         title = f"{title}: {item.structure.share(coordinate):.0%}"
+    if coordinate == "temperature":
+        means = _by_direction(x, e, prediction.qd[rows, item.index])
+    else:
+        means = (Means("mean, 2 standard errors", *binned_means(x, e), _MEAN),)
     return Panel(
         title=title,
         x_label=f"{label} [{coordinate_unit(prediction, item.index, coordinate)}]",
         y_label=f"residual [{item.joint.effort_unit}]",
-        series=(
-            Points("samples", x[kept], e[kept], _CLOUD),
-            Means("mean, 2 standard errors", centre, mean, error, _MEAN),
-        ),
+        series=(Points("samples", x[kept], e[kept], _CLOUD), *means),
         marks=tuple((place, "") for place, _ in marks[1:]),
         zero=True,
+    )
+
+
+def _by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, ...]:
+    """A line of means for either direction of motion that occurs."""
+    ways = (("moving in the positive direction", qd > 0.0, _MEAN),
+            ("moving in the negative direction", qd < 0.0, _BACK))  # fmt: skip
+    return tuple(
+        Means(text, *binned_means(x[own], e[own]), style) for text, own, style in ways if own.any()
     )
 
 
@@ -121,5 +155,26 @@ def _spectrum_panel(item: JointComparison) -> Panel:
                 _MEAN,
             ),
         ),
+        scale="log",
+    )
+
+
+def _order_panel(item: JointComparison) -> Panel:
+    unit, nothing = item.joint.effort_unit, np.array([np.nan])
+    title, per = "Order spectrum", "turn" if item.joint.unit == "rad" else "m"
+    if item.orders is None:
+        x, y, floor = nothing, nothing, nothing
+    else:
+        x, y, floor = waves(item)[0], item.orders.amplitude, item.orders.floor
+        kept = thin_curves((y,))
+        x, y, floor = x[kept], y[kept], floor[kept]
+        found = lines(item)
+        if found:
+            title += f": {found[0].waves:.4g} waves per {per}"
+    return Panel(
+        title=title,
+        x_label=f"waves per {per} of the joint [1/{per}]",
+        y_label=f"amplitude [{unit}]",
+        series=(Curve("residual", x, y, _WAVES), Curve("floor", x, floor, _FLOOR)),
         scale="log",
     )

@@ -2,6 +2,7 @@
 
 from modeler.compare.comparison import Comparison, JointComparison
 from modeler.compare.coordinates import COORDINATES, Coordinate
+from modeler.compare.ripple import lines, waves
 from modeler.compare.where import Region
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
@@ -47,7 +48,11 @@ def findings(item: JointComparison) -> list[str]:
     """What is left in the residual of a joint, most useful first; never empty."""
     if item.rms <= 1e-12 * item.measured_rms:
         return ["prediction and measurement agree to rounding"]
-    found = [text for text in (_pattern(item), _other_joint(item), _bias(item)) if text]
+    wrong = wrong_scale(item)
+    if wrong:  # everything else would follow from it
+        return [wrong, _worst(item)]
+    told = (_pattern(item), _other_joint(item), _ripple(item), _bias(item), _returns(item))
+    found = [text for text in told if text]
     line = _oscillation(item)
     if line and not found:  # a pattern that follows the motion has the frequencies of the motion
         found.append(line)
@@ -55,6 +60,33 @@ def findings(item: JointComparison) -> list[str]:
         found.append(_nothing(item))
     found.append(_worst(item))
     return found
+
+
+def wrong_scale(item: JointComparison) -> str | None:
+    """What to check where the prediction is right but for its sign or a factor."""
+    found, name = item.scale, item.joint.name
+    if found is None:
+        return None
+    times = f"measured is {found.factor:.3g} times predicted"
+    if found.opposite:
+        return (
+            f"the prediction of joint {name} has the opposite sign: {times}; check the sign of "
+            f"tau{name} (or of its drive gain) and of q{name} in this log"
+        )
+    if found.off:
+        return (
+            f"the prediction of joint {name} is off by a factor: {times}; check the unit and the "
+            "drive gain of this log, and what the robot carries"
+        )
+    return None
+
+
+def returns(item: JointComparison) -> float:
+    """Repeatable share of what is not explained; 0 if it is within three standard errors of 0."""
+    found = item.shares
+    if found is None or (found.sigma is not None and found.systematic < 3.0 * found.sigma):
+        return 0.0
+    return found.repeats
 
 
 def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
@@ -72,10 +104,14 @@ def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
 
 
 def best_other(item: JointComparison) -> tuple[str, float] | None:
-    """The other joint whose velocity explains clearly more than this joint's own, its share."""
+    """What explains clearly more by its velocity than the joint itself, and its share.
+
+    "joint 3", or "the motor that turns with joints 5 and 6" where the model has friction there.
+    """
     if item.structure is None:
         return None
-    others = [entry for entry in item.structure.across if entry[0] != item.joint.name]
+    others = [(f"joint {k}", x) for k, x in item.structure.across if k != item.joint.name]
+    others += [(_motor(k), x) for k, x in item.structure.motors]
     if not others:
         return None
     name, share = max(others, key=lambda entry: entry[1])
@@ -83,8 +119,15 @@ def best_other(item: JointComparison) -> tuple[str, float] | None:
     return (name, share) if share >= own + NOTICEABLE else None
 
 
+def _motor(name: str) -> str:
+    first, _, last = name.replace("+", ", ").rpartition(", ")
+    return f"the motor that turns with joints {first} and {last}"
+
+
 def kind_of_residual(item: JointComparison) -> str:
     """`pattern`, `noise` or `other`: what a reader should see first."""
+    if wrong_scale(item) or _ripple(item) or _returns(item):
+        return "pattern"
     if best_pattern(item) is not None or best_other(item) is not None:
         return "pattern"
     return "noise" if looks_like_noise(item) else "other"
@@ -97,6 +140,8 @@ def looks_like_noise(item: JointComparison) -> bool:
         and best_pattern(item) is None
         and item.structure.together < NOTICEABLE
         and best_other(item) is None
+        and _ripple(item) is None
+        and _returns(item) is None
         and _bias(item) is None
         and not _remembers(item)
         and _oscillation(item) is None
@@ -153,10 +198,39 @@ def _other_joint(item: JointComparison) -> str | None:
     found = best_other(item)
     if found is None:
         return None
+    text = f"{percent(found[1])} of that follows the velocity of {found[0]} more than its own"
+    if found[0].startswith("joint"):
+        text += ", as where one motor turns with both ([coupling] in the robot file)"
+    return text
+
+
+def _ripple(item: JointComparison) -> str | None:
+    if item.orders is None:
+        return None
+    orders, per = waves(item)
+    # the slowest waves of the spectrum are patterns over position, named elsewhere
+    fast = [line for line in lines(item) if line.waves > 2.0 * orders[0]]
+    strong = [line for line in fast if line.share >= NOTICEABLE]
+    if not strong:
+        return None
+    line = strong[0]
     return (
-        f"{percent(found[1])} of that follows the velocity of joint {found[0]} more than its own, "
-        "as with coupled drives"
+        f"it ripples with {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
+        f"{item.joint.effort_unit} high"
     )
+
+
+def _returns(item: JointComparison) -> str | None:
+    """The repeatable share, where it is more than the coordinates and the mean account for."""
+    share, found = returns(item), item.structure
+    told = item.bias**2 / item.rms**2 + (found.together if found is not None else 0.0)
+    if item.shares is None or share < max(NOTICEABLE, told + 0.1 if told > NOTICEABLE else 0.0):
+        return None
+    return {
+        "laps": f"{percent(share)} of it returns in every lap",
+        "logs": f"{percent(share)} of it returns in every log of this motion",
+        "smooth": f"{percent(share)} of it follows the motion of the joints together",
+    }[item.shares.method]
 
 
 def _bias(item: JointComparison) -> str | None:

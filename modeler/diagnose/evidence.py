@@ -19,6 +19,7 @@ from modeler.diagnose.orders import order_spectrum
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.state import State, columns_of
 from modeler.effects import RIPPLES
+from modeler.observation.travel import travel_since_reversal
 
 _BINS = 40
 _DOTS = 1500
@@ -140,15 +141,7 @@ def _coordinate(state: State, step: Step, j: int) -> tuple[str, np.ndarray, np.n
 
 def _travel(state: State, j: int, unit: str, way: np.ndarray) -> tuple[str, np.ndarray, np.ndarray]:
     """Travel since the last reversal."""
-    found = []
-    for signals in state.rows.signals:
-        step = np.diff(signals.q[:, j], prepend=signals.q[0, j])
-        travel, total, last = np.empty(len(step)), 0.0, 0.0
-        for k, d in enumerate(step):
-            total = total + abs(d) if d * last >= 0.0 else abs(d)
-            last = d if d != 0.0 else last
-            travel[k] = total
-        found.append(travel)
+    found = [travel_since_reversal(signals.q[:, j]) for signals in state.rows.signals]
     return f"travel since the last reversal [{unit}]", state.rows.filtered(j, found), way
 
 

@@ -1,9 +1,9 @@
-"""The order spectrum: waves of the residual per turn of a joint."""
-
-from dataclasses import dataclass
+"""The order spectrum of a state, and the ripples that it proposes."""
 
 import numpy as np
 
+from modeler.compare.orders import OrderSpectrum
+from modeler.compare.orders import order_spectrum as spectrum_of
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.columns import all_columns
 from modeler.diagnose.state import State
@@ -12,54 +12,12 @@ from modeler.effects import effect_named
 MOTOR = 70.0
 """Waves per turn from which on a ripple is taken for the motor's: teeth and rollers are fewer."""
 
-LEAST_WAVES = 3.0
-"""In the stroke: slower waves cannot be told from gravity and springs."""
-
-_HIGHEST = 1200.0  # waves per unit of position
-_CELLS = 4  # per wave of the highest order
-_STANDS_OUT = 12.0  # power over the median around it
-_MOST = 3  # lines per joint
-
-
-@dataclass(frozen=True, eq=False)
-class OrderSpectrum:
-    """Of one joint.
-
-    Attributes:
-        order: (m,) waves per 2 pi of position: rad, or m.
-        amplitude: (m,) of the residual, N m or N.
-        floor: (m,) median amplitude around each order.
-        peaks: orders that stand out, the strongest first.
-    """
-
-    order: np.ndarray
-    amplitude: np.ndarray
-    floor: np.ndarray
-    peaks: tuple[float, ...]
-
 
 def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
-    """Mean of r exp(-i m q) over the moving samples of joint j, at full rate; None if it rests."""
+    """Of the moving samples of joint j, at full rate; None if it rests."""
     q, r = _samples(state, j)
-    stroke = float(np.ptp(q)) if q.size else 0.0
-    if stroke <= 0.0 or q.size < 100:
-        return None
     unit = state.data.compiled.spec.joints[j].unit
-    highest = _HIGHEST if unit == "rad" else _HIGHEST * 2.0 * np.pi / max(stroke, 1e-6)
-    cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * _CELLS)))
-    place = np.minimum(((q - q.min()) / stroke * cells).astype(int), cells - 1)
-    total = np.bincount(place, r, cells)
-    length = 1 << int(np.ceil(np.log2(cells * 4)))
-    spectrum = np.fft.rfft(total, length) * 2.0 / q.size
-    order = np.arange(len(spectrum)) * (2.0 * np.pi / stroke) * cells / length
-    amplitude = np.abs(spectrum)
-    resolution = 2.0 * np.pi / stroke
-    kept = (order >= LEAST_WAVES * resolution) & (order <= highest) & (order <= _reached(state, j))
-    order, amplitude = order[kept], amplitude[kept]
-    if order.size < 32:
-        return None
-    floor = _floor(amplitude)
-    return OrderSpectrum(order, amplitude, floor, _peaks(order, amplitude, floor, resolution))
+    return spectrum_of(q, r, unit, _reached(state, j)) if q.size else None
 
 
 def _reached(state: State, j: int) -> float:
@@ -99,27 +57,6 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
             continue
         total = total + all_columns(pick, signals)[:, j] @ values
     return total
-
-
-def _floor(amplitude: np.ndarray) -> np.ndarray:
-    """Median over a wide neighbourhood."""
-    width = max(16, len(amplitude) // 40)
-    centres = np.arange(0, len(amplitude), width)
-    medians = [np.median(amplitude[max(0, c - 2 * width) : c + 2 * width]) for c in centres]
-    return np.interp(np.arange(len(amplitude)), centres, medians)
-
-
-def _peaks(
-    order: np.ndarray, amplitude: np.ndarray, floor: np.ndarray, resolution: float
-) -> tuple[float, ...]:
-    power = (amplitude / np.maximum(floor, 1e-300)) ** 2
-    found: list[float] = []
-    for place in np.argsort(-amplitude * (power > _STANDS_OUT)):
-        if power[place] < _STANDS_OUT or len(found) == _MOST:
-            break
-        if all(abs(order[place] - other) > 2.0 * resolution for other in found):
-            found.append(float(order[place]))
-    return tuple(found)
 
 
 def ripple_candidates(state: State) -> list[Candidate]:

@@ -61,13 +61,14 @@ def choose_cutoffs(
     bands = np.array([motion_band(piece) for piece in pieces])
     band = weighted_median(bands, lengths)
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
+    slowest = 1.0 / max(piece.step for piece in pieces)
     said = [f"motion band {band:.3g} Hz (99 % of the velocity's energy), sampled at {rate:.4g} Hz"]
     position = processing.position_cutoff
     logged = all(piece.qdd is not None for piece in pieces)
     unused = " (not needed: accelerations are logged)" if logged else ""
     if position is None:
         wanted = max(LEAST_POSITION, min(POSITION_BANDS * band, ENOUGH_POSITION), 5.0 * band)
-        position = _two_digits(min(wanted, HIGHEST * rate))
+        position = _two_digits(min(wanted, HIGHEST * slowest))
         said.append(
             f"position filter {position:g} Hz{unused}: {POSITION_BANDS:g} x the band within "
             f"{LEAST_POSITION:g} to {ENOUGH_POSITION:g} Hz, never less than 5 x, at most "
@@ -80,7 +81,7 @@ def choose_cutoffs(
         )
     parallel = processing.parallel_cutoff
     if parallel is None:
-        highest = 0.5 * (position or HIGHEST * rate)
+        highest = 0.5 * (position or HIGHEST * slowest)
         parallel = _two_digits(min(max(LEAST_PARALLEL, PARALLEL_BANDS * band), highest))
         said.append(
             f"parallel filter {parallel:g} Hz: {PARALLEL_BANDS:g} x the band, at least "

@@ -60,6 +60,7 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
             f"{logs[0].name}: no uninterrupted motion; every piece between two gaps has fewer "
             "than 4 rows; record without interruptions"
         )
+    _check_cutoff(logs, pieces, processing)
     chosen, choices = choose_cutoffs(processing, pieces)
     found = [own for own, _ in split_logs]
     checks = [
@@ -128,6 +129,21 @@ def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Non
             raise DataError(
                 f"{log.name}: no logged velocities qd{names[0]} ... for derivatives = "
                 '"log"; use "auto" or "position"'
+            )
+
+
+def _check_cutoff(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
+    """A filter above half the sampling rate does not exist; one that is not needed may be any."""
+    given = processing.position_cutoff or 0.0
+    for piece in pieces:
+        rate = 1.0 / piece.step
+        if given >= 0.5 * rate and piece.qdd is None:
+            log = logs[piece.run]
+            raise DataError(
+                f"{log.name}: position filter (--cutoff) of {given:g} Hz on a log "
+                f"sampled at {rate:.4g} Hz; expected less than its Nyquist frequency of "
+                f"{0.5 * rate:.4g} Hz; give `modeler fit` a lower --cutoff, or sample faster"
+                + "".join(f"; {log.name}: {note}" for note in log.notes)
             )
 
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import csr_array, diags_array
 
 SPREAD = 0.1325
@@ -79,3 +80,20 @@ def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | 
     row, tap = np.nonzero(there)
     weights = csr_array((bell[tap], (row, places[there])), shape=(len(centres), samples))
     return RowFilter(weights, centres)
+
+
+def moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
+    """(samples, ...) what the rows of `row_filter` would hold, centred on every sample.
+
+    Outside the segment values count as 0: divide by the same means of ones.
+
+    Args:
+        values: (samples, ...).
+        step: s.
+        cutoff: Hz at -3 dB; 0 for none.
+    """
+    spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
+    reach = int(np.ceil(_REACH * spread))
+    if reach == 0:
+        return values
+    return np.asarray(gaussian_filter1d(values, spread, axis=0, mode="constant", radius=reach))

@@ -110,7 +110,10 @@ def test_fit_and_compare(capsys, arm):
     assert set(raw["joints"]) == {"1", "2", "3"}
     for joint in raw["joints"].values():
         assert joint["relative_error"] < 0.01 and {"rms", "max", "r2"} <= set(joint)
-    assert "Joint 1: " in out
+        assert joint["explained"] == joint["r2"] and joint["samples"] < 200
+        assert joint["systematic"] is joint["floor"] is joint["method"] is None  # too few samples
+    assert raw["by_log"][0]["log"] == "held.parquet" and raw["repeated"] == []
+    assert "Joint 1: " in out and "repeatable" in out.splitlines()[0]
     assert "<html" in (arm / "page.html").read_text()[:500]
 
 
@@ -226,6 +229,43 @@ def test_a_row_counts_once(capsys, arm, tmp_path, monkeypatch):
     argv = ("fit", "demo-arm", "a.parquet", "--payload-log", "./a.parquet")
     status, _, err = run(capsys, *argv, "--out", tmp_path / "m")
     assert status == 1 and "./a.parquet: got rows of a.parquet again" in err
+
+
+def test_a_row_is_compared_once(capsys, arm):
+    place = arm / "held.parquet"
+    status, _, err = run(capsys, "compare", arm / "m.json", place, f"{place}@2:4")
+    assert status == 1 and err.count("\n") == 1
+    assert f"{place}@2:4: got rows of {place} again; rows that repeat count twice" in err
+
+
+def test_errors_of_several_logs(capsys, arm):
+    logs = [arm / "held.parquet", arm / "b.parquet"]
+    argv = ("compare", arm / "m.json", *logs, "--json", arm / "several.json")
+    status, out, _ = run(capsys, *argv)
+    assert status == 0
+    for joint in json.loads((arm / "several.json").read_text())["joints"].values():
+        parts = [joint[name] for name in ("explained", "systematic", "floor")]
+        assert sum(parts) == pytest.approx(1.0) and joint["method"] == "smooth"
+    table = out.splitlines()
+    start = next(k for k, line in enumerate(table) if line.startswith("log "))
+    assert table[start].split() == ["log", "samples", "error", "joint", "1", "joint", "2", "joint",
+                                    "3"]  # fmt: skip
+    assert [line.split()[0] for line in table[start + 1 : start + 3]] == [log.name for log in logs]
+
+
+def test_a_cutoff_above_nyquist_is_one_line(capsys, arm, tmp_path):
+    """Logs at 500 Hz; then a log that is too slow for the filter of the model."""
+    argv = ("fit", "demo-arm", arm / "a.parquet", "--cutoff", "250", "--out", tmp_path / "m.json")
+    status, _, err = run(capsys, *argv)
+    assert status == 1 and err.count("\n") == 1 and not (tmp_path / "m.json").exists()
+    assert "a.parquet: position filter (--cutoff) of 250 Hz on a log sampled at 500 Hz" in err
+    slow = tmp_path / "slow.csv"
+    argv = ("simulate", "demo-arm", "--duration", "8", "--rate", "50", "--seed", "3", "--out", slow)
+    assert run(capsys, *argv)[0] == 0
+    for command in ("compare", "diagnose"):
+        status, _, err = run(capsys, command, arm / "m.json", slow)
+        assert status == 1 and err.count("\n") == 1
+        assert "slow.csv: position filter" in err and "Nyquist frequency of 25 Hz" in err
 
 
 def test_bare_and_loaded_logs_have_names_of_their_own(capsys, arm, tmp_path):

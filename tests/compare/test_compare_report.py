@@ -109,7 +109,7 @@ def test_page_has_every_picture_and_its_numbers(page: str, found: Comparison) ->
         text = base64.b64decode(link.partition("base64,")[2]).decode()
         rows = list(csv.DictReader(io.StringIO(text)))
         assert {row["panel"] for row in rows} == {
-            panel.title.replace(",", ";") for row in picture.panels for panel in row
+            panel.title.replace(",", ";") for row in picture.panels for panel in row if panel.series
         }
         assert all(len(row) == 5 and None not in row for row in rows)
 
@@ -124,7 +124,7 @@ def test_both_renderers_draw_every_series(found: Comparison, page: str) -> None:
 
 def test_axes_carry_units(found: Comparison) -> None:
     for picture in all_pictures(found)[1:]:
-        for panel in (panel for row in picture.panels for panel in row):
+        for panel in (panel for row in picture.panels for panel in row if panel.series):
             assert panel.x_label.endswith("]") and panel.y_label.endswith("]")
         assert len(picture.caption) > 100
 
@@ -135,6 +135,21 @@ def test_no_curve_has_too_many_points() -> None:
         for series in panel.series:
             if isinstance(series, Curve):
                 assert series.x.size <= LIMIT + 10
+
+
+def test_stacked_bars_fill_the_whole(found: Comparison, page: str) -> None:
+    """Both stacks of every joint end at 100 %, in the picture and on the page."""
+    torque, left = all_pictures(found)[0].panels[1]
+    for panel in (torque, left):
+        for k in range(3):
+            assert sum(bars.values[k] for bars in panel.series) == pytest.approx(100.0)
+        last = panel.series[-1]
+        np.testing.assert_allclose(last.base + last.values, 100.0)
+    item = found.joints[1]
+    assert item.shares is not None
+    assert torque.series[1].values[1] == pytest.approx(100 * item.shares.systematic)
+    stacked = [trace for trace in figures(page)[0]["data"] if trace.get("base") is not None]
+    assert len(stacked) == 5
 
 
 def test_page_is_the_same_twice(small: Comparison) -> None:
@@ -159,7 +174,9 @@ def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
 
 
 def test_pictures_as_files(small: Comparison, tmp_path: Path) -> None:
-    written = write_pictures(tmp_path, small)
+    done: list[float] = []
+    written = write_pictures(tmp_path, small, done.append)
+    assert done == pytest.approx([1 / 3, 2 / 3, 1.0])
     assert {path.suffix for path in written} == {".png", ".svg", ".csv"}
     assert len(written) == 3 * 3
     for path in written:

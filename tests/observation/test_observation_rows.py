@@ -244,9 +244,12 @@ def test_the_cause_of_no_rows_is_named():
         observe(arm, [stuck])
     fitted = observe(arm, [exact]).report.processing
     slow = dataclasses.replace(exact, time=1000.0 * exact.time, qd=None, notes=("is it ms?",))
+    slow = dataclasses.replace(slow, qdd=None)
+    with pytest.raises(DataError, match=r"Nyquist frequency of 0.1 Hz; .*run: is it ms"):
+        observe(arm, [slow], fitted)
     words = r"masked below .* the time column is not in seconds.*run: is it ms"
     with pytest.raises(DataError, match=words):
-        observe(arm, [dataclasses.replace(slow, qdd=None)], fitted)
+        observe(arm, [slow], dataclasses.replace(fitted, position_cutoff=0.0))
 
 
 def test_report_tells_gaps_jitter_and_losses():

@@ -1,0 +1,230 @@
+"""Repeatable part and noise of a residual, where both are known because they were put in."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from known_defects import prediction
+
+from modeler.compare import JointInfo, Prediction, compare, joint_verdict
+from modeler.compare.laps import lap
+from modeler.compare.repetition import repetitions
+from modeler.compare.scale import scale
+
+STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude
+WAVES = np.array([20.0, 15.0])  # 1/rad
+PERIOD = 6.28  # s, of a lap
+
+
+def motion(time: np.ndarray, period: float) -> np.ndarray:
+    """(n, 2) rad: three harmonics, different on both joints."""
+    w = 2 * np.pi / period
+    return np.column_stack(
+        [np.sin(w * time) + 0.4 * np.cos(2 * w * time + 0.3),
+         0.8 * np.cos(w * time + 1.0) + 0.3 * np.sin(3 * w * time)]
+    )  # fmt: skip
+
+
+def wandering(time: np.ndarray) -> np.ndarray:
+    """(n, 2) rad: no period."""
+    return np.column_stack(
+        [np.sin(0.7 * time) + 0.6 * np.sin(1.13 * np.sqrt(2) * time + 0.02 * time**1.5),
+         np.cos(0.9 * time) + 0.5 * np.sin(1.9 * np.sqrt(3) * time)]
+    )  # fmt: skip
+
+
+def measured(parts: list[tuple[np.ndarray, np.ndarray]], known: float, seed: int) -> Prediction:
+    """Logs of (time, q): torque 4 cos q, `known` * sin(20 q1 + 15 q2) on top, and white noise.
+
+    So many waves that no curve over a coordinate can follow them: only repetition shows them.
+    """
+    rng = np.random.default_rng(seed)
+    time, q = (np.concatenate([part[k] for part in parts]) for k in (0, 1))
+    run = np.repeat(np.arange(len(parts)), [len(part[0]) for part in parts])
+    qd = np.concatenate([np.gradient(part[1], part[0], axis=0) for part in parts])
+    predicted = 4.0 * np.cos(q)
+    extra = known * np.sin(q @ WAVES)[:, None]
+    return Prediction(
+        robot="two",
+        joints=(JointInfo("1", "rad", "N m"), JointInfo("2", "rad", "N m")),
+        logs=tuple(f"{k}.csv" for k in range(len(parts))),
+        run=run,
+        segment=run.copy(),
+        time=time,
+        q=q,
+        qd=qd,
+        qdd=np.zeros_like(q),
+        measured=predicted + extra + NOISE * rng.normal(size=q.shape),
+        predicted=predicted,
+        used=np.ones(q.shape, dtype=bool),
+    )
+
+
+def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
+    """The three shares of both joints against what was put in."""
+    repeated = float(np.mean((known * np.sin(p.q @ WAVES)) ** 2))
+    for item in compare(p).joints:
+        total = float(np.var(p.measured[:, item.index]))
+        found = item.shares
+        assert found is not None and found.method == method
+        assert found.explained + found.systematic + found.floor == pytest.approx(1.0)
+        assert found.systematic == pytest.approx(repeated / total, abs=tolerance / total)
+        assert found.floor == pytest.approx(NOISE**2 / total, abs=tolerance / total)
+
+
+@pytest.mark.parametrize("known", [0.0, KNOWN])
+def test_laps_in_one_log(known: float) -> None:
+    """Standard error of the mean product of 5 laps: NOISE^2 / sqrt(10 pairs of 628 rows)."""
+    time = np.arange(0.0, 5 * PERIOD, STEP)
+    p = measured([(time + 3.3, motion(time, PERIOD))], known, 1)
+    (found,) = repetitions(p)
+    assert found.kind == "laps"
+    assert found.periods[0] == pytest.approx(PERIOD, abs=0.002)
+    check(p, "laps", known, 0.03)
+
+
+def test_a_long_row_of_laps_stays_in_step() -> None:
+    """25 laps: an error of the period of one step would shift the last lap by half a second."""
+    time = np.arange(0.0, 25 * 4.123, STEP)
+    p = measured([(time, motion(time, 4.123))], KNOWN, 2)
+    (found,) = repetitions(p)
+    assert found.periods[0] == pytest.approx(4.123, abs=2e-4)
+    check(p, "laps", KNOWN, 0.03)
+
+
+@pytest.mark.parametrize("known", [0.0, KNOWN])
+def test_several_logs_of_one_motion(known: float) -> None:
+    """Three logs, one begins later, one has another clock."""
+    time = np.arange(0.0, 24.0, STEP)
+    q = wandering(time)
+    parts = [(time, q), (time[90:], q[90:]), (time + 100.37, q)]
+    p = measured(parts, known, 3)
+    (found,) = repetitions(p)
+    assert found.kind == "logs"
+    shifts = {(each.run, each.other): each.shift for each in found.partners}
+    assert shifts[0, 1] == pytest.approx(0.0, abs=1e-3)
+    assert shifts[1, 2] == pytest.approx(100.37, abs=1e-3)
+    check(p, "logs", known, 0.03)
+
+
+def test_logs_of_other_motion_do_not_repeat() -> None:
+    time = np.arange(0.0, 24.0, STEP)
+    p = measured([(time, wandering(time)), (time, wandering(time + 9.0))], 0.0, 4)
+    assert repetitions(p) == ()
+    check(p, "smooth", 0.0, 0.01)
+
+
+def test_without_repetition_smooth_functions_tell() -> None:
+    """0.5 qd is missing: its variance is known, and a function of the motion."""
+    p = prediction(lambda q, qd, qdd, tau, t: 0.5 * qd, seed=3)
+    found = compare(p).joints[1].shares
+    assert found is not None and found.method == "smooth" and found.sigma is None
+    total = float(np.var(p.measured[:, 1]))
+    known = float(np.mean((0.5 * p.qd[:, 1]) ** 2))
+    assert found.systematic == pytest.approx(known / total, rel=0.1)
+    assert found.floor == pytest.approx(0.25 / total, rel=0.15)
+
+
+def test_an_offset_is_repeatable() -> None:
+    p = prediction(lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), seed=3)
+    found = compare(p).joints[1].shares
+    assert found is not None
+    assert found.systematic == pytest.approx(1.0 / float(np.var(p.measured[:, 1])), rel=0.05)
+
+
+def test_what_returns_is_told_and_noise_is_not() -> None:
+    time = np.arange(0.0, 5 * PERIOD, STEP)
+    telling = compare(measured([(time, motion(time, PERIOD))], KNOWN, 1)).joints[0]
+    # 0.5 * 0.9^2 over that and 0.5^2: 62 %
+    text = joint_verdict(telling)
+    assert "% of it returns in every lap" in text
+    share = float(text.split(" % of it returns")[0].rsplit(" ", 1)[1])
+    assert share == pytest.approx(62.0, abs=5.0)
+    for seed in range(10):
+        short = time[: time.size // 2]
+        quiet = measured([(short, motion(short, PERIOD))], 0.0, seed)
+        assert all("returns" not in joint_verdict(item) for item in compare(quiet).joints)
+
+
+def test_standard_error_of_the_repeatable_share() -> None:
+    """Its scatter over 30 seeds is what it says."""
+    time = np.arange(0.0, 3 * PERIOD, STEP)
+    found = [
+        compare(first_of_two(measured([(time, motion(time, PERIOD))], KNOWN, seed)))
+        .joints[0]
+        .shares
+        for seed in range(30)
+    ]
+    scatter = np.std([each.systematic for each in found if each is not None])
+    told = np.mean([each.sigma for each in found if each is not None and each.sigma is not None])
+    assert 0.5 < told / scatter < 2.5  # the known part's own products count as scatter too
+
+
+def first_of_two(p: Prediction) -> Prediction:
+    """Joint 1 is judged only."""
+    used = p.used.copy()
+    used[:, 1] = False
+    return dataclasses.replace(p, used=used)
+
+
+def test_masked_rows_and_few_rows() -> None:
+    time = np.arange(0.0, 5 * PERIOD, STEP)
+    p = measured([(time, motion(time, PERIOD))], KNOWN, 1)
+    used = np.random.default_rng(0).random(p.used.shape) < 0.8
+    check(dataclasses.replace(p, used=np.repeat(used[:, :1], 2, axis=1)), "laps", KNOWN, 0.05)
+    few = np.zeros_like(p.used)
+    few[::120] = True
+    assert all(item.shares is None for item in compare(dataclasses.replace(p, used=few)).joints)
+
+
+def test_a_held_joint_may_wobble() -> None:
+    """Joint 2 is held: its noise has no period, and hides none."""
+    time = np.arange(0.0, 5 * PERIOD, STEP)
+    q = motion(time, PERIOD)
+    q[:, 1] = 1e-4 * np.random.default_rng(0).normal(size=time.size)
+    (found,) = repetitions(measured([(time, q)], 0.0, 1))
+    assert found.periods[0] == pytest.approx(PERIOD, abs=0.002)
+
+
+def test_no_lap_in_a_motion_that_wanders() -> None:
+    time = np.arange(0.0, 40.0, STEP)
+    assert lap(time, wandering(time)) == 0.0
+    assert lap(time, np.zeros((time.size, 2))) == 0.0
+    assert lap(time[:5], wandering(time[:5])) == 0.0
+
+
+def test_a_constant_torque_has_no_shares() -> None:
+    p = prediction(rows=600)
+    flat = dataclasses.replace(p, measured=np.full_like(p.measured, 2.0))
+    assert all(item.shares is None for item in compare(flat).joints)
+
+
+@pytest.mark.parametrize(("factor", "words"), [
+    (-1.0, "the prediction of joint 2 has the opposite sign: measured is -1"),
+    (1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
+    (57.29578, "off by a factor: measured is 57"),
+])  # fmt: skip
+def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> None:
+    p = prediction(rows=1500)
+    measured = p.measured.copy()
+    measured[:, 1] *= factor
+    first, second, _ = compare(dataclasses.replace(p, measured=measured)).joints
+    assert words in joint_verdict(second)
+    assert "repeatable function" not in joint_verdict(second)  # all of that follows from it
+    assert "times predicted" not in joint_verdict(first)
+
+
+def test_a_missing_effect_is_no_wrong_scale() -> None:
+    for defect in (lambda q, qd, qdd, tau, t: 3.0 * np.sign(qd),
+                   lambda q, qd, qdd, tau, t: 2.0 * qd):  # fmt: skip
+        item = compare(prediction(defect, rows=1500)).joints[1]
+        assert item.scale is not None and not item.scale.off and not item.scale.opposite
+
+
+def test_scale_by_hand() -> None:
+    """m = -2 p + 3 exactly; a constant has no scale."""
+    p = np.arange(30.0)
+    found = scale(-2.0 * p + 3.0, p)
+    assert found is not None and found.opposite
+    assert (found.factor, found.correlation, found.mended) == pytest.approx((-2.0, -1.0, 1.0))
+    assert scale(p, np.ones(30)) is None and scale(p[:5], p[:5]) is None
