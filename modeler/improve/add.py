@@ -18,8 +18,9 @@ from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import judged_state
 from modeler.diagnose.state import Data, State, state_of
-from modeler.effects import Acts, Effect, effect_named
+from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
+from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.observation import Log, Processing, observe
 from modeler.robot import robot_from_text
@@ -56,15 +57,13 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = effect_named(name)
-    if effect is None:
-        raise DataError(f"{name}: no such effect; `modeler effects` lists them")
+    effect = asked(model, name, joint)
     observation = analysed(compiled, logs.fitted, model.processing)
     kept = kept_parameters(model, compiled, logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
     state = state_of(Data(compiled, observation, kept), (), model.beta)
-    best = _best(model, state, effect, joint)
+    best = _best(state, effect, joint)
     return _added(model, compiled, state, best.candidate, best.values, logs)
 
 
@@ -98,17 +97,10 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
     return dataclasses.replace(fitted, history=model.history[:-1])
 
 
-def _best(model: IdentifiedModel, state: State, effect: Effect, joint: str | None) -> Judged:
+def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    present = {(p.effect, p.joint) for p in model.spec.standard}
-    repeats = effect.id.endswith("ripple")
-    if joint is not None and (effect.id, joint) in present and not repeats:
-        raise DataError(f"{effect.id}: joint {joint} has it in this model already")
-    names = [item.name for item in model.spec.joints]
-    if joint is not None and joint not in {*names, *_passive(model)}:
-        raise DataError(f"--joint {joint}: no such joint; expected one of {', '.join(names)}")
     judgement = judged_state(state, only=effect.id)
-    found = [j for j in judgement.ranked if joint is None or j.candidate.joint in (joint, None)]
+    found = [j for j in judgement.ranked if joint is None or j.candidate.joint == joint]
     if not found:
         raise DataError(
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
@@ -121,10 +113,6 @@ def _best(model: IdentifiedModel, state: State, effect: Effect, joint: str | Non
             f"({100 * best.visible:.1g} % of it is left); {effect.look_alikes}"
         )
     return best
-
-
-def _passive(model: IdentifiedModel) -> Sequence[str]:
-    return model.spec.closure.variables if model.spec.closure is not None else ()
 
 
 def _added(
