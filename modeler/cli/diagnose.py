@@ -10,6 +10,7 @@ from modeler.cli.places import check_places
 from modeler.cli.rows import check_apart
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, diagnose, write_diagnosis
+from modeler.diagnose.sentences import blind_spots
 from modeler.effects import CATALOGUE, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.robot.place import near
@@ -84,7 +85,7 @@ def lines(diagnosis: Diagnosis) -> list[str]:
                  f"{diagnosis.band:g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
         found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
-    blind = [f"{effect}@{joint}" if joint else effect for effect, joint in diagnosis.blind_spots]
+    blind = [what for what, _ in blind_spots(diagnosis)]
     if blind:
         found.append(f"these logs cannot show: {', '.join(blind)}")
     return found

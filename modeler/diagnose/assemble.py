@@ -4,18 +4,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from modeler.diagnose.blind import blind_spots
 from modeler.diagnose.bursts import BURST, burst_ratio
+from modeler.diagnose.channels import Fault
 from modeler.diagnose.contact import Window
-from modeler.diagnose.data_checks import data_lines
+from modeler.diagnose.data_checks import SHORT, data_lines, length, log_lines
 from modeler.diagnose.errors import crossed_errors, held_out_errors
-from modeler.diagnose.gram import VISIBLE
 from modeler.diagnose.judge import Judged
+from modeler.diagnose.late import late_lines
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import predictable, repeatable
-from modeler.effects import Acts, effect_named
+from modeler.effects import Acts
 from modeler.fit import IdentifiedModel
 
 CLOSED = 0.75
@@ -29,7 +31,12 @@ LEFT = 0.15
 
 
 def assembled(
-    model: IdentifiedModel, found: Search, other: Data | None, window: Window | None
+    model: IdentifiedModel,
+    found: Search,
+    other: Data | None,
+    window: Window | None,
+    faults: Sequence[Fault] = (),
+    seen_before: Sequence[str] = (),
 ) -> Diagnosis:
     """The diagnosis.
 
@@ -38,6 +45,8 @@ def assembled(
         found: of the training logs.
         other: held-out logs.
         window: of a contact that was masked.
+        faults: channels that contradict the model; if one is certain, nothing is named.
+        seen_before: held-out logs that the model was fitted to.
     """
     chain = _chain(found)
     errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
@@ -46,10 +55,12 @@ def assembled(
         _finding(found, step, errors[k], errors[k + 1], systematic)
         for k, step in enumerate(found.steps)
     ]
-    findings += _detected(found, window, errors, findings)
+    contradicted = any(fault.certain for fault in faults)
+    if not contradicted:
+        findings += _detected(found, window, errors, findings)
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, systematic)
-    verdict = _verdict(effects, joints, found)
+    verdict = "cannot tell" if contradicted else _verdict(effects, joints, found)
     data = found.start.data
     rivals = found.steps[0].rivals if found.steps else found.last.ranked
     diagnosis = Diagnosis(
@@ -58,16 +69,41 @@ def assembled(
         effects=effects,
         refinements=tuple(f for f in findings if f.refines),
         rivals=tuple((*r.candidate.key, r.gain) for r in rivals[:8]),
-        blind_spots=_blind(found),
+        blind_spots=blind_spots(found),
         joints=joints,
+        unmoved=tuple(
+            joint.name
+            for joint, y in zip(data.compiled.spec.joints, found.start.rows.y, strict=True)
+            if not y.size
+        ),
         held_out=other.observation.logs if other else (),
         sentences=(),
         band=data.observation.report.processing.parallel_cutoff or 0.0,
-        data=data_lines(found.start, model.beta),
+        data=_doubts(found, other, faults, seen_before),
         changed=data.kept is not None,
+        contradicted=contradicted,
         search=found,
     )
     return sentences(diagnosis)
+
+
+def _doubts(
+    found: Search, other: Data | None, faults: Sequence[Fault], seen_before: Sequence[str]
+) -> tuple[str, ...]:
+    """Sentences on the logs, the gravest first."""
+    lines = [fault.line for fault in faults]
+    if not any(fault.certain for fault in faults):
+        lines += late_lines(found)
+    lines += data_lines(found.start)
+    if other is not None:
+        lines += [f"held out: {line}" for line in log_lines(other.observation.report)]
+    kept = found.start.data.kept is not None
+    lines += [
+        f"held out: the model was fitted to {name}; "
+        + ("its errors there are too small" if kept else "here it is fitted to the other logs only")
+        for name in seen_before
+    ]
+    return tuple(lines)
 
 
 def _chain(found: Search) -> list[State]:
@@ -242,28 +278,10 @@ def _verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: S
     if effects:
         closed = [f.closure is None or f.closure >= CLOSED for f in effects]
         return "missing" if closed[0] else "closest description"
+    if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
+        return "cannot tell"
     for state in joints.values():
         left = state.systematic + state.noise
         if np.sqrt(state.systematic) > FELT and state.systematic > LEFT * left:
             return "unexplained"
-    if not any(y.size > 100 for y in found.start.y):
-        return "cannot tell"
     return "nothing significant"
-
-
-def _blind(found: Search) -> tuple[Key, ...]:
-    """Effects whose columns the model hides on these data."""
-    judged = [*found.last.ranked]
-    seen = {j.candidate.key for j in judged}
-    hidden = [j.candidate.key for j in judged if j.visible < 2.0 * VISIBLE]
-    spec = found.start.data.compiled.spec
-    for joint in spec.joints:
-        for name in ("encoder_offset", "encoder_eccentricity"):
-            if joint.actuated and (name, joint.name) not in seen:
-                hidden.append((name, joint.name))
-    if found.start.data.kept is None:
-        hidden.append(("payload", None))
-    named = {step.pick.key for step in found.steps}
-    kept = [key for key in dict.fromkeys(hidden) if key not in named]
-    assert all(effect_named(name) is not None for name, _ in kept)
-    return tuple(kept)

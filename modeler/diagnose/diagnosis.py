@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
+from modeler.diagnose.channels import Fault, faults
 from modeler.diagnose.contact import Window, contact_window
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.result import Diagnosis
@@ -54,6 +55,9 @@ def diagnose(
     if holdout:
         seen = analysed(compiled, holdout, observation.report.processing, chosen=True)
         other = Data(compiled, seen, data.kept)
+    doubted = _faults(model, compiled, observation, other)
+    if any(fault.certain for fault in doubted):
+        most = 0
     veto = vetoing(other) if other is not None else None
     found = search(data, model.beta, without, most, veto, progress)
     window = contact_window(found.end)
@@ -62,7 +66,19 @@ def diagnose(
         found = search(data, model.beta, without, most, veto, progress)
     if progress is not None:
         progress(1.0)
-    return assembled(model, found, other, window)
+    seen_before = [log.name for log in holdout if any(u.shares_rows(log) for u in model.logs)]
+    return assembled(model, found, other, window, doubted, seen_before)
+
+
+def _faults(
+    model: IdentifiedModel, compiled: "CompiledModel", observation: Observation, other: Data | None
+) -> tuple[Fault, ...]:
+    """Channels that contradict the model, of the logs and of the held-out ones."""
+    found = faults(compiled, observation, model.beta)
+    if other is None:
+        return found
+    held = faults(compiled, other.observation, model.beta)
+    return (*found, *(dataclasses.replace(f, line=f"held out: {f.line}") for f in held))
 
 
 def kept_parameters(

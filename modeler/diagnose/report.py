@@ -12,7 +12,7 @@ from modeler.compare.report import figure_html, page_assets
 from modeler.core.files import write_atomically
 from modeler.diagnose.evidence import evidence_picture, rivals_picture
 from modeler.diagnose.result import Diagnosis, Finding
-from modeler.diagnose.sentences import percent, where
+from modeler.diagnose.sentences import blind_spots, percent, where
 from modeler.effects import effect_named
 from modeler.fit import Addition
 
@@ -208,11 +208,7 @@ def _joints(diagnosis: Diagnosis) -> str:
 
 
 def _blind(diagnosis: Diagnosis) -> str:
-    lines = []
-    for effect_id, joint in diagnosis.blind_spots:
-        effect = effect_named(effect_id)
-        assert effect is not None
-        lines.append(
-            f"<li>{html.escape(_name(effect_id, joint))}: {html.escape(effect.look_alikes)}</li>"
-        )
+    lines = [
+        f"<li>{html.escape(what)}: {html.escape(why)}</li>" for what, why in blind_spots(diagnosis)
+    ]
     return f"<ul>{''.join(lines)}</ul>" if lines else "<p>Nothing of the catalogue.</p>"
