@@ -60,7 +60,7 @@ def diagnose(
         most = 0
     veto = vetoing(other) if other is not None else None
     found = search(data, model.beta, without, most, veto, progress)
-    window = contact_window(found.end)
+    window = contact_window(found.end) if most else None
     if window is not None and "external_force" not in without:
         data = Data(compiled, _masked(observation, window), data.kept)
         found = search(data, model.beta, without, most, veto, progress)
