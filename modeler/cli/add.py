@@ -51,17 +51,23 @@ def run_add(args: argparse.Namespace) -> Json:
         logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
         check_apart(logs.fitted, logs.held_out)
         better = _better(model, compiled, args, logs)
-    save_model(args.out, better)
-    for line in (*waterfall(better), *notes(better)):
+    written = _written(args, better)
+    for line in (*waterfall(better), *notes(better), *(f"written: {place}" for place in written)):
         say(line)
-    say(f"written: {args.out}")
+    return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+
+
+def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
+    """Writes the model, and robot file and page if they are asked for; their places."""
+    save_model(args.out, better)
+    places = [args.out]
     if args.robot is not None:
         write_atomically(Path(args.robot), better.robot_text)
-        say(f"written: {args.robot}")
+        places.append(args.robot)
     if args.report is not None:
-        place = write_additions(Path(args.report), better.spec.robot, better.history)
-        say(f"written: {place}")
-    return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+        write_additions(Path(args.report), better.spec.robot, better.history)
+        places.append(args.report)
+    return places
 
 
 def _check(args: argparse.Namespace) -> None:

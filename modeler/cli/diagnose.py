@@ -58,12 +58,12 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     check_apart(logs, holdout)
     with progress("looking for missing effects") as bar:
         diagnosis = diagnose(model, compiled, logs, holdout, args.without, progress=bar)
-    for line in lines(diagnosis):
-        say(line)
+    written = []
     if args.report is not None:
         with working("drawing"):
-            place = write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))
-        say(f"written: {place}")
+            written = [write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))]
+    for line in (*lines(diagnosis), *(f"written: {place}" for place in written)):
+        say(line)
     return diagnosis.to_json()
 
 

@@ -92,7 +92,7 @@ def _headline(diagnosis: Diagnosis) -> str:
         return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
         return "cannot tell: too few rows; record longer motions of all joints"
-    return "nothing significant: no effect of the catalogue would lower the error by more than 3 %"
+    return "nothing to add: no effect of the catalogue would lower the error by more than 3 %"
 
 
 def _named(finding: Finding) -> str:
@@ -103,7 +103,7 @@ def _named(finding: Finding) -> str:
 
 def _effect_line(finding: Finding) -> str:
     values = ", ".join(
-        f"{name} = {value:.4g}{_unit(finding, name)}" for name, value in finding.parameters.items()
+        f"{name} = {value:.4g}{unit(finding, name)}" for name, value in finding.parameters.items()
     )
     ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
     tail = f"; these data do not tell it from {ties}" if ties else ""
@@ -111,7 +111,7 @@ def _effect_line(finding: Finding) -> str:
     return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
 
 
-def _unit(finding: Finding, name: str) -> str:
+def unit(finding: Finding, name: str) -> str:
     """The unit behind a value; nothing for a plain number."""
-    unit = finding.units.get(name, "1")
-    return f" {unit}" if unit != "1" else ""
+    of = finding.units.get(name, "1")
+    return f" {of}" if of != "1" else ""
