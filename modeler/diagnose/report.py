@@ -181,7 +181,7 @@ def _row(finding: Finding) -> str:
     cells = [
         f'<td class="text">{finding.effect}{mark}</td>',
         f'<td class="text">{html.escape(finding.joint or "all")}</td>',
-        f'<td class="text">{html.escape(values)}</td>',
+        f'<td class="text values">{html.escape(values)}</td>',
         f"<td>{percent(finding.error_before)}</td>",
         f"<td>{percent(finding.error_after)}</td>",
         f'<td class="bar"><span style="width:{round(110 * finding.gain)}px"></span>'

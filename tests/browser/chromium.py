@@ -1,6 +1,7 @@
 """A headless Chromium, driven by the DevTools protocol over a pair of pipes: no other package."""
 
 import base64
+import fcntl
 import itertools
 import json
 import os
@@ -35,23 +36,28 @@ class Chromium:
     def __init__(self, program: str, profile: Path) -> None:
         ours_read, theirs_write = os.pipe()
         theirs_read, ours_write = os.pipe()
-        # The protocol reads descriptor 3 and writes descriptor 4.
-        line = f'exec "$0" "$@" 3<&{theirs_read} 4>&{theirs_write}'
+        # Out of the way of 3 and 4, which the protocol reads and writes.
+        above = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (theirs_read, theirs_write)]
         self._process = subprocess.Popen(
-            ["/bin/sh", "-c", line, program, *_FLAGS, f"--user-data-dir={profile}", "about:blank"],
-            pass_fds=(theirs_read, theirs_write),
+            [program, *_FLAGS, f"--user-data-dir={profile}", "about:blank"],
+            preexec_fn=lambda: (os.dup2(above[0], 3), os.dup2(above[1], 4)),
+            pass_fds=(3, 4),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        os.close(theirs_read)
-        os.close(theirs_write)
+        for end in (theirs_read, theirs_write, *above):
+            os.close(end)
         self._read, self._write = ours_read, ours_write
         self._buffer = b""
         self._numbers = itertools.count(1)
         self._session: str | None = None
         self.requests: list[str] = []
         self.complaints: list[str] = []
-        self._attach()
+        try:
+            self._attach()
+        except BaseException:
+            self.close()
+            raise
 
     def __enter__(self) -> "Chromium":
         return self
@@ -60,7 +66,11 @@ class Chromium:
         self, kind: type[BaseException] | None, value: BaseException | None,
         trace: TracebackType | None,
     ) -> None:  # fmt: skip
-        os.close(self._write)  # the browser ends when the pipe does
+        self.close()
+
+    def close(self) -> None:
+        """End the browser."""
+        os.close(self._write)  # it ends when the pipe does
         os.close(self._read)
         try:
             self._process.wait(10.0)
@@ -96,6 +106,20 @@ class Chromium:
         """The whole page as PNG."""
         options = {"format": "png", "captureBeyondViewport": True}
         place.write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", options)["data"]))
+
+    def download(self, folder: Path, link: int) -> Path:
+        """Click the n-th link that downloads something; the file that the browser saved."""
+        options = {"behavior": "allow", "downloadPath": str(folder)}
+        self.ask("Browser.setDownloadBehavior", options)
+        links = f"document.querySelectorAll('a[download]')[{link}]"
+        place = folder / str(self.value(f"{links}.download"))
+        self.value(f"{links}.click()")
+        end = time.monotonic() + _PATIENCE
+        while not place.exists() or list(folder.glob("*.crdownload")):
+            if time.monotonic() > end:
+                raise TimeoutError(f"{place} was not saved")
+            time.sleep(0.05)
+        return place
 
     def ask(self, method: str, options: dict[str, Any] | None = None) -> dict[str, Any]:
         """One command and its answer; what happens meanwhile is noted."""
