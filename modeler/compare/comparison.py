@@ -8,7 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from modeler.compare.prediction import JointInfo, Prediction, check_prediction, residual
+from modeler.compare.prediction import (
+    JointInfo,
+    Prediction,
+    check_prediction,
+    relative_error,
+    residual,
+)
 from modeler.compare.spectrum import Spectrum, spectrum
 from modeler.compare.structure import Structure, structure
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
@@ -110,12 +116,10 @@ def compare(prediction: Prediction) -> Comparison:
         else:
             judged.append(_compare_joint(prediction, index, e[:, index]))
     used = prediction.used
-    size = float(np.linalg.norm(prediction.measured[used]))
-    error = float(np.linalg.norm(e[used]))
     return Comparison(
         prediction=prediction,
         samples=int(used.any(axis=1).sum()),
-        relative_error=error / size if size else math.nan,
+        relative_error=relative_error(prediction),
         joints=tuple(judged),
         unjudged=tuple(unjudged),
     )

@@ -1,5 +1,6 @@
 """What the compare stage takes: measured and predicted torque on the same rows."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -45,6 +46,14 @@ def residual(prediction: Prediction) -> np.ndarray:
     """Measured minus predicted torque, NaN where the row does not count, (n, joints)."""
     difference = np.asarray(prediction.measured - prediction.predicted, dtype=float)
     return np.where(prediction.used, difference, np.nan)
+
+
+def relative_error(prediction: Prediction) -> float:
+    """||measured - predicted|| / ||measured|| over all rows that count; NaN without a torque."""
+    used = prediction.used
+    size = float(np.linalg.norm(prediction.measured[used]))
+    error = float(np.linalg.norm(residual(prediction)[used]))
+    return error / size if size else math.nan
 
 
 def spans(segment: np.ndarray) -> list[slice]:

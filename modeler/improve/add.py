@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.compare import compare
 from modeler.compare.predict import predict
+from modeler.compare.prediction import check_prediction, relative_error
 from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError
 from modeler.derivation import derive, generate
@@ -174,16 +174,22 @@ def _step(
     model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, logs: Logs
 ) -> Addition:
     """The error of a model, as a step of its history."""
-    judged = logs.held_out or logs.fitted
-    error = compare(predict(model, judged, compiled)[0]).relative_error
-    training = compare(predict(model, logs.fitted, compiled)[0]).relative_error
+    training = _error(model, compiled, logs.fitted)
+    error = _error(model, compiled, logs.held_out) if logs.held_out else training
     return Addition(
         effect=pick.effect.id if pick else "",
         joint=pick.joint if pick else None,
         shapes=dict(pick.shapes) if pick else {},
-        error=float(error),
-        training_error=float(training),
+        error=error,
+        training_error=training,
         held_out=tuple(log.name for log in logs.held_out),
         robot_text=model.robot_text,
         delay=model.processing.delay,
     )
+
+
+def _error(model: IdentifiedModel, compiled: CompiledModel, logs: Sequence[Log]) -> float:
+    """Relative error over all joints."""
+    prediction, _ = predict(model, logs, compiled)
+    check_prediction(prediction)
+    return relative_error(prediction)

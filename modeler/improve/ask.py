@@ -36,6 +36,7 @@ def asked(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
         )
     if effect.id in CANNOT:
         raise DataError(f"{effect.id}: cannot be added ({CANNOT[effect.id]})")
+    _check_loops(model, effect)
     if joint is not None:
         _check_joint(model, effect, joint)
     _check_absent(model, effect, joint)
@@ -53,6 +54,17 @@ def _check_joint(model: IdentifiedModel, effect: Effect, joint: str) -> None:
         raise DataError(f"--joint {joint}: no such joint; expected one of {listed(names)}")
 
 
+def _check_loops(model: IdentifiedModel, effect: Effect) -> None:
+    """The C of a robot with loops reads speeds and accelerations of its joints, nothing else."""
+    if model.spec.closure is None or effect.acts not in _JOINTED:
+        return
+    if effect.acts is Acts.POSITION or not effect.forms[0].names <= {"v", "a"}:
+        raise DataError(
+            f"{effect.id}: cannot be added ({model.spec.robot} has loops, and there effects may "
+            "read speeds and accelerations only; keep it in mind as a finding)"
+        )
+
+
 def _check_absent(model: IdentifiedModel, effect: Effect, joint: str | None) -> None:
     """An effect stands in a model once, but for ripples: there may be several orders."""
     if effect.id.endswith("ripple") or effect.acts not in _JOINTED:
@@ -65,8 +77,10 @@ def _check_absent(model: IdentifiedModel, effect: Effect, joint: str | None) -> 
 
 
 def _places(model: IdentifiedModel, effect: Effect) -> list[str]:
-    """Joints that the effect may act on: those with a motor, or those that loops leave over."""
+    """Where the effect may act: joints with a motor, joints that loops leave over, or links."""
     closure = model.spec.closure
+    if effect.acts is Acts.LINK:
+        return list(dict.fromkeys(p.joint for p in model.spec.standard if p.effect == "rigid_body"))
     if effect.acts is not Acts.PASSIVE:
         return [joint.name for joint in model.spec.joints if joint.actuated]
     if closure is None:
