@@ -8,10 +8,10 @@ from modeler.diagnose.blind import blind_spots
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.channels import Fault
 from modeler.diagnose.contact import Window
-from modeler.diagnose.data_checks import SHORT, data_lines, length, log_lines
+from modeler.diagnose.data_checks import SHORT, length
+from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_errors
 from modeler.diagnose.judge import Judged
-from modeler.diagnose.late import late_lines
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
@@ -31,13 +31,9 @@ LEFT = 0.15
 
 
 def assembled(
-    model: IdentifiedModel,
-    found: Search,
-    other: Data | None,
-    window: Window | None,
+    model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
     faults: Sequence[Fault] = (),
-    seen_before: Sequence[str] = (),
-) -> Diagnosis:
+) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
     Args:
@@ -46,40 +42,28 @@ def assembled(
         other: held-out logs.
         window: of a contact that was masked.
         faults: channels that contradict the model; if one is certain, nothing is named.
-        seen_before: held-out logs that the model was fitted to.
     """
-    chain = _chain(found)
-    errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
+    errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in _chain(found)]
     systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
-    findings = [
-        _finding(found, step, errors[k], errors[k + 1], systematic)
-        for k, step in enumerate(found.steps)
-    ]
     contradicted = any(fault.certain for fault in faults)
-    if not contradicted:
-        findings += _detected(found, window, errors, findings)
+    findings = [] if contradicted else _findings(found, window, errors, systematic)
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, systematic)
-    verdict = "cannot tell" if contradicted else _verdict(effects, joints, found)
     data = found.start.data
     rivals = found.steps[0].rivals if found.steps else found.last.ranked
     diagnosis = Diagnosis(
         robot=model.spec.robot,
-        verdict=verdict,
+        verdict="cannot tell" if contradicted else _verdict(effects, joints, found),
         effects=effects,
         refinements=tuple(f for f in findings if f.refines),
         rivals=tuple((*r.candidate.key, r.gain) for r in rivals[:8]),
         blind_spots=blind_spots(found),
         joints=joints,
-        unmoved=tuple(
-            joint.name
-            for joint, y in zip(data.compiled.spec.joints, found.start.rows.y, strict=True)
-            if not y.size
-        ),
+        unmoved=tuple(j.name for j in data.compiled.spec.joints if j.name not in joints),
         held_out=other.observation.logs if other else (),
         sentences=(),
         band=data.observation.report.processing.parallel_cutoff or 0.0,
-        data=_doubts(found, other, faults, seen_before),
+        data=doubts(model, found, other, faults),
         changed=data.kept is not None,
         contradicted=contradicted,
         search=found,
@@ -87,23 +71,15 @@ def assembled(
     return sentences(diagnosis)
 
 
-def _doubts(
-    found: Search, other: Data | None, faults: Sequence[Fault], seen_before: Sequence[str]
-) -> tuple[str, ...]:
-    """Sentences on the logs, the gravest first."""
-    lines = [fault.line for fault in faults]
-    if not any(fault.certain for fault in faults):
-        lines += late_lines(found)
-    lines += data_lines(found.start)
-    if other is not None:
-        lines += [f"held out: {line}" for line in log_lines(other.observation.report)]
-    kept = found.start.data.kept is not None
-    lines += [
-        f"held out: the model was fitted to {name}; "
-        + ("its errors there are too small" if kept else "here it is fitted to the other logs only")
-        for name in seen_before
+def _findings(
+    found: Search, window: Window | None, errors: Sequence[np.ndarray], systematic: Sequence[float]
+) -> list[Finding]:
+    """Effects that were put in, and those that are no columns."""
+    findings = [
+        _finding(found, step, errors[k], errors[k + 1], systematic)
+        for k, step in enumerate(found.steps)
     ]
-    return tuple(lines)
+    return findings + _detected(found, window, errors, findings)
 
 
 def _chain(found: Search) -> list[State]:

@@ -51,10 +51,7 @@ def diagnose(
     """
     observation = analysed(compiled, logs, model.processing)
     data = Data(compiled, observation, kept_parameters(model, compiled, logs, observation))
-    other = None
-    if holdout:
-        seen = analysed(compiled, holdout, observation.report.processing, chosen=True)
-        other = Data(compiled, seen, data.kept)
+    other = _held_out(data, holdout)
     doubted = _faults(model, compiled, observation, other)
     if any(fault.certain for fault in doubted):
         most = 0
@@ -66,8 +63,16 @@ def diagnose(
         found = search(data, model.beta, without, most, veto, progress)
     if progress is not None:
         progress(1.0)
-    seen_before = [log.name for log in holdout if any(u.shares_rows(log) for u in model.logs)]
-    return assembled(model, found, other, window, doubted, seen_before)
+    return assembled(model, found, other, window, doubted)
+
+
+def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
+    """Held-out logs in the band of the training logs."""
+    if not holdout:
+        return None
+    processing = data.observation.report.processing
+    seen = analysed(data.compiled, holdout, processing, chosen=True)
+    return Data(data.compiled, seen, data.kept)
 
 
 def _faults(
