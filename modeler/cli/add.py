@@ -5,11 +5,14 @@ from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, say, working
+from modeler.cli.places import check_places
+from modeler.cli.rows import check_apart
+from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.diagnose import diagnose, write_additions
 from modeler.fit import IdentifiedModel, load_model, save_model
-from modeler.improve import Logs, add_effect, add_findings, undone
+from modeler.improve import Logs, add_effect, add_findings, notes, undone
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
@@ -42,33 +45,60 @@ def add_add(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def run_add(args: argparse.Namespace) -> Json:
     """Adds, saves, draws the waterfall."""
-    if Path(args.out).resolve() in {Path(place).resolve() for place in args.logs}:
-        raise DataError(f"--out {args.out}: this is a log; expected a model file")
+    _check(args)
     model = load_model(args.model)
     with working(f"adding {args.effect}"):
         compiled = recompile(model)
         logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
-        if args.effect == "undo":
-            better = undone(model, logs)
-        elif args.effect == "auto":
-            catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
-            found = diagnose(model, compiled, logs.fitted, logs.held_out, catalogue=catalogue)
-            better = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
-            if better is model:
-                raise DataError("auto: nothing that can be added is missing in this model")
-        else:
-            better = add_effect(model, compiled, args.effect, args.joint, logs)
-    save_model(args.out, better)
-    for line in waterfall(better):
+        check_apart(logs.fitted, logs.held_out)
+        better = _better(model, compiled, args, logs)
+    written = _written(args, better)
+    for line in (*waterfall(better), *notes(better), *(f"written: {place}" for place in written)):
         say(line)
-    say(f"written: {args.out}")
+    return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+
+
+def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
+    """Writes the model, and robot file and page if they are asked for; their places."""
+    save_model(args.out, better)
+    places = [args.out]
     if args.robot is not None:
         write_atomically(Path(args.robot), better.robot_text)
-        say(f"written: {args.robot}")
-    if args.report is not None and better.history:
-        place = write_additions(Path(args.report), better.spec.robot, better.history)
-        say(f"written: {place}")
-    return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+        places.append(args.robot)
+    if args.report is not None:
+        write_additions(Path(args.report), better.spec.robot, better.history)
+        places.append(args.report)
+    return places
+
+
+def _check(args: argparse.Namespace) -> None:
+    """What can be refused before anything is computed."""
+    outputs = {f"--{name}": getattr(args, name) for name in ("out", "robot", "report", "json")}
+    check_places(args.model, [*args.logs, *args.holdout], outputs)
+    if args.joint is not None and args.effect in ("auto", "undo"):
+        raise DataError(
+            f"--joint {args.joint}: `{args.effect}` takes no joint; expected one effect with "
+            "--joint, or leave it out"
+        )
+
+
+def _better(
+    model: IdentifiedModel, compiled: CompiledModel, args: argparse.Namespace, logs: Logs
+) -> IdentifiedModel:
+    """The model with the effect, with all that a diagnosis names, or without the last one."""
+    if args.effect == "undo":
+        return undone(model, logs)
+    if args.effect != "auto":
+        return add_effect(model, compiled, args.effect, args.joint, logs)
+    catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
+    found = diagnose(model, compiled, logs.fitted, logs.held_out, catalogue=catalogue)
+    better = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
+    if better is model:
+        raise DataError(
+            "auto: nothing is added, because nothing that can be added is missing in this model "
+            f"({found.sentences[0]})"
+        )
+    return better
 
 
 def waterfall(model: IdentifiedModel) -> list[str]:

@@ -6,13 +6,15 @@ from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.places import check_places
+from modeler.cli.rows import check_apart
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, diagnose, write_diagnosis
+from modeler.diagnose.sentences import blind_spots
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
-from modeler.observation import Log
-from modeler.observation.log import shared_rows
 from modeler.robot import robot_from_text
+from modeler.robot.place import near
 
 
 def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -45,24 +47,27 @@ def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
+    outputs = {"--report": args.report, "--json": args.json}
+    check_places(args.model, [*args.logs, *args.holdout], outputs)
     model = load_model(args.model)
     catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
     _check_effects(args.without, catalogue)
+    _check_joints(args.without, model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
         logs = read_logs(compiled, args.logs)
         holdout = read_logs(compiled, args.holdout)
-    _check_apart(logs, holdout)
+    check_apart(logs, holdout)
     with progress("looking for missing effects") as bar:
         diagnosis = diagnose(
             model, compiled, logs, holdout, args.without, progress=bar, catalogue=catalogue
         )
-    for line in lines(diagnosis):
-        say(line)
+    written = []
     if args.report is not None:
         with working("drawing"):
-            place = write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))
-        say(f"written: {place}")
+            written = [write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))]
+    for line in (*lines(diagnosis), *(f"written: {place}" for place in written)):
+        say(line)
     return diagnosis.to_json()
 
 
@@ -84,7 +89,7 @@ def lines(diagnosis: Diagnosis) -> list[str]:
                  f"{diagnosis.band:g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
         found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
-    blind = [f"{effect}@{joint}" if joint else effect for effect, joint in diagnosis.blind_spots]
+    blind = [what for what, _ in blind_spots(diagnosis)]
     if blind:
         found.append(f"these logs cannot show: {', '.join(blind)}")
     return found
@@ -93,16 +98,21 @@ def lines(diagnosis: Diagnosis) -> list[str]:
 def _check_effects(given: Sequence[str], catalogue: Sequence[Effect]) -> None:
     known = [effect.id for effect in catalogue]
     for text in given:
-        if effect_named(text.partition("@")[0], catalogue) is None:
-            raise DataError(f"--without {text}: no such effect; expected one of {', '.join(known)}")
+        name = text.partition("@")[0]
+        if effect_named(name, catalogue) is None:
+            raise DataError(
+                f"--without {text}: no such effect{near(name, known)}; expected one of "
+                f"{', '.join(known)}"
+            )
 
 
-def _check_apart(logs: Sequence[Log], holdout: Sequence[Log]) -> None:
-    """Held-out rows that are also explained would flatter every effect."""
-    for other in holdout:
-        for log in logs:
-            if shared_rows(other, log.content, log.time[0], log.time[-1]):
-                raise DataError(
-                    f"--holdout {other.name}: shares rows with {log.name}; expected other motion; "
-                    "leave it out, or split the log with FILE@START:END"
-                )
+def _check_joints(given: Sequence[str], model: IdentifiedModel) -> None:
+    spec = model.spec
+    names = [joint.name for joint in spec.joints]
+    passive = spec.closure.variables if spec.closure is not None else ()
+    for text in given:
+        joint = text.partition("@")[2]
+        if "@" in text and joint not in {*names, *passive}:
+            raise DataError(
+                f"--without {text}: no joint {joint}; expected one of {', '.join(names)}"
+            )

@@ -10,7 +10,13 @@ import numpy as np
 
 from modeler.compare.by_log import LogError, errors_by_log
 from modeler.compare.orders import OrderSpectrum
-from modeler.compare.prediction import JointInfo, Prediction, check_prediction, residual
+from modeler.compare.prediction import (
+    JointInfo,
+    Prediction,
+    check_prediction,
+    relative_error,
+    residual,
+)
 from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
 from modeler.compare.scale import Scale, scale
@@ -111,12 +117,10 @@ def compare(prediction: Prediction) -> Comparison:
         else:
             judged.append(_compare_joint(prediction, index, e[:, index], repeated))
     used = prediction.used
-    size = float(np.linalg.norm(prediction.measured[used]))
-    error = float(np.linalg.norm(e[used]))
     return Comparison(
         prediction=prediction,
         samples=int(used.any(axis=1).sum()),
-        relative_error=error / size if size else math.nan,
+        relative_error=relative_error(prediction),
         joints=tuple(judged),
         unjudged=tuple(unjudged),
         logs=errors_by_log(prediction),

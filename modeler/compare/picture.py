@@ -135,5 +135,5 @@ def _rows(series: Series) -> list[str]:
 
 
 def _quote(text: str) -> str:
-    """Commas would shift the columns."""
-    return text.replace(",", ";")
+    """Commas would shift the columns; line breaks of labels are no part of a name."""
+    return text.replace(",", ";").replace("<br>", " ")

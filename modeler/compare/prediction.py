@@ -1,5 +1,6 @@
 """What the compare stage takes: measured and predicted torque on the same rows."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -76,6 +77,14 @@ def full_rate(prediction: Prediction) -> FullRate:
         return prediction.full
     e = residual(prediction)
     return FullRate(prediction.run, prediction.time, prediction.q, e, e)
+
+
+def relative_error(prediction: Prediction) -> float:
+    """||measured - predicted|| / ||measured|| over all rows that count; NaN without a torque."""
+    used = prediction.used
+    size = float(np.linalg.norm(prediction.measured[used]))
+    error = float(np.linalg.norm(residual(prediction)[used]))
+    return error / size if size else math.nan
 
 
 def spans(segment: np.ndarray) -> list[slice]:

@@ -4,11 +4,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from modeler.diagnose.blind import blind_spots
 from modeler.diagnose.bursts import BURST, burst_ratio
+from modeler.diagnose.channels import Fault
 from modeler.diagnose.contact import Window
-from modeler.diagnose.data_checks import data_lines
+from modeler.diagnose.data_checks import SHORT, length
+from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_errors
-from modeler.diagnose.gram import VISIBLE
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
@@ -16,7 +18,7 @@ from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import predictable, repeatable
 from modeler.diagnose.values import values_of
-from modeler.effects import Acts, effect_named
+from modeler.effects import Acts
 from modeler.fit import IdentifiedModel
 
 CLOSED = 0.75
@@ -36,8 +38,9 @@ SMALLER = 0.4
 
 
 def assembled(
-    model: IdentifiedModel, found: Search, other: Data | None, window: Window | None
-) -> Diagnosis:
+    model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
+    faults: Sequence[Fault] = (),
+) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
     Args:
@@ -45,36 +48,50 @@ def assembled(
         found: of the training logs.
         other: held-out logs.
         window: of a contact that was masked.
+        faults: channels that contradict the model; if one is certain, nothing is named.
     """
     chain = _chain(found)
     errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
     systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
-    findings = [
-        _finding(found, step, chain[k:], errors[k : k + 2], systematic)
-        for k, step in enumerate(found.steps)
-    ]
-    findings += _detected(found, window, errors, findings)
+    contradicted = any(fault.certain for fault in faults)
+    findings = [] if contradicted else _findings(found, chain, window, errors, systematic)
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, systematic)
-    verdict = _verdict(effects, joints, found)
     data = found.start.data
     rivals = found.steps[0].rivals if found.steps else found.last.ranked
     diagnosis = Diagnosis(
         robot=model.spec.robot,
-        verdict=verdict,
+        verdict="cannot tell" if contradicted else _verdict(effects, joints, found),
         effects=effects,
         refinements=tuple(f for f in findings if f.refines),
         rivals=tuple((*r.candidate.key, r.gain) for r in rivals[:8]),
-        blind_spots=_blind(found),
+        blind_spots=blind_spots(found),
         joints=joints,
+        unmoved=tuple(j.name for j in data.compiled.spec.joints if j.name not in joints),
         held_out=other.observation.logs if other else (),
         sentences=(),
         band=data.observation.report.processing.parallel_cutoff or 0.0,
-        data=data_lines(found.start, model.beta),
+        data=doubts(model, found, other, faults),
         changed=data.kept is not None,
+        contradicted=contradicted,
         search=found,
     )
     return sentences(diagnosis)
+
+
+def _findings(
+    found: Search,
+    chain: Sequence[State],
+    window: Window | None,
+    errors: Sequence[np.ndarray],
+    systematic: Sequence[float],
+) -> list[Finding]:
+    """Effects that were put in, and those that are no columns."""
+    findings = [
+        _finding(found, step, chain[k:], errors[k : k + 2], systematic)
+        for k, step in enumerate(found.steps)
+    ]
+    return findings + _detected(found, window, errors, findings)
 
 
 def _chain(found: Search) -> list[State]:
@@ -284,28 +301,10 @@ def _verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: S
     if effects:
         closed = [f.closure is None or f.closure >= CLOSED for f in effects]
         return "missing" if closed[0] else "closest description"
+    if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
+        return "cannot tell"
     for state in joints.values():
         left = state.systematic + state.noise
         if np.sqrt(state.systematic) > FELT and state.systematic > LEFT * left:
             return "unexplained"
-    if not any(y.size > 100 for y in found.start.y):
-        return "cannot tell"
     return "nothing significant"
-
-
-def _blind(found: Search) -> tuple[Key, ...]:
-    """Effects whose columns the model hides on these data."""
-    judged = [*found.last.ranked]
-    seen = {j.candidate.key for j in judged}
-    hidden = [j.candidate.key for j in judged if j.visible < 2.0 * VISIBLE]
-    spec = found.start.data.compiled.spec
-    for joint in spec.joints:
-        for name in ("encoder_offset", "encoder_eccentricity"):
-            if joint.actuated and (name, joint.name) not in seen:
-                hidden.append((name, joint.name))
-    if found.start.data.kept is None:
-        hidden.append(("payload", None))
-    named = {step.pick.key for step in found.steps}
-    kept = [key for key in dict.fromkeys(hidden) if key not in named]
-    assert all(effect_named(name, found.start.data.catalogue) is not None for name, _ in kept)
-    return tuple(kept)

@@ -41,6 +41,8 @@ def contact_window(state: State) -> Window | None:
     if cells is None:
         return None
     run, time, raw = cells
+    if len(raw) < 3:
+        return None
     energy = medfilt(raw, 3)  # single cells are reversals
     top = int(np.argmax(energy))
     level = max(float(np.quantile(energy, 0.9)), 1e-300)

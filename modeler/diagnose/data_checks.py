@@ -3,32 +3,61 @@
 import numpy as np
 
 from modeler.diagnose.state import State
+from modeler.observation import DataReport
+
+SHORT = 5.0
+"""s of motion in all below which nothing can be ruled out."""
 
 _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
 _ONE_SPEED = 1.3  # ratio of the 90 % and 10 % quantiles of the speed
-_SHORT = 5.0  # s
-_WRONG = 0.5  # relative error from which channels are suspected
-_ALIKE = 0.9  # correlation with another channel
+_SLOW = 0.01  # of a joint's torque that inertia makes
 
 
-def data_lines(state: State, beta: np.ndarray) -> tuple[str, ...]:
-    """Doubts about the logs.
+def length(state: State) -> float:
+    """s of motion in all logs."""
+    observation = state.data.observation
+    runs = [observation.time[observation.run == k] for k in range(len(observation.logs))]
+    return sum(float(np.ptp(time)) for time in runs if time.size)
+
+
+def data_lines(state: State) -> tuple[str, ...]:
+    """Doubts about the logs: values that are missing, motion that shows too little.
 
     Args:
         state: the model as given.
-        beta: (c,) its parameters, as they were fitted.
     """
     observation = state.data.observation
-    lines = []
-    length = sum(
-        float(np.ptp(observation.time[observation.run == k])) for k in range(len(observation.logs))
-    )
-    if length < _SHORT:
-        lines.append(f"{length:.1f} s of motion in all; expected 20 s or more: record longer")
+    lines = log_lines(observation.report)
+    total = length(state)
+    if total < SHORT:
+        lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
     for j in range(len(observation.joints)):
         lines += _motion(state, j)
-    return (*lines, *_channels(state, beta))
+    return (*lines, *_slow(state))
+
+
+def log_lines(report: DataReport) -> list[str]:
+    """What reading the logs brought to light."""
+    lines = []
+    for log in report.logs:
+        for column, count in log.missing.items():
+            lines.append(
+                f"{log.name}: {column} has no value in {count} of {log.rows} rows; they are not "
+                "used, but look why the logger left them out"
+            )
+        for joint, count in log.saturated.items():
+            lines.append(
+                f"{log.name}: the torque of joint {joint} is clipped in {count} of {log.rows} "
+                "rows; they are not used, but drive slower or with less load"
+            )
+        if log.contradicted:
+            lines.append(
+                f"{log.name}: the logged speeds or accelerations are not those of the positions "
+                f"in {log.contradicted} samples; they are not used, but check these channels"
+            )
+        lines += [f"{log.name}: {note}" for note in log.notes]
+    return lines
 
 
 def _motion(state: State, j: int) -> list[str]:
@@ -41,7 +70,10 @@ def _motion(state: State, j: int) -> list[str]:
         return [f"joint {joint.name} never moves: nothing can be said of its effects; move it"]
     v = state.rows.filtered(j, [s.v[:, j] for s in signals])
     if not v.size:
-        return []
+        return [
+            f"joint {joint.name}: no row of it can be used, so nothing can be said of its effects; "
+            "move it longer, and faster than its slowest creep"
+        ]
     forward = float(np.mean(v > 0.0))
     found = []
     if max(forward, 1.0 - forward) > _ONE_WAY:
@@ -49,50 +81,37 @@ def _motion(state: State, j: int) -> list[str]:
             f"joint {joint.name} moves one way only: Coulomb friction and offset are one column; "
             "move it both ways"
         )
-    low, high = np.quantile(np.abs(v), [0.1, 0.9])
-    if high < _ONE_SPEED * low:
+    speed = one_speed(state, j)
+    if speed is not None:
         found.append(
-            f"joint {joint.name} moves at one speed only ({high:.2g} {joint.unit}/s): friction "
+            f"joint {joint.name} moves at one speed only ({speed:.2g} {joint.unit}/s): friction "
             "laws cannot be told apart; move at five speeds or more"
         )
     return found
 
 
-def _channels(state: State, beta: np.ndarray) -> list[str]:
-    """Signs, scales and exchanged channels: measured torques against those of the model."""
-    observation = state.data.observation
-    predicted = observation.predicted(beta)
-    used = observation.used
-    lines = []
-    for j, joint in enumerate(observation.joints):
-        y, p = observation.torque[used[:, j], j], predicted[used[:, j], j]
-        size = float(np.linalg.norm(y))
-        if y.size < 20 or size == 0.0 or np.linalg.norm(y - p) < _WRONG * size:
-            continue
-        gain = float(p @ y) / max(float(p @ p), 1e-300)
-        if np.linalg.norm(y - gain * p) < _WRONG * size:
-            sign = "has the other sign of" if gain < 0.0 else f"is {gain:.3g} times"
-            lines.append(
-                f"joint {joint.name}: the measured torque {sign} the predicted one; check sign, "
-                "unit and drive gain of that channel"
-            )
-            continue
-        lines += _exchanged(state, predicted, j)
-    return lines
+def one_speed(state: State, j: int) -> float | None:
+    """The speed of a joint that has but one between its reversals, rad/s or m/s; else None."""
+    v = state.rows.filtered(j, [s.v[:, j] for s in state.rows.signals])
+    if not v.size:
+        return None
+    low, high = np.quantile(np.abs(v), [0.1, 0.9])
+    return float(high) if high < _ONE_SPEED * low else None
 
 
-def _exchanged(state: State, predicted: np.ndarray, j: int) -> list[str]:
-    observation = state.data.observation
-    names = [joint.name for joint in observation.joints]
-    rows = observation.used[:, j]
-    y = observation.torque[rows, j]
-    for k in range(len(names)):
-        p = predicted[rows, k]
-        if k == j or p.std() == 0.0 or y.std() == 0.0:
+def _slow(state: State) -> list[str]:
+    """Joints that move, but so slowly that no inertia is felt."""
+    names = []
+    for j, joint in enumerate(state.data.observation.joints):
+        if not joint.actuated or not state.rows.y[j].size:
             continue
-        if abs(float(np.corrcoef(y, p)[0, 1])) > _ALIKE:
-            return [
-                f"joint {names[j]}: its measured torque looks like that of joint {names[k]}; are "
-                "the channels exchanged?"
-            ]
-    return []
+        moved = [s.load[:, j] - s.static[:, j] for s in state.rows.signals]
+        dynamic = float(np.sqrt(np.mean(state.rows.filtered(j, moved) ** 2)))
+        if dynamic < _SLOW * float(np.sqrt(np.mean(state.rows.y[j] ** 2))):
+            names.append(joint.name)
+    if not names:
+        return []
+    return [
+        f"joint{'s' if len(names) > 1 else ''} {', '.join(names)}: slow motion only, inertia makes "
+        "less than 1 % of the torque: effects of speed and acceleration cannot be told; move faster"
+    ]

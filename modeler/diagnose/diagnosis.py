@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
+from modeler.diagnose.channels import Fault, faults
 from modeler.diagnose.contact import Window, contact_window
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.result import Diagnosis
@@ -51,19 +52,39 @@ def diagnose(
     observation = analysed(compiled, logs, model.processing)
     kept = kept_parameters(model, compiled, logs, observation)
     data = Data(compiled, observation, kept, catalogue)
-    other = None
-    if holdout:
-        seen = analysed(compiled, holdout, observation.report.processing, chosen=True)
-        other = dataclasses.replace(data, observation=seen)
+    other = _held_out(data, holdout)
+    doubted = _faults(model, compiled, observation, other)
+    if any(fault.certain for fault in doubted):
+        most = 0
     veto = vetoing(other) if other is not None else None
     found = search(data, model.beta, without, most, veto, progress)
-    window = contact_window(found.end)
+    window = contact_window(found.end) if most else None
     if window is not None and "external_force" not in without:
         data = dataclasses.replace(data, observation=_masked(observation, window))
         found = search(data, model.beta, without, most, veto, progress)
     if progress is not None:
         progress(1.0)
-    return assembled(model, found, other, window)
+    return assembled(model, found, other, window, doubted)
+
+
+def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
+    """Held-out logs in the band of the training logs."""
+    if not holdout:
+        return None
+    processing = data.observation.report.processing
+    seen = analysed(data.compiled, holdout, processing, chosen=True)
+    return dataclasses.replace(data, observation=seen)
+
+
+def _faults(
+    model: IdentifiedModel, compiled: "CompiledModel", observation: Observation, other: Data | None
+) -> tuple[Fault, ...]:
+    """Channels that contradict the model, of the logs and of the held-out ones."""
+    found = faults(compiled, observation, model.beta)
+    if other is None:
+        return found
+    held = faults(compiled, other.observation, model.beta)
+    return (*found, *(dataclasses.replace(f, line=f"held out: {f.line}") for f in held))
 
 
 def kept_parameters(

@@ -12,7 +12,7 @@ from modeler.compare.report import figure_html, page_assets
 from modeler.core.files import write_atomically
 from modeler.diagnose.evidence import evidence_picture, rivals_picture
 from modeler.diagnose.result import Diagnosis, Finding
-from modeler.diagnose.sentences import percent, where
+from modeler.diagnose.sentences import blind_spots, percent, unit, where
 from modeler.effects import effect_named
 from modeler.fit import Addition
 
@@ -111,7 +111,8 @@ def _page(
 def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
     """The size of the prize, and what wins it."""
     if not diagnosis.effects:
-        return diagnosis.verdict, ""
+        verdict, _, reason = diagnosis.sentences[0].partition(": ")
+        return verdict, reason
     first = diagnosis.effects[0]
     effect = effect_named(first.effect, diagnosis.search.start.data.catalogue)
     assert effect is not None
@@ -131,6 +132,8 @@ def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
         if j.systematic > _SMALL**2 and j.systematic > 0.3 * j.noise
     ]
     facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
+    if diagnosis.data:
+        facts.append(("Doubts about the logs", "; ".join(diagnosis.data)))
     held = ", ".join(diagnosis.held_out) or "none: errors are cross-validated within the logs"
     facts.append(("Held-out motion", held))
     return facts
@@ -171,19 +174,19 @@ def _row(finding: Finding) -> str:
     values = "; ".join(
         f"{name} = {value:.4g}"
         + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
-        + (f" {finding.units[name]}" if name in finding.units else "")
+        + unit(finding, name)
         for name, value in finding.parameters.items()
     )
     mark = " (refinement)" if finding.refines else ""
     cells = [
         f'<td class="text">{finding.effect}{mark}</td>',
         f'<td class="text">{html.escape(finding.joint or "all")}</td>',
-        f'<td class="text">{html.escape(values)}</td>',
+        f'<td class="text values">{html.escape(values)}</td>',
         f"<td>{percent(finding.error_before)}</td>",
         f"<td>{percent(finding.error_after)}</td>",
         f'<td class="bar"><span style="width:{round(110 * finding.gain)}px"></span>'
         f"{percent(finding.gain)}</td>",
-        f'<td class="text">{html.escape(finding.evidence)}</td>',
+        f'<td class="text why">{html.escape(finding.evidence)}</td>',
     ]
     return f"<tr>{''.join(cells)}</tr>"
 
@@ -208,11 +211,7 @@ def _joints(diagnosis: Diagnosis) -> str:
 
 
 def _blind(diagnosis: Diagnosis) -> str:
-    lines = []
-    for effect_id, joint in diagnosis.blind_spots:
-        effect = effect_named(effect_id, diagnosis.search.start.data.catalogue)
-        assert effect is not None
-        lines.append(
-            f"<li>{html.escape(_name(effect_id, joint))}: {html.escape(effect.look_alikes)}</li>"
-        )
+    lines = [
+        f"<li>{html.escape(what)}: {html.escape(why)}</li>" for what, why in blind_spots(diagnosis)
+    ]
     return f"<ul>{''.join(lines)}</ul>" if lines else "<p>Nothing of the catalogue.</p>"

@@ -101,12 +101,14 @@ class Diagnosis:
         refinements: of effects named before on the same joint.
         rivals: of the first effect: effect, joint, gain.
         blind_spots: what these data cannot show, by effect and joint.
-        joints: by name.
+        joints: by name; those with rows.
+        unmoved: joints of which no row can be used.
         held_out: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
         band: Hz up to which residuals were looked at.
         data: doubts about the logs themselves.
         changed: True if the base parameters were kept and the robot has changed since.
+        contradicted: True if channels of the logs contradict the model: then nothing is named.
         search: everything behind it.
     """
 
@@ -117,11 +119,13 @@ class Diagnosis:
     rivals: tuple[tuple[str, str | None, float], ...]
     blind_spots: tuple[Key, ...]
     joints: Mapping[str, JointState]
+    unmoved: tuple[str, ...]
     held_out: tuple[str, ...]
     sentences: tuple[str, ...]
     band: float
     data: tuple[str, ...]
     changed: bool
+    contradicted: bool
     search: Search
 
     def to_json(self) -> dict[str, Any]:
@@ -139,11 +143,13 @@ class Diagnosis:
                 {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
             ],
             "joints": {name: joint.to_json() for name, joint in self.joints.items()},
+            "unmoved": list(self.unmoved),
             "held_out": list(self.held_out),
             "sentences": list(self.sentences),
             "band": self.band,
             "data": list(self.data),
             "changed": self.changed,
+            "contradicted": self.contradicted,
         }
 
 

@@ -76,7 +76,7 @@ def search(
         data: training logs.
         beta: (c,) parameters of the model, where effects are linearised first.
         without: ids of effects, or id@joint, that the user rules out.
-        most: effects to name at most.
+        most: effects to name at most; with 0 nothing is judged.
         veto: looks at held-out logs.
         progress: called with a share between 0 and 1.
     """
@@ -84,7 +84,7 @@ def search(
     state = start = state_of(data, (), start.beta, start.cache)
     steps: list[Step] = []
     vetoed: list[Candidate] = []
-    judgement = judged_state(state, without, vetoed)
+    judgement = judged_state(state, without, vetoed) if most else Judgement((), None)
     while judgement.best is not None and len(steps) < most:
         best = judgement.best
         later = extended(state, best.candidate)

@@ -19,6 +19,22 @@ def where(joint: str | None) -> str:
     return f"joint {joint}" if joint is not None else "the whole robot"
 
 
+def blind_spots(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    """What the logs cannot show, and why: (effect and joint, sentence).
+
+    A joint of which no row can be used stands there once, for all its effects.
+    """
+    found = {}
+    for name, joint in diagnosis.blind_spots:
+        effect = effect_named(name, diagnosis.search.start.data.catalogue)
+        assert effect is not None
+        if joint is not None and joint in diagnosis.unmoved:
+            found[f"any effect of joint {joint}"] = "no row of it can be used; move it"
+        else:
+            found[f"{name}@{joint}" if joint else name] = effect.look_alikes
+    return list(found.items())
+
+
 def evidence(step: Step, before: float, after: float) -> str:
     """Why this effect, in one or two sentences."""
     judged = step.judged
@@ -44,7 +60,8 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
         f"refinement on {where(f.joint)}: {f.effect}, gain {percent(f.gain)}"
         for f in diagnosis.refinements
     ]
-    for name, joint in diagnosis.joints.items():
+    judged = {} if diagnosis.contradicted else diagnosis.joints
+    for name, joint in judged.items():
         left = joint.systematic + joint.noise
         if left > 0.0 and np.sqrt(joint.systematic) > 0.005 and joint.systematic > 0.3 * left:
             lines.append(
@@ -71,9 +88,11 @@ def _headline(diagnosis: Diagnosis) -> str:
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"
+    if diagnosis.contradicted:
+        return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
         return "cannot tell: too few rows; record longer motions of all joints"
-    return "nothing significant: no effect of the catalogue would lower the error by more than 3 %"
+    return "nothing to add: no effect of the catalogue would lower the error by more than 3 %"
 
 
 def _named(finding: Finding, diagnosis: Diagnosis) -> str:
@@ -84,10 +103,15 @@ def _named(finding: Finding, diagnosis: Diagnosis) -> str:
 
 def _effect_line(finding: Finding) -> str:
     values = ", ".join(
-        f"{name} = {value:.4g}{' ' + finding.units[name] if name in finding.units else ''}"
-        for name, value in finding.parameters.items()
+        f"{name} = {value:.4g}{unit(finding, name)}" for name, value in finding.parameters.items()
     )
     ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
     tail = f"; these data do not tell it from {ties}" if ties else ""
     change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"
     return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
+
+
+def unit(finding: Finding, name: str) -> str:
+    """The unit behind a value; nothing for a plain number."""
+    of = finding.units.get(name, "1")
+    return f" {of}" if of != "1" else ""

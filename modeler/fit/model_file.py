@@ -183,12 +183,14 @@ def load_model(path: str | Path) -> IdentifiedModel:
             f"{path}: the manifest does not match its signature, so it was changed after it was "
             "saved; fit the model again"
         )
+    values, given = _entry(raw, "covariance", list, path), _entry(raw, "logs", list, path)
+    fitted = _entry(raw, "fit", dict, path)
     try:
-        covariance = np.array(_entry(raw, "covariance", list, path), dtype=float)
+        covariance = np.array(values, dtype=float)
         history = tuple(_addition(entry) for entry in raw.get("history", []))
-        logs = tuple(_provenance_from_json(entry) for entry in _entry(raw, "logs", list, path))
-        fit = fit_from_json(_entry(raw, "fit", dict, path), covariance)
-    except (TypeError, ValueError) as error:
+        logs = tuple(_provenance_from_json(entry) for entry in given)
+        fit = fit_from_json(fitted, covariance)
+    except (TypeError, ValueError, KeyError) as error:
         raise ManifestError(f"{path}: damaged ({error}); fit the model again") from None
     except ManifestError as error:
         raise ManifestError(f"{path}: {error}") from None

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.compare import compare
 from modeler.compare.predict import predict
+from modeler.compare.prediction import check_prediction, relative_error
 from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError
 from modeler.derivation import derive, generate
@@ -18,8 +18,9 @@ from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import judged_state
 from modeler.diagnose.state import Data, State, state_of
-from modeler.effects import CATALOGUE, RIPPLES, Acts, Effect, effect_named
+from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
+from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.observation import Log, Processing, observe
 from modeler.robot import robot_from_text
@@ -57,18 +58,13 @@ def add_effect(
             cannot be added.
     """
     catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
-    effect = effect_named(name, catalogue)
-    if effect is None:
-        raise DataError(
-            f"{name}: no such effect; `modeler effects` lists them, and this robot file defines "
-            f"{', '.join(e.id for e in catalogue[len(CATALOGUE) :]) or 'none of its own'}"
-        )
+    effect = asked(model, name, joint, catalogue)
     observation = analysed(compiled, logs.fitted, model.processing)
     kept = kept_parameters(model, compiled, logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
     state = state_of(Data(compiled, observation, kept, catalogue), (), model.beta)
-    best = _best(model, state, effect, joint)
+    best = _best(state, effect, joint)
     return _added(model, compiled, state, best.candidate, best.values, logs)
 
 
@@ -102,17 +98,10 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
     return dataclasses.replace(fitted, history=model.history[:-1])
 
 
-def _best(model: IdentifiedModel, state: State, effect: Effect, joint: str | None) -> Judged:
+def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    present = {(p.effect, p.joint) for p in model.spec.standard}
-    repeats = effect.id in RIPPLES
-    if joint is not None and (effect.id, joint) in present and not repeats:
-        raise DataError(f"{effect.id}: joint {joint} has it in this model already")
-    names = [item.name for item in model.spec.joints]
-    if joint is not None and joint not in {*names, *_passive(model)}:
-        raise DataError(f"--joint {joint}: no such joint; expected one of {', '.join(names)}")
     judgement = judged_state(state, only=effect.id)
-    found = [j for j in judgement.ranked if joint is None or j.candidate.joint in (joint, None)]
+    found = [j for j in judgement.ranked if joint is None or j.candidate.joint == joint]
     if not found:
         raise DataError(
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
@@ -125,10 +114,6 @@ def _best(model: IdentifiedModel, state: State, effect: Effect, joint: str | Non
             f"({100 * best.visible:.1g} % of it is left); {effect.look_alikes}"
         )
     return best
-
-
-def _passive(model: IdentifiedModel) -> Sequence[str]:
-    return model.spec.closure.variables if model.spec.closure is not None else ()
 
 
 def _added(
@@ -190,16 +175,22 @@ def _step(
     model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, logs: Logs
 ) -> Addition:
     """The error of a model, as a step of its history."""
-    judged = logs.held_out or logs.fitted
-    error = compare(predict(model, judged, compiled)[0]).relative_error
-    training = compare(predict(model, logs.fitted, compiled)[0]).relative_error
+    training = _error(model, compiled, logs.fitted)
+    error = _error(model, compiled, logs.held_out) if logs.held_out else training
     return Addition(
         effect=pick.effect.id if pick else "",
         joint=pick.joint if pick else None,
         shapes=dict(pick.shapes) if pick else {},
-        error=float(error),
-        training_error=float(training),
+        error=error,
+        training_error=training,
         held_out=tuple(log.name for log in logs.held_out),
         robot_text=model.robot_text,
         delay=model.processing.delay,
     )
+
+
+def _error(model: IdentifiedModel, compiled: CompiledModel, logs: Sequence[Log]) -> float:
+    """Relative error over all joints."""
+    prediction, _ = predict(model, logs, compiled)
+    check_prediction(prediction)
+    return relative_error(prediction)

@@ -10,14 +10,6 @@ from modeler.effects import Acts, Effect
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
 
-CANNOT = {
-    "elasticity": "the joint needs a second mass: identify its stiffness by simulation, or move "
-    "slower than its resonance",
-    "backlash": "play has no smooth torque: mend the gear, or keep the load from changing sign",
-    "external_force": "a contact is an event, not a parameter: leave its window out of the logs",
-}
-"""Effects that can be found and not added, and what to do."""
-
 
 def described(text: str, pick: Candidate, values: np.ndarray, reference: Reference) -> str:
     """The robot file with the effect.
@@ -29,12 +21,10 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: Referen
         reference: the model.
 
     Raises:
-        DataError: the effect cannot be added; says what to do.
+        DataError: its coupling cannot be written.
         RobotError: it stands there already.
     """
     effect = pick.effect
-    if effect.id in CANNOT:
-        raise DataError(f"{effect.id}: cannot be added ({CANNOT[effect.id]})")
     if effect.acts is Acts.GRAVITY:
         return with_gravity(text, _tilted(text, values, reference).tolist())
     if effect.acts is Acts.PASSIVE:

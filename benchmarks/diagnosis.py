@@ -1,0 +1,111 @@
+"""How long a diagnosis takes, and one effect added and fitted: the demonstration arm, three joints.
+
+Run from the top of the checkout: `python -m benchmarks.diagnosis [SECONDS]`. Logs of 40 s at 1 kHz
+(or of SECONDS) with friction that grows with the load on joint 2. All from a warm process: modules
+are loaded and the C is compiled. Below the line are the parts of `add`; `C, empty cache` is paid
+once for every new robot file.
+"""
+
+import dataclasses
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from modeler.api import compile_model, derive, fit, generate, load, observe
+from modeler.diagnose import diagnose
+from modeler.diagnose.analyse import analysed
+from modeler.improve import Logs, add_effect
+from modeler.observation import Log, read_log
+from modeler.robot import robot_from_text
+from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.simulate.hidden import hidden_from_text
+
+EFFECT, JOINT = "load_friction", "2"
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    start = time.perf_counter()
+    result = work()
+    return time.perf_counter() - start, result
+
+
+def warm(work: Callable[[], Any]) -> float:
+    """Seconds of the second call."""
+    work()
+    return timed(work)[0]
+
+
+def logs_of(folder: Path, duration: float) -> list[Log]:
+    """A log to fit and one to hold out."""
+    robot = load("demo-arm")
+    spec = generate(derive(robot)).spec
+    settings = SimulationSettings(
+        duration=duration, hidden=(hidden_from_text(f"{EFFECT}@{JOINT}"),)
+    )
+    found = []
+    for seed in (1, 2):
+        place = folder / f"{seed}.parquet"
+        write_log(place, simulate(robot, dataclasses.replace(settings, seed=seed)))
+        found.append(read_log(place, spec))
+    return found
+
+
+def measure(train: Log, other: Log) -> dict[str, float]:
+    """Seconds by what was done."""
+    derivation = derive(load("demo-arm"))
+    emitted = generate(derivation)
+    compiled = compile_model(emitted)
+    model = fit(derivation, emitted, observe(compiled, [train]))
+    seconds = {
+        "diagnose, training only": warm(lambda: diagnose(model, compiled, [train])),
+        "diagnose, held-out log": warm(lambda: diagnose(model, compiled, [train], [other])),
+    }
+    for name, held in (("add, training only", ()), ("add, held-out log", (other,))):
+        logs = Logs([train], held)
+        seconds[name] = warm(lambda logs=logs: add_effect(model, compiled, EFFECT, JOINT, logs))
+    better = add_effect(model, compiled, EFFECT, JOINT, Logs([train]))
+    return seconds | parts(better.robot_text, train)
+
+
+def parts(text: str, train: Log) -> dict[str, float]:
+    """Seconds of what `add` is made of, for the robot file with the effect."""
+    robot = robot_from_text(text, "arm with the effect")
+    derivation = derive(robot)
+    emitted = generate(derivation)
+    compiled = compile_model(emitted)
+    observation = observe(compiled, [train])
+    processing = observation.report.processing
+    seconds = {
+        "- derive": warm(lambda: derive(robot)),
+        "- emit C": warm(lambda: generate(derive(robot))) - warm(lambda: derive(robot)),
+        "- C, cached": warm(lambda: compile_model(emitted)),
+        "- rows in the wide band": warm(lambda: analysed(compiled, [train], processing)),
+        "- rows of the fit": warm(lambda: observe(compiled, [train], processing)),
+        "- fit": warm(lambda: fit(derivation, emitted, observation)),
+    }
+    with tempfile.TemporaryDirectory() as scratch:
+        before = os.environ.get("MODELER_CACHE")
+        os.environ["MODELER_CACHE"] = scratch
+        seconds["- C, empty cache"] = timed(lambda: compile_model(emitted))[0]
+        if before is None:
+            del os.environ["MODELER_CACHE"]
+        else:
+            os.environ["MODELER_CACHE"] = before
+    return seconds
+
+
+def main(words: list[str]) -> None:
+    duration = float(words[0]) if words else 40.0
+    with tempfile.TemporaryDirectory() as folder:
+        train, other = logs_of(Path(folder), duration)
+    print(f"{train.rows} and {other.rows} rows of {len(train.joints)} joints; seconds")
+    for name, seconds in measure(train, other).items():
+        print(f"{name:<28}{seconds:>8.2f}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

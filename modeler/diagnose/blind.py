@@ -1,0 +1,45 @@
+"""What the logs cannot show, whatever is missing in the model."""
+
+from modeler.diagnose.data_checks import one_speed
+from modeler.diagnose.gram import VISIBLE
+from modeler.diagnose.propose import proposals
+from modeler.diagnose.result import Key
+from modeler.diagnose.search import Search
+from modeler.diagnose.state import State
+from modeler.effects import Acts, effect_named
+
+
+def blind_spots(found: Search) -> tuple[Key, ...]:
+    """Effects that these data cannot show: hidden by the model, or on joints that do not move."""
+    judged = [*found.last.ranked]
+    seen = {j.candidate.key for j in judged}
+    hidden: list[Key] = [j.candidate.key for j in judged if j.visible < 2.0 * VISIBLE]
+    spec = found.start.data.compiled.spec
+    for joint in spec.joints:
+        for name in ("encoder_offset", "encoder_eccentricity"):
+            if joint.actuated and (name, joint.name) not in seen:
+                hidden.append((name, joint.name))
+    if found.start.data.kept is None:
+        hidden.append(("payload", None))
+    hidden += _unmoved(found.start)
+    named = {step.pick.key for step in found.steps}
+    kept = [key for key in dict.fromkeys(hidden) if key not in named]
+    assert all(effect_named(name, found.start.data.catalogue) is not None for name, _ in kept)
+    return tuple(kept)
+
+
+def _unmoved(state: State) -> list[Key]:
+    """All that could be on joints of which no row can be used, or that have one speed only.
+
+    At one speed, functions of the speed are one column: only the moments of reversal differ.
+    """
+    own = (Acts.JOINT, Acts.MOTOR, Acts.POSITION)
+    steady = [one_speed(state, j) is not None for j in range(state.rows.joints)]
+    return [
+        candidate.key for candidate in proposals(state)
+        if candidate.effect.acts in own
+        and (
+            not state.rows.y[candidate.index].size
+            or (steady[candidate.index] and candidate.form.names == {"v"})
+        )
+    ]  # fmt: skip

@@ -1,0 +1,35 @@
+"""What the user should know of an effect that was added, beside its error."""
+
+from modeler.diagnose.sentences import percent, where
+from modeler.effects import Effect, effect_named
+from modeler.fit import Addition, IdentifiedModel
+
+_FALLS = 0.99  # of the error before: anything above is no fall
+
+
+def notes(model: IdentifiedModel) -> list[str]:
+    """Sentences on the step that was added last; empty where all is as asked."""
+    if len(model.history) < 2:
+        return []
+    before, last = model.history[-2:]
+    effect = effect_named(last.effect)
+    assert effect is not None
+    found = []
+    if _stands_in(effect, last):
+        found.append(
+            f"{effect.id}, {where(last.joint)}: the logs have no column temperature{last.joint} or "
+            "temperature, so the time since their start stands for it; log it to know more"
+        )
+    if last.error > _FALLS * before.error:
+        found.append(
+            f"{effect.id}, {where(last.joint)}: the error does not fall "
+            f"({percent(before.error)} -> {percent(last.error)}); `modeler add MODEL undo` takes "
+            "the effect out again"
+        )
+    return found
+
+
+def _stands_in(effect: Effect, step: Addition) -> bool:
+    """True if the effect usually reads a temperature and here does not."""
+    usual = effect.forms[0]
+    return "T" in usual.names and {shape.name for shape in usual.shapes} != set(step.shapes)

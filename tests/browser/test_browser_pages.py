@@ -1,0 +1,179 @@
+"""The pages of `diagnose` and `add` in a real browser: whole, readable, drawn, without network."""
+
+import csv
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeler.cli import main
+from tests.browser.chromium import NAMES, Chromium, found
+
+SIZES = [(1280, 900), (400, 800)]
+
+OKABE_ITO = {"#000000", "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"}
+GREYS = {"#9a9a9a"}
+
+
+@dataclass(frozen=True)
+class Pages:
+    """The two pages and what they should say."""
+
+    diagnosis: Path
+    diagnosed: dict[str, Any]
+    added: Path
+    waterfall: list[dict[str, Any]]
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> Pages:
+    """An arm with a hidden load friction, diagnosed; the effect added."""
+    folder = tmp_path_factory.mktemp("pages")
+    place = {n: str(folder / n) for n in ("m.json", "d.html", "d.json", "a.html", "a.json", "m2")}
+    logs = [str(folder / "train.parquet"), "--holdout", str(folder / "other.parquet")]
+    for seed, log in ((4, logs[0]), (5, logs[2])):
+        words = ["simulate", "demo-arm", "--hide", "load_friction@2", "--duration", "15"]
+        assert main([*words, "--rate", "250", "--seed", str(seed), "--out", log]) == 0
+    assert main(["fit", "demo-arm", logs[0], "--out", place["m.json"]]) == 0
+    words = ["diagnose", place["m.json"], *logs]
+    assert main([*words, "--report", place["d.html"], "--json", place["d.json"]]) == 0
+    words = ["add", place["m.json"], "load_friction", "--joint", "2", *logs, "--out", place["m2"]]
+    assert main([*words, "--report", place["a.html"], "--json", place["a.json"]]) == 0
+    diagnosed = json.loads((folder / "d.json").read_text())
+    waterfall = json.loads((folder / "a.json").read_text())["waterfall"]
+    return Pages(folder / "d.html", diagnosed, folder / "a.html", waterfall)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
+    program = found()
+    if program is None:
+        pytest.skip(f"NOT CHECKED: no browser, none of {', '.join(NAMES)} is on the path")
+    with Chromium(program, tmp_path_factory.mktemp("profile")) as running:
+        yield running
+
+
+def shown(browser: Chromium, page: Path, size: tuple[int, int]) -> str:
+    """The rendered text of a page whose pictures have all been drawn."""
+    browser.open(page, *size)
+    browser.value("document.querySelectorAll('.plot').forEach((p) => p.scrollIntoView())")
+    browser.until(
+        "[...document.querySelectorAll('.plot')].every((p) => p.querySelector('.main-svg'))"
+    )
+    browser.value("window.scrollTo(0, 0)")
+    return " ".join(str(browser.value("document.body.innerText")).split())
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_diagnosis_is_all_there(browser: Chromium, pages: Pages, size: tuple[int, int]) -> None:
+    text = shown(browser, pages.diagnosis, size)
+    diagnosed = pages.diagnosed
+    for sentence in diagnosed["sentences"]:
+        assert " ".join(sentence.split()) in text
+    assert "missing: friction that grows with the load on the gear, joint 2" in text
+    for effect in diagnosed["effects"]:
+        assert f"{effect['effect']} {effect['joint']}" in text  # a row of the table
+        for tie in effect["ties"]:
+            assert f"{tie['effect']} on joint {tie['joint']}" in text
+        for name, value in effect["parameters"].items():
+            assert f"{name} = {value:.4g}" in text
+    assert diagnosed["blind_spots"]
+    for spot in diagnosed["blind_spots"]:
+        joint = f"@{spot['joint']}" if spot["joint"] else ""
+        assert f"{spot['effect']}{joint}:" in text
+    for words in ("model: demo-arm, 25 base parameters, fitted on train.parquet",
+                  "logs explained: train.parquet", "Held-out motion other.parquet"):  # fmt: skip
+        assert words in text
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_waterfall_is_all_there(browser: Chromium, pages: Pages, size: tuple[int, int]) -> None:
+    text = shown(browser, pages.added, size)
+    first, last = pages.waterfall[0]["error"], pages.waterfall[-1]["error"]
+    assert last < 0.5 * first
+    drawn = str(browser.value("document.querySelector('.plot').textContent"))
+    for step in pages.waterfall:
+        assert f"{100.0 * step['error']:.2f}" in drawn
+    assert "as fitted" in drawn and "+ load_friction @2" in drawn
+    assert "judged on other.parquet" in text
+    assert "modeler add MODEL load_friction --joint 2 LOG... --out MODEL" in text
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", ["diagnosis", "added"])
+def test_a_page_works_alone_at_any_width(
+    browser: Chromium, pages: Pages, name: str, size: tuple[int, int]
+) -> None:
+    page: Path = getattr(pages, name)
+    shown(browser, page, size)
+    assert browser.complaints == []
+    assert browser.requests == [page.resolve().as_uri()]
+    wide, room = browser.value(
+        "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
+    assert wide <= room == size[0]  # tables and pictures are pushed aside, never the page
+    headline = browser.value("document.querySelector('.headline').getBoundingClientRect().bottom")
+    assert 0 < headline < size[1]  # the verdict is on the first screen
+    drawn = browser.value(
+        "[...document.querySelectorAll('.plot')].map((p) => ["
+        "p.querySelectorAll('.main-svg .trace path').length,"
+        "p.querySelector('.main-svg').getBoundingClientRect().width])"
+    )
+    assert drawn
+    for marks, width in drawn:
+        assert marks > 0 and width >= 320
+
+
+@pytest.mark.parametrize("name", ["diagnosis", "added"])
+def test_the_numbers_of_every_picture_can_be_downloaded(
+    browser: Chromium, pages: Pages, tmp_path: Path, name: str
+) -> None:
+    shown(browser, getattr(pages, name), SIZES[0])
+    pictures = browser.value("document.querySelectorAll('.plot').length")
+    assert pictures == browser.value("document.querySelectorAll('figure a[download]').length") > 0
+    for link in range(pictures):
+        with browser.download(tmp_path, link).open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        assert rows and list(rows[0]) == ["panel", "series", "x", "y", "error"]
+        assert all(float(row["y"]) == float(row["y"]) for row in rows)
+    if name == "added":
+        held = [float(row["y"]) for row in rows if row["panel"] == "held out"]
+        assert held == pytest.approx([100.0 * s["error"] for s in pages.waterfall], rel=1e-3)
+
+
+def luminance(color: str) -> float:
+    """Relative luminance of "rgb(r, g, b)", WCAG 2.1."""
+    parts = [int(part) / 255 for part in color.partition("(")[2].rstrip(")").split(",")[:3]]
+    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+@pytest.mark.parametrize("name", ["diagnosis", "added"])
+def test_colours_are_told_apart(browser: Chromium, pages: Pages, name: str) -> None:
+    """Series in colours of Okabe and Ito, or grey; text at least 4.5 : 1 on white."""
+    shown(browser, getattr(pages, name), SIZES[0])
+    series = browser.value(
+        "[...document.querySelectorAll('.plot')].flatMap((p) => p.data)"
+        ".flatMap((t) => [t.marker && t.marker.color, t.line && t.line.color])"
+        ".filter((c) => typeof c === 'string')"
+    )
+    assert series and {color.lower() for color in series} <= OKABE_ITO | GREYS
+    texts = browser.value(
+        "[...document.querySelectorAll('h1,h2,h3,p,li,b,td,th,caption,figcaption,a,.plot text')]"
+        ".filter((e) => e.textContent.trim() && e.getBoundingClientRect().width > 0)"
+        ".map((e) => { const s = getComputedStyle(e);"
+        " return e.closest('svg') ? s.fill : s.color; })"
+    )
+    assert len(texts) > 20
+    assert min(1.05 / (luminance(color) + 0.05) for color in set(texts)) >= 4.5
+
+
+@pytest.mark.parametrize("name", ["diagnosis", "added"])
+def test_no_page_speaks_of_statistics(browser: Chromium, pages: Pages, name: str) -> None:
+    text = shown(browser, getattr(pages, name), SIZES[0]).lower()
+    text += str(browser.value("document.title")).lower()
+    for word in ("p-value", "p value", "significan", "hypothes", "null ", "confidence"):
+        assert word not in text

@@ -1,0 +1,161 @@
+"""`modeler add` asked for what cannot be: one clear line, nothing written; or told what it cost."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main
+from modeler.core.errors import ModelerError
+from modeler.core.files import check_writable
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with two simulated logs of the arm, and a model fitted to the first."""
+    folder = tmp_path_factory.mktemp("arm")
+    for name, seed in (("train", 4), ("other", 5)):
+        words = ["simulate", "demo-arm", "--duration", "15", "--rate", "250"]
+        assert main([*words, "--seed", str(seed), "--out", str(folder / f"{name}.parquet")]) == 0
+    words = ["fit", "demo-arm", str(folder / "train.parquet"), "--out", str(folder / "m.json")]
+    assert main(words) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def loops(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The same of a robot with a loop."""
+    folder = tmp_path_factory.mktemp("loops")
+    words = ["simulate", "five-bar", "--duration", "8", "--rate", "250", "--seed", "1"]
+    assert main([*words, "--out", str(folder / "train.parquet")]) == 0
+    words = ["fit", "five-bar", str(folder / "train.parquet"), "--out", str(folder / "m.json")]
+    assert main(words) == 0
+    return folder
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Status, stdout, stderr of a command."""
+
+    def call(*words: object) -> tuple[int, str, str]:
+        capsys.readouterr()
+        status = main([str(word) for word in words])
+        out, err = capsys.readouterr()
+        return status, out, err
+
+    return call
+
+
+REFUSED: dict[str, tuple[str, str]] = {
+    "there already": ("viscous --joint 1", "viscous: joint 1 has it in this model already"),
+    "everywhere": ("viscous", "viscous: every joint has it in this model already"),
+    "unknown": ("load_fricton", 'load_fricton: no such effect (did you mean "load_friction"'),
+    "no such joint": ("spring --joint 7", "--joint 7: no such joint; expected one of 1, 2, 3"),
+    "imitated": (
+        "encoder_offset --joint 3", "encoder_offset: cannot be told from what the model has on"),
+    "never shown": ("encoder_offset --joint 1", "encoder_offset: these logs show nothing of it"),
+    "whole robot": ("time_delay --joint 2", "time_delay acts on the whole robot, not on one joint"),
+    "gravity": ("base_tilt --joint 2", "--joint 2: base_tilt acts on the whole robot"),
+    "no column": ("elasticity --joint 2", "elasticity: cannot be added (the joint needs a second"),
+    "play": ("backlash", "backlash: cannot be added (play has no smooth torque"),
+    "event": ("external_force", "external_force: cannot be added (a contact is an event"),
+    "nothing to undo": ("undo", "undo: no effect was added to this model"),
+    "undo a joint": ("undo --joint 2", "--joint 2: `undo` takes no joint; expected one effect"),
+    "auto a joint": ("auto --joint 2", "--joint 2: `auto` takes no joint; expected one effect"),
+    "nothing missing": ("auto", "auto: nothing is added, because nothing that can be added is"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", REFUSED)
+def test_what_cannot_be_added_is_refused_in_one_line(
+    arm: Path, run: Run, tmp_path: Path, mistake: str
+) -> None:
+    words, message = REFUSED[mistake]
+    effect, *joint = words.split()
+    outputs = ("--out", tmp_path / "m2.json", "--robot", tmp_path / "r.toml")
+    words_ = ("add", arm / "m.json", effect, *joint, arm / "train.parquet", *outputs)
+    status, out, err = run(*words_)
+    assert (status, out) == (1, "")
+    assert err.startswith("modeler: ") and err.count("\n") == 1 and message in err
+    assert list(tmp_path.iterdir()) == []
+
+
+LOOPS: dict[str, tuple[str, str]] = {
+    "position": ("encoder_eccentricity --joint 11", "cannot be added (five-bar has loops, and"),
+    "reads position": ("spring --joint 11", "spring: cannot be added (five-bar has loops"),
+    "remembers": ("presliding --joint 12", "presliding: cannot be added (five-bar has loops"),
+    "second mass": ("elasticity --joint 11", "cannot be added (the joint needs a second mass"),
+    "a motor is not passive": ("passive_friction --joint 11", "expected one of 21, 22"),
+    "no such joint": ("stribeck --joint 1", "--joint 1: no such joint; expected one of 11, 12"),
+}
+
+
+@pytest.mark.parametrize("mistake", LOOPS)
+def test_robots_with_loops_say_what_they_cannot_have(
+    loops: Path, run: Run, tmp_path: Path, mistake: str
+) -> None:
+    words, message = LOOPS[mistake]
+    effect, *joint = words.split()
+    line = ("add", loops / "m.json", effect, *joint, loops / "train.parquet")
+    status, _, err = run(*line, "--out", tmp_path / "m2.json")
+    assert status == 1 and err.count("\n") == 1 and message in err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("option", "place", "message"),
+    [
+        ("--out", "m.json", "--out m.json: this is the model that is read; expected a name of"),
+        ("--out", "train.parquet", "--out train.parquet: this is a log; expected a name of its"),
+        ("--robot", "other.parquet", "--robot other.parquet: this is a log"),
+        ("--report", "m2.json", "--report m2.json: --out writes this file too"),
+        ("--out", "/proc/nowhere/m2.json", "/proc/nowhere/m2.json: cannot be written"),
+        ("--report", "/proc/nowhere/a.html", "/proc/nowhere/a.html: cannot be written"),
+        ("--robot", "/proc/nowhere/r.toml", "/proc/nowhere/r.toml: cannot be written"),
+    ],
+)
+def test_nothing_is_half_written_and_no_input_is_replaced(
+    arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch, option: str, place: str, message: str
+) -> None:
+    monkeypatch.chdir(arm)
+    before = {path.name: path.read_bytes() for path in arm.iterdir()}
+    outputs = {"--out": "m2.json"} | {option: place}
+    words = ["add", "m.json", "spring", "--joint", "3", "train.parquet"]
+    words += ["--holdout", "other.parquet", *(word for pair in outputs.items() for word in pair)]
+    status, out, err = run(*words)
+    assert (status, out) == (1, "") and err.count("\n") == 1 and message in err
+    assert {path.name: path.read_bytes() for path in arm.iterdir()} == before
+
+
+def test_held_out_rows_are_not_fitted_too(arm: Path, run: Run, tmp_path: Path) -> None:
+    train = arm / "train.parquet"
+    line = ("add", arm / "m.json", "spring", "--joint", "3", train, "--holdout", train)
+    status, _, err = run(*line, "--out", tmp_path / "m2.json")
+    assert status == 1 and "--holdout train.parquet: shares rows with train.parquet" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_temperature_that_was_not_logged_is_told(arm: Path, run: Run, tmp_path: Path) -> None:
+    """Time stands in for it; and as the machine has no such effect, the error does not fall."""
+    logs = (arm / "train.parquet", "--holdout", arm / "other.parquet")
+    line = ("add", arm / "m.json", "temperature_friction", "--joint", "1", *logs)
+    status, out, _ = run(*line, "--out", tmp_path / "m2.json")
+    assert status == 0
+    assert "temperature_friction, joint 1: the logs have no column temperature1 or temperature" in (
+        out
+    )
+    assert "the error does not fall" in out and "undo" in out
+    status, out, _ = run("add", tmp_path / "m2.json", "undo", *logs, "--out", tmp_path / "m3.json")
+    assert status == 0 and "temperature_friction" not in out
+
+
+def test_places_are_tried_and_left_as_they_were(tmp_path: Path) -> None:
+    check_writable(tmp_path / "new" / "folder" / "file.json")
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "plain").write_text("a file")
+    with pytest.raises(ModelerError, match="cannot be written"):
+        check_writable(tmp_path / "plain" / "file.json")
+    with pytest.raises(ModelerError, match="is a folder"):
+        check_writable(tmp_path)
