@@ -31,7 +31,9 @@ class Moved:
     slips: Sequence[np.ndarray]
 
 
-def predictable(moved: Moved, residual: np.ndarray, fold: np.ndarray) -> float:
+def predictable(
+    moved: Moved, residual: np.ndarray, fold: np.ndarray, further: Sequence[np.ndarray] = ()
+) -> float:
     """Share of sum r^2 that smooth functions of the motion predict where they were not fitted.
 
     Random Fourier features (Rahimi and Recht 2007) of position, speed, acceleration, load and
@@ -43,10 +45,12 @@ def predictable(moved: Moved, residual: np.ndarray, fold: np.ndarray) -> float:
         moved: the motion.
         residual: (s,) r, of standard deviation about 1.
         fold: (s,) rows of one fold are predicted from those of all others.
+        further: (s, ...) sets of functions to try besides; the best set counts.
     """
     if residual.size < LEAST:
         return 0.0
-    left = min(_left(features, residual, fold) for features in _features(moved))
+    sets = [*_features(moved), *map(_standard, further)]
+    left = min(_left(features, residual, fold) for features in sets if features.shape[1])
     return max(0.0, 1.0 - left / float(residual @ residual))
 
 

@@ -6,11 +6,13 @@ import numpy as np
 
 from modeler.diagnose.blind import blind_spots
 from modeler.diagnose.bursts import BURST, burst_ratio
+from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.channels import Fault
+from modeler.diagnose.closure import CLOSED, closure
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
 from modeler.diagnose.doubts import doubts
-from modeler.diagnose.errors import crossed_errors, held_out_errors
+from modeler.diagnose.errors import crossed_errors, held_out_squares, relative
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
@@ -18,11 +20,8 @@ from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import predictable, repeatable
 from modeler.diagnose.values import values_of
-from modeler.effects import Acts
+from modeler.effects import RIPPLES, Acts
 from modeler.fit import IdentifiedModel
-
-CLOSED = 0.75
-"""Share of what is systematic that an effect must explain to be stated as the cause."""
 
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""
@@ -35,6 +34,10 @@ TOUCHED = 0.1
 
 SMALLER = 0.4
 """Torque of an effect over that of the same effect beside it, below which it only mends that."""
+
+
+SAME_WAVES = 0.1
+"""Orders that differ by less than this share are one."""
 
 
 def assembled(
@@ -51,10 +54,11 @@ def assembled(
         faults: channels that contradict the model; if one is certain, nothing is named.
     """
     chain = _chain(found)
-    errors = [held_out_errors(s, other) if other else crossed_errors(s) for s in chain]
+    seen = [held_out_squares(s, other) for s in chain] if other else None
+    errors = [relative(*pair) for pair in seen] if seen else [crossed_errors(s) for s in chain]
     systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
     contradicted = any(fault.certain for fault in faults)
-    findings = [] if contradicted else _findings(found, chain, window, errors, systematic)
+    findings = [] if contradicted else _findings(found, chain, window, errors, systematic, seen)
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, systematic)
     data = found.start.data
@@ -85,12 +89,15 @@ def _findings(
     window: Window | None,
     errors: Sequence[np.ndarray],
     systematic: Sequence[float],
+    seen: Sequence[tuple[np.ndarray, np.ndarray]] | None,
 ) -> list[Finding]:
     """Effects that were put in, and those that are no columns."""
-    findings = [
-        _finding(found, step, chain[k:], errors[k : k + 2], systematic)
-        for k, step in enumerate(found.steps)
-    ]
+    findings = []
+    for k, step in enumerate(found.steps):
+        touched = _touched(step, *chain[k : k + 2])
+        squares = [left for left, _ in seen[k:]] if seen else None
+        closed = closure(chain[k:], touched, systematic, squares)
+        findings.append(_finding(found, step, touched, errors[k : k + 2], closed))
     return findings + _detected(found, window, errors, findings)
 
 
@@ -127,16 +134,14 @@ def _touched(step: Step, before: State, after: State) -> list[int]:
 def _finding(
     found: Search,
     step: Step,
-    chain: Sequence[State],
+    touched: Sequence[int],
     errors: Sequence[np.ndarray],
-    systematic: Sequence[float],
+    closed: float | None,
 ) -> Finding:
     judged, pick = step.judged, step.pick
     place = next(i for i, s in enumerate(found.steps) if s is step)
     named = values_of(found.end, pick, found.end.values[place], judged.deviations)
-    concerned = _touched(step, *chain[:2])
-    start, end = (_over(found, concerned, error) for error in errors)
-    closure = _closure(chain, concerned, systematic)
+    start, end = (_over(found, touched, error) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
                                 *_same(judged, found)]))  # fmt: skip
     return Finding(
@@ -150,7 +155,7 @@ def _finding(
         units=named.unit,
         ties=ties,
         evidence=evidence(step, start, end),
-        closure=closure,
+        closure=closed,
         refines=_refines(found, step),
     )
 
@@ -174,13 +179,23 @@ def _refines(found: Search, step: Step) -> bool:
         if earlier is step:
             return False
         first, later = earlier.pick, step.pick
-        if first.joint == later.joint and first.effect.family == later.effect.family:
+        if first.joint == later.joint and (
+            first.effect.family == later.effect.family or _same_waves(first, later)
+        ):
             return True
         moves = first.effect is later.effect and first.effect.acts is Acts.POSITION
         near = abs(first.index - later.index) <= 1
         if moves and near and step.judged.felt < SMALLER * earlier.judged.felt:
             return True
     return False
+
+
+def _same_waves(first: Candidate, later: Candidate) -> bool:
+    """True for ripple and run-out of the same order: what one leaves looks like the other."""
+    orders = [c.shapes.get("m", c.shapes.get("k", 0.0)) for c in (first, later)]
+    kinds = {c.effect.id for c in (first, later)}
+    waves = kinds <= {*RIPPLES, "encoder_eccentricity"}
+    return waves and abs(orders[0] - orders[1]) < SAME_WAVES * max(orders)
 
 
 def _over(found: Search, concerned: Sequence[int], errors: np.ndarray) -> float:
@@ -190,30 +205,6 @@ def _over(found: Search, concerned: Sequence[int], errors: np.ndarray) -> float:
     own = list(concerned)
     total = float(size[own].sum())
     return finite(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
-
-
-def _closure(
-    chain: Sequence[State], concerned: Sequence[int], systematic: Sequence[float]
-) -> float | None:
-    """What one effect explains, over that, what later ones explain and what stays systematic.
-
-    Squared residuals of the joints it touches. What a wrong name leaves, others are found to mend;
-    so what they explain there counts as left.
-
-    Args:
-        chain: the state before the effect, the one with it, those with the later ones.
-        concerned: joints that it touches.
-        systematic: share of the variance of each joint's last residual.
-    """
-    first, own, last = chain[0], chain[1], chain[-1]
-    explained = left = 0.0
-    for j in concerned:
-        before, after, end = (
-            float(np.sum((s.residual[j] / first.base.sigma[j]) ** 2)) for s in (first, own, last)
-        )
-        explained += max(0.0, before - after)
-        left += max(0.0, after - end) + systematic[j] * end
-    return explained / (explained + left) if explained > 0.0 else None
 
 
 def _detected(

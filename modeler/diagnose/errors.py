@@ -11,7 +11,17 @@ from modeler.diagnose.state import Data, State, columns_of
 
 
 def held_out_errors(state: State, data: Data, later: float = 0.0) -> np.ndarray:
-    """(J,) ||measured - predicted|| / ||measured|| on other logs, parameters of the state.
+    """(J,) ||measured - predicted|| / ||measured|| on other logs, parameters of the state."""
+    return relative(*held_out_squares(state, data, later))
+
+
+def relative(left: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Relative errors from mean squares of residual and torque; 0 without torque."""
+    return np.sqrt(left / np.where(size > 0.0, size, np.inf))
+
+
+def held_out_squares(state: State, data: Data, later: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """(J,) mean squared residual on other logs, parameters of the state; and mean squared torque.
 
     Args:
         state: fitted.
@@ -21,7 +31,7 @@ def held_out_errors(state: State, data: Data, later: float = 0.0) -> np.ndarray:
     reference = dataclasses.replace(state.reference, time=state.reference.time - later)
     rows = rows_of(data.observation, reference)
     cache: dict = {}
-    errors = np.zeros(rows.joints)
+    squares, size = np.zeros(rows.joints), np.zeros(rows.joints)
     extra = [columns_of(rows, pick, cache) for pick in state.picks]
     for j in range(rows.joints):
         left = rows.y[j] - rows.W[j] @ state.beta
@@ -29,9 +39,9 @@ def held_out_errors(state: State, data: Data, later: float = 0.0) -> np.ndarray:
             own = columns[j]
             if own is not None:
                 left = left - own @ values
-        size = float(np.linalg.norm(rows.y[j]))
-        errors[j] = float(np.linalg.norm(left)) / size if size > 0.0 else 0.0
-    return errors
+        if left.size:
+            squares[j], size[j] = np.mean(left**2), np.mean(rows.y[j] ** 2)
+    return squares, size
 
 
 def crossed_errors(state: State) -> np.ndarray:

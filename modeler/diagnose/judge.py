@@ -134,9 +134,9 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
 
 
 def _numbers(candidate: Candidate) -> float:
-    """Free numbers: parameters, and shapes with more than one value."""
+    """Free numbers: parameters, and shapes that are refined."""
     shapes = candidate.form.shapes
-    free = sum(1.0 if s.smooth else 0.5 for s in shapes if len(s.grid) != 1)
+    free = sum(s.smooth or candidate.shapes[s.name] not in s.grid for s in shapes)
     ratios = len(candidate.shapes) - len(shapes)
     return len(candidate.form.columns) + free + 0.5 * ratios
 

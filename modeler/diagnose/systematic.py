@@ -4,6 +4,7 @@ import numpy as np
 
 from modeler.compare.predictable import Moved
 from modeler.compare.predictable import predictable as predictable_share
+from modeler.diagnose.curves import curve_sets
 from modeler.diagnose.state import State
 from modeler.observation.bristle import bristle
 
@@ -11,7 +12,7 @@ _SLIPS = (0.001, 0.01, 0.1)  # of the range of motion
 
 
 def predictable(state: State, j: int) -> float:
-    """Share of the residual's variance on joint j that smooth functions of the motion predict."""
+    """Share of the residual's variance on joint j that functions of the motion predict."""
     rows, observation = state.rows, state.data.observation
     used = observation.used[:, j]
     moved = Moved(
@@ -26,7 +27,8 @@ def predictable(state: State, j: int) -> float:
         ],
     )
     fold = state.data.blocks.fold[state.base.block[j]]
-    return predictable_share(moved, state.residual[j] / state.base.sigma[j], fold)
+    residual = state.residual[j] / state.base.sigma[j]
+    return predictable_share(moved, residual, fold, curve_sets(state, j))
 
 
 def repeatable(state: State, j: int) -> float | None:

@@ -82,7 +82,7 @@ def test_without_the_definition_the_catalogue_is_all_there_is(own: Case) -> None
     bare = dataclasses.replace(model, robot_text=model.robot_text.replace(OWN, ""))
     diagnosis = api.diagnose(bare, [train], [holdout])
     assert "eddy_brake" not in {f.effect for f in (*diagnosis.effects, *diagnosis.refinements)}
-    with pytest.raises(DataError, match=r"eddy_brake: no such effect; .* defines none of its own"):
+    with pytest.raises(DataError, match="eddy_brake: no such effect"):
         add_effect(bare, own.compiled, "eddy_brake", "2", Logs([train]))
 
 

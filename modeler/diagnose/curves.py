@@ -1,0 +1,78 @@
+"""Curves of any shape in the motion of a joint, of the others, and of what rings after motion."""
+
+import numpy as np
+
+from modeler.diagnose.signals import Signals, resonance
+from modeler.diagnose.state import State
+
+_KNOTS = {"q": 14, "v": 24, "a": 10, "load": 12, "torque": 16}
+_RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
+"""Hz of the oscillators that the motion excites: sloshing, swinging, springs."""
+
+
+def curve_sets(state: State, j: int) -> list[np.ndarray]:
+    """(rows_j, ...) features of joint j: own curves; those of the other joints; ringing; all.
+
+    A curve is a sum of hats over the quantiles of a coordinate, with and without the direction of
+    the joint: friction and other torques of any shape.
+    """
+    knots = _knots(state)
+    sets = [
+        state.rows.filtered(j, [features(s, j, knots) for s in state.rows.signals])
+        for features in (_own, _others, _ringing)
+    ]
+    return [*sets, np.hstack(sets)]
+
+
+_Knots = dict[tuple[str, int], np.ndarray]
+
+
+def _knots(state: State) -> _Knots:
+    """Quantiles of each coordinate of each joint over all stretches."""
+    found = {}
+    for name, count in _KNOTS.items():
+        every = np.concatenate([getattr(s, name)[::4] for s in state.rows.signals])
+        for k in range(every.shape[1]):
+            found[name, k] = np.unique(np.quantile(every[:, k], np.linspace(0.0, 1.0, count)))
+    return found
+
+
+def _hats(x: np.ndarray, knots: np.ndarray) -> np.ndarray:
+    """(n, knots) linear B-splines; constant outside."""
+    if len(knots) < 2:
+        return np.zeros((len(x), 0))
+    return np.column_stack([np.interp(x, knots, row) for row in np.eye(len(knots))])
+
+
+def _own(signals: Signals, j: int, knots: _Knots) -> np.ndarray:
+    direction = np.sign(signals.v[:, j])[:, None]
+    parts = []
+    for name in _KNOTS:
+        curve = _hats(getattr(signals, name)[:, j], knots[name, j])
+        parts.append(curve)
+        if name != "v":
+            parts.append(curve * direction)
+    return np.hstack(parts)
+
+
+def _others(signals: Signals, j: int, knots: _Knots) -> np.ndarray:
+    direction = np.sign(signals.v[:, j])[:, None]
+    parts = [direction]
+    for k in range(signals.q.shape[1]):
+        if k == j:
+            continue
+        place = _hats(signals.q[:, k], knots["q", k][::2])
+        parts += [place, place * direction, _hats(signals.v[:, k], knots["v", k][::3])]
+        plain = np.column_stack([signals.a[:, k], signals.load[:, k], signals.torque[:, k]])
+        parts += [plain, np.abs(plain) * direction]
+    return np.hstack(parts)
+
+
+def _ringing(signals: Signals, j: int, knots: _Knots) -> np.ndarray:
+    del j, knots
+    parts = []
+    for k in range(signals.q.shape[1]):
+        for frequency in _RINGING:
+            z = resonance(signals.a[:, k], signals.step, frequency)
+            parts += [z, np.gradient(z)]
+    return np.column_stack(parts)
