@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.diagnose.blind import blind_spots
-from modeler.diagnose.bursts import BURST, burst_ratio
+from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.channels import Fault
 from modeler.diagnose.closure import CLOSED, closure
@@ -232,18 +232,17 @@ def _detected(
                 None, False,
             )
         )  # fmt: skip
-    if not findings:
-        result += _play(found, errors)
-    return result
+    least = LOUD if findings else BURST
+    return result + _play(found, errors, least)
 
 
-def _play(found: Search, errors: Sequence[np.ndarray]) -> list[Finding]:
+def _play(found: Search, errors: Sequence[np.ndarray], least: float) -> list[Finding]:
     """Play in a gear, on the joint whose bursts its column describes best."""
     joints = found.end.data.compiled.spec.joints
     ratios = [
         burst_ratio(found.end, j) if joint.actuated else 0.0 for j, joint in enumerate(joints)
     ]
-    bursting = [j for j, ratio in enumerate(ratios) if ratio > BURST]
+    bursting = [j for j, ratio in enumerate(ratios) if ratio > least]
     if not bursting:
         return []
     described = {

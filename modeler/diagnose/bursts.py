@@ -10,6 +10,8 @@ AFTER = 0.1
 BURST = 11.0
 """Energy within that time over that elsewhere from which on play is named."""
 
+LOUD = 30.0
+"""The same where other effects are named: what they leave may burst too."""
 
 EVENTS = 5
 """Least number of sign changes of the load."""

@@ -28,7 +28,8 @@ class Data:
     Attributes:
         compiled: the robot.
         observation: of the training logs, in the band of the analysis.
-        kept: (c,) base parameters that are not fitted again; None: they are.
+        kept: (c,) base parameters where the robot has changed since their fit: those of the
+            links are not fitted again, friction and offsets are; None: all are fitted.
         catalogue: the effects that may be missing.
     """
 
@@ -41,6 +42,17 @@ class Data:
     def blocks(self) -> Blocks:
         """Blocks and folds."""
         return blocks_of(self.observation)
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        """Indices of the base columns that are fitted."""
+        base = self.compiled.spec.base
+        return np.array(
+            [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE], dtype=int
+        )
+
+
+_FREE = ("friction", "offset")
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,11 +76,11 @@ class State:
 
     @cached_property
     def W(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, c + extra) by joint: base columns unless they are kept, then the picks'."""
+        """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
         sizes = [next(c.shape[1] for c in e if c is not None) for e in self.extra]
         found = []
         for j, base in enumerate(self.rows.W):
-            parts = [base if self.data.kept is None else base[:, :0]]
+            parts = [base[:, self.data.free]]
             for columns, size in zip(self.extra, sizes, strict=True):
                 own = columns[j]
                 parts.append(np.zeros((len(base), size)) if own is None else own)
@@ -80,7 +92,8 @@ class State:
         """(rows_j,) by joint: torques, less those of base parameters that are kept."""
         if self.data.kept is None:
             return self.rows.y
-        kept = self.data.kept
+        kept = self.data.kept.copy()
+        kept[self.data.free] = 0.0
         return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
 
     @cached_property
@@ -96,7 +109,7 @@ class State:
 
     @cached_property
     def solution(self) -> np.ndarray:
-        """(c + extra,) parameters on all rows, SI; first the base parameters unless kept."""
+        """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
         base = self.base
         G, u = base.G.sum(axis=0), base.u.sum(axis=0)
         return base.turn @ np.linalg.solve(G + 1e-12 * np.eye(len(G)), u) if len(G) else np.zeros(0)
@@ -104,14 +117,15 @@ class State:
     @cached_property
     def beta(self) -> np.ndarray:
         """(c,) base parameters."""
-        if self.data.kept is not None:
-            return self.data.kept
-        return self.solution[: self.rows.W[0].shape[1]]
+        found = np.zeros(self.rows.W[0].shape[1]) if self.data.kept is None else self.data.kept
+        found = found.copy()
+        found[self.data.free] = self.solution[: len(self.data.free)]
+        return found
 
     @cached_property
     def values(self) -> list[np.ndarray]:
         """Parameters of each pick, SI."""
-        found, at = [], 0 if self.data.kept is not None else self.rows.W[0].shape[1]
+        found, at = [], len(self.data.free)
         for columns in self.extra:
             size = next(c.shape[1] for c in columns if c is not None)
             found.append(self.solution[at : at + size])

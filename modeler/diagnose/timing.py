@@ -50,7 +50,7 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
     extra = [smooth.columns(pick) for pick in state.picks]
     for j in range(state.rows.joints):
         sigma = state.base.sigma[j]
-        base = smooth.W[j] if state.data.kept is None else smooth.W[j][:, :0]
+        base = smooth.W[j][:, state.data.free]
         picks = [_dense(e, j, len(base)) for e in extra]
         X.append(np.hstack([state.W[j], _dense(own, j, len(base))]) / sigma)
         Z.append(np.hstack([base, *picks, _dense(other, j, len(base))]) / sigma)
