@@ -11,17 +11,17 @@ _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
 
 
 def curve_sets(state: State, j: int) -> list[np.ndarray]:
-    """(rows_j, ...) features of joint j: own curves; those of the other joints; ringing; all.
+    """(rows_j, ...) features of joint j: own curves; these, those of the other joints, ringing.
 
     A curve is a sum of hats over the quantiles of a coordinate, with and without the direction of
     the joint: friction and other torques of any shape.
     """
     knots = _knots(state)
-    sets = [
+    own, *more = [
         state.rows.filtered(j, [features(s, j, knots) for s in state.rows.signals])
         for features in (_own, _others, _ringing)
     ]
-    return [*sets, np.hstack(sets)]
+    return [own, np.hstack([own, *more])]
 
 
 _Knots = dict[tuple[str, int], np.ndarray]
