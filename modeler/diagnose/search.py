@@ -128,8 +128,8 @@ def judged_state(
     for item in leading:
         better = polished(state, item.candidate)
         if better is not item.candidate:
-            found.append(better)
-            columns.append(columns_of(state.rows, better, {}))
+            place = next(i for i, c in enumerate(found) if c is item.candidate)
+            found[place], columns[place] = better, columns_of(state.rows, better, {})
     return judge(state, found, columns) if leading else first
 
 

@@ -19,7 +19,7 @@ _SLIP = Shape(
     "travel over which the friction turns",
 )
 _WIDE_SLIP = Shape("d", "travel", (0.08, 0.16, 0.32), (0.06, 1.0), "travel over which it turns")
-_WARM_UP = Shape("tau", "seconds", (10.0, 30.0, 100.0, 300.0, 1000.0), (3.0, 1e4), "warm-up time")
+_WARM_UP = Shape("tau", "seconds", (10.0, 30.0, 100.0, 300.0, 1000.0), (8.0, 1e4), "warm-up time")
 
 FRICTION: tuple[Effect, ...] = (
     Effect(

@@ -21,6 +21,7 @@ from modeler.api import (
 from modeler.compiled import load as load_compiled
 from modeler.fit import IdentifiedModel
 from modeler.improve import Logs, add_effect
+from modeler.robot.builtin import builtin_text
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 
@@ -50,6 +51,11 @@ TRAINING = ur10e("02_19_14harm50sec", "02_12-50sec_12harm", "02_05-20sec_8harm")
 HELD_OUT = ur10e("02_19_15harm50sec", "01_17-ptp_10_points")
 
 
+@pytest.fixture(scope="module")
+def ur10e_model() -> IdentifiedModel:
+    return fitted("ur10e", TRAINING)
+
+
 def test_emps_has_friction_that_differs_between_the_directions() -> None:
     """What the benchmark's authors found by hand, and the delay that others found."""
     model = fitted("emps", logs("emps", "train"))
@@ -59,15 +65,14 @@ def test_emps_has_friction_that_differs_between_the_directions() -> None:
     assert found.joints["1"].error_after < 0.031
 
 
-def test_ur10e_rubs_with_its_load_on_joints_2_and_3() -> None:
-    model = fitted("ur10e", TRAINING)
-    found = diagnose(model, TRAINING, HELD_OUT)
+def test_ur10e_rubs_with_its_load_on_joints_2_and_3(ur10e_model: IdentifiedModel) -> None:
+    found = diagnose(ur10e_model, TRAINING, HELD_OUT)
     first = {(f.effect, f.joint) for f in found.effects[:2]}
     assert first == {("load_friction", "2"), ("load_friction", "3")}
 
 
-def test_ur10e_the_errors_fall_as_effects_are_added() -> None:
-    model = fitted("ur10e", TRAINING)
+def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel) -> None:
+    model = ur10e_model
     compiled = load_compiled(model.spec, model.sources)
     data = Logs(read_logs(compiled, TRAINING), read_logs(compiled, HELD_OUT))
     for effect, joint in (("load_friction", "2"), ("load_friction", "3"),
@@ -77,11 +82,26 @@ def test_ur10e_the_errors_fall_as_effects_are_added() -> None:
     assert errors["1"] < 0.07 and errors["2"] < 0.018 and errors["3"] < 0.016
 
 
-def test_ur10e_a_load_is_found_first_with_its_mass() -> None:
-    model = fitted("ur10e", TRAINING)
-    found = diagnose(model, ur10e("02_19_14harm50secLoad"))
+def test_ur10e_a_load_is_found_first_with_its_mass(ur10e_model: IdentifiedModel) -> None:
+    found = diagnose(ur10e_model, ur10e("02_19_14harm50secLoad"))
     assert found.effects[0].effect == "payload"
     assert found.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
+
+
+def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
+    """From a robot file that couples nothing; errors below those of the published model."""
+    text = builtin_text("tx40")
+    text = text.replace('coupled_inertia = ["6"]\ncoupled_friction = ["6"]', "")
+    alone = tmp_path / "tx40.toml"
+    alone.write_text(text.partition("[coupling]")[0], encoding="utf-8")
+    log = logs("tx40", "log_joint")[0]
+    training, held_out = [Path(f"{log}@0:4.6")], [Path(f"{log}@4.6:7.45")]
+    model = fitted(str(alone), training)
+    found = diagnose(model, training, held_out)
+    assert (found.effects[0].effect, found.effects[0].joint) == ("coupled_friction", "6")
+    assert found.joints["5"].error_before > 1.0
+    after = {name: joint.error_after for name, joint in found.joints.items()}
+    assert after["2"] < 0.066 and after["3"] < 0.091 and after["4"] < 0.09 and after["5"] < 0.22
 
 
 def test_odrive_the_orders_of_its_ripple() -> None:

@@ -1,4 +1,4 @@
-"""Five quick cases of the suite: what is hidden is named, on its joint; nothing is, if nothing is.
+"""Quick cases of the suite: what is hidden is named, on its joint; nothing is, if nothing is.
 
 The whole suite is a program: `python -m tests.hidden_effects --help`.
 """
@@ -27,8 +27,16 @@ def test_what_is_hidden_is_found(name, tmp_path, plant_compiler):
     (score,) = run([case], tmp_path, tell=told.append)
     assert not score.error
     assert score.exact and score.first == bool(case.effects), score
+    assert score.stated == bool(case.effects), score
     truth = json.loads((tmp_path / "cases" / case.name / "truth.json").read_text())
     assert [hidden["effect"] for hidden in truth["hidden"]] == list(case.effects)
     # Done once, it is not done again.
     assert run([case], tmp_path, tell=told.append) == [score]
     assert told == [score]
+
+
+@pytest.mark.parametrize("stranger", ["lifting_seal"])
+def test_what_is_in_no_catalogue_is_not_stated(stranger, tmp_path, plant_compiler):
+    (score,) = run([Case((stranger,), "low", 1, "2R")], tmp_path, tell=lambda score: None)
+    assert not score.error
+    assert score.verdict in ("closest description", "unexplained"), score
