@@ -14,6 +14,7 @@ from modeler.diagnose.data_checks import SHORT, length
 from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, relative
 from modeler.diagnose.judge import Judged
+from modeler.diagnose.plausible import objection
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
@@ -141,6 +142,7 @@ def _finding(
     judged, pick = step.judged, step.pick
     place = next(i for i, s in enumerate(found.steps) if s is step)
     named = values_of(found.end, pick, found.end.values[place], judged.deviations)
+    parameters = named.value | dict(pick.shapes)
     start, end = (_over(found, touched, error) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
                                 *_same(judged, found)]))  # fmt: skip
@@ -150,13 +152,14 @@ def _finding(
         gain=judged.gain,
         error_before=start,
         error_after=end,
-        parameters=named.value | dict(pick.shapes),
+        parameters=parameters,
         sigmas=named.deviation,
         units=named.unit,
         ties=ties,
         evidence=evidence(step, start, end),
         closure=closed,
         refines=_refines(found, step),
+        objection=objection(found.end, pick, parameters),
     )
 
 
@@ -289,8 +292,9 @@ def _joints(
 
 def _verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Search) -> str:
     if effects:
-        closed = [f.closure is None or f.closure >= CLOSED for f in effects]
-        return "missing" if closed[0] else "closest description"
+        first = effects[0]
+        closed = first.closure is None or first.closure >= CLOSED
+        return "missing" if closed and not first.objection else "closest description"
     if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
         return "cannot tell"
     for state in joints.values():

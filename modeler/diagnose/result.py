@@ -27,9 +27,10 @@ class Finding:
         units: of the parameters.
         ties: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
-        closure: share of what is systematic on its joints that is explained in the end; None
-            where nothing is systematic.
+        closure: share of what is systematic on its joints that it explains itself; None where it
+            is no column.
         refines: True if it refines an effect of the same kind named before on the same joint.
+        objection: why its values cannot be those of this robot; empty if they can.
     """
 
     effect: str
@@ -44,6 +45,7 @@ class Finding:
     evidence: str
     closure: float | None
     refines: bool
+    objection: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -59,6 +61,7 @@ class Finding:
             "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
             "evidence": self.evidence,
             "closure": self.closure,
+            "objection": self.objection,
         }
 
 

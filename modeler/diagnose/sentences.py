@@ -82,9 +82,10 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_named(first, diagnosis)}"
     if diagnosis.verdict == "closest description" and first is not None:
+        reason = first.objection or "it explains only part of what is systematic"
         return (
-            f"closest description: {_named(first, diagnosis)}; it explains only part of what is "
-            "systematic, so the cause may be outside the catalogue"
+            f"closest description: {_named(first, diagnosis)}; {reason}, so the cause may be "
+            "outside the catalogue"
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"

@@ -1,0 +1,50 @@
+"""Values that cannot be those of the joint: from one link of known inertia, made by hand."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.plausible import objection
+from modeler.effects import effect_named
+
+INERTIA = 2.0  # kg m^2
+
+
+def state(unit="rad"):
+    compiled = SimpleNamespace(
+        inertia_matrix=lambda q, beta: np.full((len(q), 1, 1), INERTIA),
+        spec=SimpleNamespace(joints=[SimpleNamespace(unit=unit)]),
+    )
+    return SimpleNamespace(
+        rows=SimpleNamespace(signals=[SimpleNamespace(q=np.zeros((100, 1)))]),
+        data=SimpleNamespace(compiled=compiled),
+        reference=SimpleNamespace(links=np.zeros(1)),
+    )
+
+
+def pick(name):
+    effect = effect_named(name)
+    return Candidate(effect, effect.forms[0], "1", 0, {"f": 10.0})
+
+
+def rung(inertia):
+    """Compliance of a joint that rings at 10 Hz with that inertia, rad/(N m)."""
+    return {"Cj1": 1.0 / (inertia * (2 * np.pi * 10.0) ** 2), "f": 10.0}
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 3.0])
+def test_a_joint_that_rings_with_its_own_inertia_is_plausible(ratio):
+    assert objection(state(), pick("elasticity"), rung(ratio * INERTIA)) == ""
+
+
+@pytest.mark.parametrize(("unit", "named"), [("rad", "20 kg m2"), ("m", "20 kg on this")])
+def test_ten_times_the_inertia_is_not_this_joint(unit, named):
+    text = objection(state(unit), pick("elasticity"), rung(10.0 * INERTIA))
+    assert named in text and "the links have 2 kg" in text and "something else rings" in text
+    assert objection(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
+
+
+def test_other_effects_are_not_asked():
+    assert objection(state(), pick("spring"), {"Ks1": 1.0}) == ""
