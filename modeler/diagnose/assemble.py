@@ -63,13 +63,12 @@ def assembled(
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, systematic)
     data = found.start.data
-    rivals = found.steps[0].rivals if found.steps else found.last.ranked
     diagnosis = Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell" if contradicted else _verdict(effects, joints, found),
         effects=effects,
         refinements=tuple(f for f in findings if f.refines),
-        rivals=tuple((*r.candidate.key, r.gain) for r in rivals[:8]),
+        rivals=_rivals(found),
         blind_spots=blind_spots(found),
         joints=joints,
         unmoved=tuple(j.name for j in data.compiled.spec.joints if j.name not in joints),
@@ -82,6 +81,12 @@ def assembled(
         search=found,
     )
     return sentences(diagnosis)
+
+
+def _rivals(found: Search) -> tuple[tuple[str, str | None, float], ...]:
+    """Effect, joint and gain of the rivals of the first effect, best first."""
+    ranked = found.steps[0].rivals if found.steps else found.last.ranked
+    return tuple((*r.candidate.key, r.gain) for r in ranked[:8])
 
 
 def _findings(

@@ -58,8 +58,8 @@ def diagnose(
         most = 0
     veto = vetoing(other) if other is not None else None
     found = search(data, model.beta, without, most, veto, progress)
-    window = contact_window(found.end) if most else None
-    if window is not None and "external_force" not in without:
+    window = contact_window(found.end) if most and "external_force" not in without else None
+    if window is not None:
         data = dataclasses.replace(data, observation=_masked(observation, window))
         found = search(data, model.beta, without, most, veto, progress)
     if progress is not None:
