@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-_OWN, _BENT, _WIDE = 80, 40, 240  # features of the joint, turned with its direction, of all joints
+_OWN, _BENT, _WIDE = 80, 40, 350  # features of the joint, turned with its direction, of all joints
 LEAST = 300
 """Rows below which nothing is said."""
 

@@ -3,6 +3,7 @@
 from modeler.diagnose.sentences import percent, where
 from modeler.effects import Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel
+from modeler.robot import robot_from_text
 
 _FALLS = 0.99  # of the error before: anything above is no fall
 
@@ -12,7 +13,7 @@ def notes(model: IdentifiedModel) -> list[str]:
     if len(model.history) < 2:
         return []
     before, last = model.history[-2:]
-    effect = effect_named(last.effect)
+    effect = effect_named(last.effect, robot_from_text(model.robot_text, "robot").catalogue)
     assert effect is not None
     found = []
     if _stands_in(effect, last):

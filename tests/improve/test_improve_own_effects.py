@@ -143,7 +143,7 @@ def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "missing: drag of a magnet (eddy_brake), joint 2" in capsys.readouterr().out
     assert "drag of a magnet" in (tmp_path / "d.html").read_text(encoding="utf-8")
     assert main(["diagnose", *words, "--without", "eddy_brak"]) == 1
-    assert re.search(r"no such effect; expected one of .*eddy_brake", capsys.readouterr().err)
+    assert re.search(r'no such effect \(did you mean "eddy_brake"\?\)', capsys.readouterr().err)
 
     words = [logs[0], "--holdout", logs[1], "--robot", place["r.toml"], "--out"]
     assert main(["add", place["m"], "eddy_brake", "--joint", "2", *words, place["m2"]]) == 0
