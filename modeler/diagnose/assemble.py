@@ -16,7 +16,7 @@ from modeler.diagnose.errors import crossed_errors, held_out_squares, relative
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
-from modeler.diagnose.search import Search, Step
+from modeler.diagnose.search import Search, Step, ruled_out
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import predictable, repeatable
@@ -248,7 +248,10 @@ def _play(found: Search, errors: Sequence[np.ndarray], least: float) -> list[Fin
     """Play in a gear, on the joint whose bursts its column describes best."""
     joints = found.end.data.compiled.spec.joints
     ratios = [
-        burst_ratio(found.end, j) if joint.actuated else 0.0 for j, joint in enumerate(joints)
+        burst_ratio(found.end, j)
+        if joint.actuated and not ruled_out("backlash", joint.name, found.without)
+        else 0.0
+        for j, joint in enumerate(joints)
     ]
     bursting = [j for j, ratio in enumerate(ratios) if ratio > least]
     if not bursting:

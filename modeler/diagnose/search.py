@@ -48,6 +48,7 @@ class Search:
         end: the model with them.
         last: the judgement that ended it.
         vetoed: effects that would have raised the error on held-out logs.
+        without: what the user ruled out.
     """
 
     start: State
@@ -55,6 +56,7 @@ class Search:
     end: State
     last: Judgement
     vetoed: tuple[Candidate, ...] = ()
+    without: tuple[str, ...] = ()
 
 
 Veto = Callable[[State, State, Judged], bool]
@@ -100,7 +102,7 @@ def search(
         if progress is not None:
             progress(len(steps) / (most + 1))
     kept, state = _backward(state, steps)
-    return Search(start, tuple(kept), state, judgement, tuple(vetoed))
+    return Search(start, tuple(kept), state, judgement, tuple(vetoed), tuple(without))
 
 
 def judged_state(
@@ -114,7 +116,8 @@ def judged_state(
     orders = [c.shapes["m"] for c in vetoed if _ripples(c)]
     found = [
         c for c in proposals(state)
-        if only in (None, c.effect.id) and not _ruled_out(c, without) and c.key not in gone
+        if only in (None, c.effect.id) and c.key not in gone
+        and not ruled_out(c.effect.id, c.joint, without)
         and not (_ripples(c) and any(abs(c.shapes["m"] - m) < 0.1 * m for m in orders))
     ]  # fmt: skip
     columns = [columns_of(state.rows, c, state.cache) for c in found]
@@ -137,9 +140,9 @@ def _ripples(candidate: Candidate) -> bool:
     return candidate.effect.id in RIPPLES
 
 
-def _ruled_out(candidate: Candidate, without: Sequence[str]) -> bool:
-    name = candidate.effect.id
-    return name in without or f"{name}@{candidate.joint}" in without
+def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
+    """True if the user rules out the effect, everywhere or on that joint."""
+    return effect in without or f"{effect}@{joint}" in without
 
 
 def extended(state: State, pick: Candidate) -> State:

@@ -115,6 +115,8 @@ def test_a_contact_is_named_with_its_window(case: Case) -> None:
     assert (first.effect, first.joint) == ("external_force", None)
     assert first.parameters["t0"] == pytest.approx(12.0, abs=0.2)
     assert first.parameters["t1"] == pytest.approx(12.8, abs=0.2)
+    ruled_out = diagnose(model, case.compiled, [train], without=("external_force",))
+    assert "external_force" not in {f.effect for f in ruled_out.effects}
 
 
 def test_what_the_user_rules_out_is_not_named(case: Case) -> None:
