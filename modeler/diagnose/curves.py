@@ -1,7 +1,8 @@
-"""Curves of any shape in the motion of a joint, of the others, and of what rings after motion."""
+"""Functions of the motion that no effect needs to have: curves, waves, what rings."""
 
 import numpy as np
 
+from modeler.diagnose.orders import order_spectrum
 from modeler.diagnose.signals import Signals, resonance
 from modeler.diagnose.state import State
 
@@ -11,17 +12,27 @@ _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
 
 
 def curve_sets(state: State, j: int) -> list[np.ndarray]:
-    """(rows_j, ...) features of joint j: own curves; these, those of the other joints, ringing.
+    """(rows_j, ...) features of joint j: own curves; waves; all, and of other joints, and ringing.
 
     A curve is a sum of hats over the quantiles of a coordinate, with and without the direction of
-    the joint: friction and other torques of any shape.
+    the joint: friction and other torques of any shape. Waves have the orders that stand out.
     """
     knots = _knots(state)
     own, *more = [
         state.rows.filtered(j, [features(s, j, knots) for s in state.rows.signals])
         for features in (_own, _others, _ringing)
     ]
-    return [own, np.hstack([own, *more])]
+    waves = _waves(state, j)
+    return [own, waves, np.hstack([own, waves, *more])]
+
+
+def _waves(state: State, j: int) -> np.ndarray:
+    """(rows_j, 2 k) cosine and sine of the k orders that stand out in the residual."""
+    found = order_spectrum(state, j)
+    if found is None or not found.peaks:
+        return np.zeros((len(state.residual[j]), 0))
+    angles = [np.outer(s.q[:, j], found.peaks) for s in state.rows.signals]
+    return state.rows.filtered(j, [np.hstack([np.cos(x), np.sin(x)]) for x in angles])
 
 
 _Knots = dict[tuple[str, int], np.ndarray]
