@@ -178,14 +178,18 @@ def _same(judged: Judged, found: Search) -> list[Key]:
 
 
 def _refines(found: Search, step: Step) -> bool:
-    """True if an effect of the same family on the same joint was named before.
+    """True if it mends a law in the model, or an effect of its family named before on its joint.
 
     What moves the links is felt next to its joint too: there the same effect, far smaller, mends
     the form of the one before.
     """
+    if _mends(found, step):
+        return True
     for earlier in found.steps:
         if earlier is step:
             return False
+        if _mends(found, earlier):
+            continue
         first, later = earlier.pick, step.pick
         if first.joint == later.joint and (
             first.effect.family == later.effect.family or _same_waves(first, later)
@@ -196,6 +200,11 @@ def _refines(found: Search, step: Step) -> bool:
         if moves and near and step.judged.felt < SMALLER * earlier.judged.felt:
             return True
     return False
+
+
+def _mends(found: Search, step: Step) -> bool:
+    place = next(i for i, s in enumerate(found.steps) if s is step)
+    return step.pick.effect.negative != "" and float(found.end.values[place][0]) < 0.0
 
 
 def _same_waves(first: Candidate, later: Candidate) -> bool:
@@ -240,7 +249,7 @@ def _detected(
                 None, False,
             )
         )  # fmt: skip
-    least = LOUD if findings else BURST
+    least = LOUD if any(not f.refines for f in findings) else BURST
     return result + _play(found, errors, least)
 
 

@@ -22,7 +22,8 @@ class JointScale:
     def unit(self, shape: Shape) -> float:
         """What 1 means in the grid of a shape parameter, SI."""
         travel = 1.0 if self.angular else self.range / 3.0
-        return {"speed": self.speed, "travel": travel, "load": self.load}.get(shape.scale, 1.0)
+        units = {"speed": self.speed, "travel": travel, "bend": travel**-2, "load": self.load}
+        return units.get(shape.scale, 1.0)
 
 
 @dataclass(frozen=True)

@@ -87,12 +87,13 @@ def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) 
     pool, ranking = state.ranked(columns)
     best: dict[tuple[str, str | None], int] = {}
     total = ranking.drop.sum(axis=0)
+    order = [
+        (_possible(candidate, ranking, pool, i), float(total[i]))
+        for i, candidate in enumerate(found)
+    ]
     for i, candidate in enumerate(found):
-        possible = _possible(candidate, ranking, pool, i)
         at = best.get(candidate.key)
-        if at is None or (possible, total[i]) > (
-            _possible(found[at], ranking, pool, at), total[at]
-        ):  # fmt: skip
+        if at is None or order[i] > order[at]:
             best[candidate.key] = i
     judged = [_judged(state, found[i], ranking, pool, i) for i in best.values()]
     judged.sort(key=lambda j: -float(j.drop.sum()))
@@ -146,10 +147,17 @@ def _own(pool: Pool, i: int) -> np.ndarray:
 
 
 def _possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> bool:
-    for place, column in zip(_own(pool, i), candidate.form.columns, strict=False):
+    own = _own(pool, i)
+    for place, column in zip(own, candidate.form.columns, strict=False):
         if column.nonnegative and ranking.value[place] < 0.0:
             return False
     return True
+
+
+def _deviations(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> np.ndarray:
+    """Standard deviations of the parameters for what the effect leaves, SI."""
+    explained = float(ranking.drop[:, i].sum()) / max(_at_stake(candidate, ranking), 1e-300)
+    return ranking.deviation[_own(pool, i)] * np.sqrt(min(1.0, max(0.0, 1.0 - explained)))
 
 
 def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> Judged:
@@ -161,7 +169,7 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i:
         float(drop.sum()) / max(float(ranking.before.sum()), 1e-300),
         drop,
         ranking.value[own],
-        ranking.deviation[own],
+        _deviations(candidate, ranking, pool, i),
         float(ranking.sure[i]),
         float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
         float(ranking.visible[i]),

@@ -11,21 +11,41 @@ LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
 which on it is not this joint that rings."""
 
+BALANCERS = ("counterbalance", "constant_force_spring")
+
+WEIGHTLESS = 0.02
+"""Gravity over torque, rms, below which a joint has nothing to balance."""
+
 
 def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Why the values cannot be those of the effect named; empty if they can.
 
     A joint of stiffness K rings, with its motor held, at f = sqrt(K/J)/(2 pi), J the inertia that
     the model has on its axis: something else that rings (a sloshing load, a soft base) has another
-    J (Spong 1987).
+    J (Spong 1987). And where no gravity turns a joint, nothing balances it.
 
     Args:
         state: with the effect.
         pick: it.
         parameters: its parameters and shapes by name, SI.
     """
-    if pick.effect.id != "elasticity":
+    if pick.effect.id in BALANCERS:
+        return _nothing_to_balance(state, pick)
+    if pick.effect.id == "elasticity":
+        return _other_oscillator(state, pick, parameters)
+    return ""
+
+
+def _nothing_to_balance(state: State, pick: Candidate) -> str:
+    """A lever with a spring is built where gravity turns a joint."""
+    weight = np.concatenate([s.static[::20, pick.index] for s in state.rows.signals])
+    torque = state.rows.y[pick.index]
+    if np.mean(weight**2) > WEIGHTLESS**2 * np.mean(torque**2):
         return ""
+    return f"gravity does not turn joint {pick.joint}, so no spring balances it"
+
+
+def _other_oscillator(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     compliance = parameters[pick.parameter_names()[0]]
     q = np.concatenate([s.q[::20] for s in state.rows.signals])
     inertia = state.data.compiled.inertia_matrix(q, state.reference.links)

@@ -56,10 +56,7 @@ def evidence(step: Step, before: float, after: float) -> str:
 def sentences(diagnosis: Diagnosis) -> Diagnosis:
     """The diagnosis with its sentences."""
     lines = [_headline(diagnosis), *(_effect_line(f) for f in diagnosis.effects)]
-    lines += [
-        f"refinement on {where(f.joint)}: {f.effect}, gain {percent(f.gain)}"
-        for f in diagnosis.refinements
-    ]
+    lines += [_refinement(f, diagnosis) for f in diagnosis.refinements]
     judged = {} if diagnosis.contradicted else diagnosis.joints
     for name, joint in judged.items():
         left = joint.systematic + joint.noise
@@ -94,6 +91,14 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "cannot tell":
         return "cannot tell: too few rows; record longer motions of all joints"
     return "nothing to add: no effect of the catalogue would lower the error by more than 3 %"
+
+
+def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
+    line = f"refinement on {where(finding.joint)}: {finding.effect}, gain {percent(finding.gain)}"
+    effect = effect_named(finding.effect, diagnosis.search.start.data.catalogue)
+    assert effect is not None
+    below = effect.negative and finding.parameters[f"{effect.columns[0].prefix}{finding.joint}"] < 0
+    return f"{line}: {effect.negative}" if below else line
 
 
 def _named(finding: Finding, diagnosis: Diagnosis) -> str:

@@ -14,6 +14,8 @@ _MOUNT = Shape(
 _MOMENT = Shape(
     "m", "number", (1.0,), (0.0, 0.0), "0 where the link's first moment has the part without lever"
 )
+_REST = Shape("q0", "travel", (-1.0, -0.4, 0.0, 0.4, 1.0), (-2.0, 2.0), "rest position")
+_HARDENING = Shape("h", "bend", (0.0, 0.1, 0.4), (0.0, 3.0), "how much stiffer, per square travel")
 _LEVER_FORCE = "sin(q - q0)/sqrt(1 + b**2 - 2*b*cos(q - q0))"
 
 BODIES: tuple[Effect, ...] = (
@@ -21,15 +23,19 @@ BODIES: tuple[Effect, ...] = (
         id="spring",
         aliases=("cable_drag",),
         title="spring at the joint (cable drag)",
-        equation="Ks * q + Ksc * q^3",
+        equation="Ks * (q - q0) * (1 + h * (q - q0)^2)",
         forms=(
-            form(column("Ks", "q", "position", "other"), column("Ksc", "q**3", "cubic", "other")),
+            form(
+                column("Ks", "(q - q0)*(1 + h*(q - q0)**2)", "position", "other"),
+                shapes=(_REST, _HARDENING),
+            ),
         ),
         acts=Acts.JOINT,
         family="load",
         signature="residual against position: a line, the same at every speed",
         look_alikes="gravity and offset, unless the joint moves over more than 2 rad",
-        range="Ks >= 0 for a spring, either sign for cables",
+        range="Ks >= 0 for a spring, either sign for cables; h >= 0: springs "
+        "harden, and what softens like a sine hangs on a lever",
         source="Wang et al. 2019 (da Vinci arms)",
     ),
     Effect(

@@ -34,11 +34,13 @@ class Acts(enum.Enum):
     WINDOW = "pushes on the last link for a while"
 
 
-Scale = Literal["speed", "travel", "load", "number", "angle", "seconds", "hertz", "waves", "own"]
+Scale = Literal[
+    "speed", "travel", "bend", "load", "number", "angle", "seconds", "hertz", "waves", "own"
+]
 """Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
-travel (for a prismatic joint, thirds of its range of motion); plain numbers, radians, seconds,
-hertz; waves per turn, found in the order spectrum where the grid has none; what a robot file gives
-for an effect of its own, SI."""
+travel (for a prismatic joint, thirds of its range of motion), or one over their square; plain
+numbers, radians, seconds, hertz; waves per turn, found in the order spectrum where the grid has
+none; what a robot file gives for an effect of its own, SI."""
 
 
 @dataclass(frozen=True)
@@ -156,6 +158,8 @@ class Effect:
         acts: on what.
         family: friction | load | transmission | measurement | inertia, or the id of an effect of a
             robot file: leftovers of one family on one joint refine each other.
+        negative: what a value below zero means, where that is no missing effect but mends the form
+            of one in the model; empty elsewhere.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         look_alikes: what it is mistaken for, and which motion tells them apart.
@@ -177,6 +181,7 @@ class Effect:
     source: str
     same_as: tuple[str, ...] = ()
     timing: bool = False
+    negative: str = ""
 
     @property
     def columns(self) -> tuple[EffectColumn, ...]:

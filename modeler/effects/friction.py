@@ -52,7 +52,8 @@ FRICTION: tuple[Effect, ...] = (
         look_alikes="presliding, friction with a power below 1; move slowly at several constant "
         "speeds of 0.2 to 3 vs",
         range="Fst >= 0 and below the Coulomb friction; vs 0.005 to 0.3 rad/s; a negative Fst is "
-        "friction that has not yet built up near standstill",
+        "friction that has not yet built up near standstill, or that vibration smooths",
+        negative="dry friction has not yet built up near standstill, or vibration smooths it",
         source="Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994",
     ),
     Effect(

@@ -7,7 +7,6 @@ _PER = {
     "torque": ("N m", "N"),
     "speed": ("N m s/rad", "N s/m"),
     "position": ("N m/rad", "N/m"),
-    "cubic": ("N m/rad^3", "N/m^3"),
     "ratio": ("1", "1"),
     "time": ("N m/s", "N/s"),
     "seconds": ("s", "s"),

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeler.observation.motion import HIGHEST
 from modeler.observation.processing import Processing
+from modeler.observation.ringing import Ringing, ringing
 from modeler.observation.segments import Piece
 from modeler.observation.weighted_median import weighted_median
 
@@ -25,10 +26,34 @@ _FLOOR = 10.0  # of exponentially distributed periodogram values, 0.1 % exceed 1
 def motion_band(piece: Piece) -> float:
     """Frequency below which 99 % of the velocity's energy lies, Hz; the fastest joint counts.
 
+    What rings far above the motion is left out. The window's own width 2/T is taken off in
+    quadrature, or a piece of half a second would look fast. 0 if nothing moves.
+    """
+    frequency, energy = velocity_energy(piece)
+    bands = [0.0]
+    for j in range(energy.shape[1]):
+        own = energy[: ringing(frequency, energy[:, j], j)[1], j]
+        if own.sum() > 0.0 and np.ptp(piece.q[:, j]) > 0.0:
+            bands.append(float(frequency[np.searchsorted(np.cumsum(own), SHARE * own.sum())]))
+    window = 2.0 / (len(piece.time) * piece.step)
+    return float(np.sqrt(max(0.0, max(bands) ** 2 - window**2)))
+
+
+def what_rings(pieces: Sequence[Piece]) -> list[Ringing]:
+    """Joints that ring in the longest of some pieces."""
+    if not pieces:
+        return []
+    frequency, energy = velocity_energy(max(pieces, key=lambda piece: len(piece.time)))
+    found = [ringing(frequency, energy[:, j], j)[0] for j in range(energy.shape[1])]
+    return [ring for ring in found if ring is not None]
+
+
+def velocity_energy(piece: Piece) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (n,), Hz, and energy (n, J) of the velocities there, above the noise.
+
     From the periodogram P(f) of each position (Hann window, trend removed): energy of the velocity
     (2 pi f)^2 max(P - floor, 0), where floor is ten times the median of P over the upper half of
-    the frequencies, where measured positions hold noise only. The window's own width 2/T is
-    taken off in quadrature, or a piece of half a second would look fast. 0 if nothing moves.
+    the frequencies, where measured positions hold noise only.
     """
     samples = len(piece.time)
     ramp = np.linspace(0.0, 1.0, samples)[:, None]
@@ -37,14 +62,7 @@ def motion_band(piece: Piece) -> float:
     spectrum = np.abs(np.fft.rfft(detrended * np.hanning(samples)[:, None], axis=0)) ** 2
     frequency = np.fft.rfftfreq(samples, piece.step)
     floor = _FLOOR * np.median(spectrum[len(frequency) // 2 :], axis=0)
-    energy = np.maximum(spectrum - floor, 0.0) * frequency[:, None] ** 2
-    bands = [0.0]
-    for j in range(energy.shape[1]):
-        total = energy[:, j].sum()
-        if total > 0.0 and np.ptp(piece.q[:, j]) > 0.0:
-            bands.append(float(frequency[np.searchsorted(np.cumsum(energy[:, j]), SHARE * total)]))
-    window = 2.0 / (samples * piece.step)
-    return float(np.sqrt(max(0.0, max(bands) ** 2 - window**2)))
+    return frequency, np.maximum(spectrum - floor, 0.0) * frequency[:, None] ** 2
 
 
 def choose_cutoffs(

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
-from modeler.observation.band import choose_cutoffs
+from modeler.observation.band import choose_cutoffs, what_rings
 from modeler.observation.consistency import Consistency, consistency
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
@@ -32,6 +32,7 @@ class Prepared:
         derivatives: where qd and qdd come from, by log.
         dropped: rows in pieces that were all edge, by log.
         checks: of the logged derivatives, by log; None where positions are differentiated.
+        rings: sentences on joints that ring, by log.
     """
 
     processing: Processing
@@ -42,6 +43,7 @@ class Prepared:
     derivatives: tuple[str, ...]
     dropped: tuple[int, ...]
     checks: tuple[Consistency | None, ...]
+    rings: tuple[tuple[str, ...], ...]
 
 
 def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
@@ -92,7 +94,12 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         derivatives=tuple(_source(log, use) for log, use in zip(logs, logged, strict=True)),
         dropped=tuple(dropped),
         checks=tuple(checks),
+        rings=tuple(_rings(spec, own) for own in found),
     )
+
+
+def _rings(spec: ModuleSpec, pieces: Sequence[Piece]) -> tuple[str, ...]:
+    return tuple(ring.sentence(spec.joints[ring.joint].name) for ring in what_rings(pieces))
 
 
 def _checked(log: Log, pieces: Sequence[Piece], chosen: Processing) -> Consistency:

@@ -150,7 +150,7 @@ def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stre
         derivatives=prepared.derivatives[run],
         decimation=spacing[0] if spacing else 1,
         samples=sum(len(part.rows.centres) for part in own),
-        notes=log.notes + (check.notes if check else ()),
+        notes=log.notes + prepared.rings[run] + (check.notes if check else ()),
         contradictions=check.contradictions if check else (),
         contradicted=sum(int(bad.sum()) for bad in check.bad) if check else 0,
         content=log.content,

@@ -80,6 +80,21 @@ def test_nothing_is_named_where_nothing_is_hidden(case: Case) -> None:
     assert ("payload", None) in diagnosis.blind_spots
 
 
+def test_friction_that_vibration_smooths_mends_the_law_and_hides_nothing(case: Case) -> None:
+    def smoothed(log: Log) -> np.ndarray:
+        return -0.5 * stribeck(log)
+
+    alone = found(case, smoothed)
+    assert alone.effects == ()
+    assert alone.verdict == "nothing significant"
+    assert [(f.effect, f.joint) for f in alone.refinements] == [("stribeck", "2")]
+    assert alone.refinements[0].parameters["Fst2"] < 0.0
+    assert any("has not yet built up near standstill" in line for line in alone.sentences)
+    both = found(case, lambda log: smoothed(log) + spring(log))
+    assert [(f.effect, f.joint) for f in both.effects] == [("spring", "3")]
+    assert [f.effect for f in both.refinements] == ["stribeck"]
+
+
 def test_a_delay_is_named_and_its_sign_is_right(case: Case) -> None:
     def late(log: Log) -> np.ndarray:
         return np.roll(log.tau, 4, axis=0) - log.tau  # torques 4 ms after the motion

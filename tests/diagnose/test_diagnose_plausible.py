@@ -12,13 +12,16 @@ from modeler.effects import effect_named
 INERTIA = 2.0  # kg m^2
 
 
-def state(unit="rad"):
+def state(unit="rad", weight=0.0):
     compiled = SimpleNamespace(
         inertia_matrix=lambda q, beta: np.full((len(q), 1, 1), INERTIA),
         spec=SimpleNamespace(joints=[SimpleNamespace(unit=unit)]),
     )
     return SimpleNamespace(
-        rows=SimpleNamespace(signals=[SimpleNamespace(q=np.zeros((100, 1)))]),
+        rows=SimpleNamespace(
+            signals=[SimpleNamespace(q=np.zeros((100, 1)), static=np.full((100, 1), weight))],
+            y=[np.ones(100)],
+        ),
         data=SimpleNamespace(compiled=compiled),
         reference=SimpleNamespace(links=np.zeros(1)),
     )
@@ -44,6 +47,12 @@ def test_ten_times_the_inertia_is_not_this_joint(unit, named):
     text = objection(state(unit), pick("elasticity"), rung(10.0 * INERTIA))
     assert named in text and "the links have 2 kg" in text and "something else rings" in text
     assert objection(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
+
+
+@pytest.mark.parametrize("name", ["counterbalance", "constant_force_spring"])
+def test_a_spring_balances_only_a_joint_that_gravity_turns(name):
+    assert objection(state(weight=0.5), pick(name), {}) == ""
+    assert "gravity does not turn joint 1" in objection(state(weight=0.01), pick(name), {})
 
 
 def test_other_effects_are_not_asked():

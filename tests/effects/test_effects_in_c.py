@@ -13,7 +13,17 @@ FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
     "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
 }  # fmt: skip
-SHAPES = {"vs": 0.3, "d": 1.3, "p": 1.7, "w": 0.5, "tau": 20.0, "b": 0.4, "q0": 0.8, "m": 3.0}
+SHAPES = {
+    "h": 0.3,
+    "vs": 0.3,
+    "d": 1.3,
+    "p": 1.7,
+    "w": 0.5,
+    "tau": 20.0,
+    "b": 0.4,
+    "q0": 0.8,
+    "m": 3.0,
+}
 REFERENCE = """
 [reference]
 ZZ1 = 1.2

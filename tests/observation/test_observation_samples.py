@@ -7,7 +7,7 @@ import pytest
 
 from modeler.core.errors import DataError
 from modeler.observation import Log, Processing, processing_from_json
-from modeler.observation.band import choose_cutoffs, motion_band
+from modeler.observation.band import choose_cutoffs, motion_band, what_rings
 from modeler.observation.motion import segment_of
 from modeler.observation.saturation import saturated
 from modeler.observation.segments import split
@@ -142,6 +142,38 @@ def test_the_motion_band_is_that_of_the_fastest_joint_and_noise_does_not_move_it
     q = q + np.random.default_rng(2).normal(0.0, noise, q.shape)
     log = Log("a", ("1", "2"), time, q, q)
     assert motion_band(split(log, 0, False)[0][0]) == pytest.approx(3.0, abs=0.15)
+
+
+def ringing_log(share, hertz, of=0.3):
+    """Two joints; the second also rings with that share of its velocity's energy."""
+    time = np.arange(20000) * 1e-3
+    q = np.column_stack([np.sin(2 * np.pi * of * time), 0.2 * np.sin(2 * np.pi * 3.0 * time)])
+    size = 0.2 * 3.0 / hertz * np.sqrt(share / (1.0 - share))
+    q[:, 1] += size * np.sin(2 * np.pi * hertz * time)
+    return Log("a", ("1", "2"), time, q + np.random.default_rng(2).normal(0.0, 1e-6, q.shape), q)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.17, 0.97])
+def test_what_rings_far_above_the_motion_is_no_motion(share):
+    piece = split(ringing_log(share, 93.0), 0, False)[0][0]
+    (found,) = what_rings([piece])
+    assert found.joint == 1
+    assert found.frequency == pytest.approx(93.0, abs=0.1)
+    assert found.share == pytest.approx(share, rel=0.02)
+    assert "joint elbow rings at 93 Hz" in found.sentence("elbow")
+    assert motion_band(piece) == pytest.approx(3.0, abs=0.15)
+
+
+@pytest.mark.parametrize(("share", "hertz"), [(0.001, 93.0), (0.5, 20.0)])
+def test_little_energy_or_a_frequency_near_the_motion_is_no_ringing(share, hertz):
+    assert what_rings([split(ringing_log(share, hertz), 0, False)[0][0]]) == []
+
+
+def test_a_robot_that_only_shakes_moves():
+    time = np.arange(20000) * 1e-3
+    piece = split(log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None]), 0, False)[0][0]
+    assert what_rings([piece]) == []
+    assert motion_band(piece) == pytest.approx(60.0, abs=0.5)
 
 
 def test_a_log_that_stands_still_has_no_band():
