@@ -1,5 +1,6 @@
 """The rows of an analysis: measured torque, base columns and candidates through one filter."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -43,6 +44,11 @@ class Rows:
     def joints(self) -> int:
         """Number of joints, J."""
         return len(self.y)
+
+    def about(self, reference: Reference) -> "Rows":
+        """The same rows with effects linearised about another reference of the same robot."""
+        signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
+        return dataclasses.replace(self, signals=signals)
 
     def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""

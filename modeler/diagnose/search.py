@@ -133,7 +133,19 @@ def judged_state(
         if better is not item.candidate:
             place = next(i for i, c in enumerate(found) if c is item.candidate)
             found[place], columns[place] = better, columns_of(state.rows, better, {})
-    return judge(state, found, columns) if leading else first
+    if not leading:
+        return first
+    again = _contenders(found, first, leading)
+    return judge(state, [found[i] for i in again], [columns[i] for i in again])
+
+
+def _contenders(
+    found: Sequence[Candidate], first: Judgement, leading: Sequence[Judged]
+) -> list[int]:
+    """Places of what may win still: of effects that were not refined, the best shapes only."""
+    refined = {j.candidate.key for j in leading}
+    best = {id(j.candidate) for j in first.ranked}
+    return [i for i, c in enumerate(found) if c.key in refined or id(c) in best]
 
 
 def _ripples(candidate: Candidate) -> bool:

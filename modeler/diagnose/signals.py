@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -139,9 +139,16 @@ class Signals:
 
 def resonance(load: np.ndarray, step: float, frequency: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    numerator, denominator = _oscillator(step, frequency)
+    first = load[0]
+    return first + lfilter(numerator, denominator, load - first)
+
+
+@lru_cache(maxsize=64)
+def _oscillator(step: float, frequency: float) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of the resonance on a grid, loads straight between its points."""
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
     numerator, denominator, _ = cont2discrete(
         ([w**2], [1.0, 2.0 * DAMPING * w, w**2]), step, method="foh"
     )
-    first = load[0]
-    return first + lfilter(np.ravel(numerator), denominator, load - first)
+    return np.ravel(numerator), denominator

@@ -44,6 +44,19 @@ class Data:
         return blocks_of(self.observation)
 
     @cached_property
+    def rows(self) -> Rows:
+        """All rows; effects are not linearised about anything yet."""
+        beta = np.zeros(len(self.compiled.spec.base))
+        return rows_of(
+            self.observation, Reference(self.compiled, beta, *_references(self.observation))
+        )
+
+    def rows_about(self, beta: np.ndarray) -> Rows:
+        """The rows with effects linearised about beta (c,)."""
+        blank = self.rows.signals[0].reference
+        return self.rows.about(dataclasses.replace(blank, beta=beta))
+
+    @cached_property
     def free(self) -> np.ndarray:
         """Indices of the base columns that are fitted."""
         base = self.compiled.spec.base
@@ -166,11 +179,10 @@ def state_of(
         beta: (c,) base parameters.
         cache: of columns that do not depend on beta, kept between states.
     """
-    reference = Reference(data.compiled, beta, *_references(data.observation))
-    rows = rows_of(data.observation, reference)
+    rows = data.rows_about(beta)
     kept = {} if cache is None else cache
     extra = tuple(columns_of(rows, pick, kept) for pick in picks)
-    return State(data, tuple(picks), reference, rows, extra, kept)
+    return State(data, tuple(picks), rows.signals[0].reference, rows, extra, kept)
 
 
 def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
