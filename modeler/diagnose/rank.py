@@ -1,5 +1,6 @@
 """Ranking: how much of the residual each candidate explains on motion it was not fitted to."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,21 +48,19 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
     """
     drop = np.zeros((base.blocks, pool.count))
     before = np.zeros(len(base.y))
-    total = (base.G.sum(axis=0), base.u.sum(axis=0), pool.T.sum(axis=0), pool.w.sum(axis=0),
-             pool.D.sum(axis=0))  # fmt: skip
-    for f in np.unique(fold):
-        held = np.flatnonzero(fold == f)
-        out = (base.G[held].sum(axis=0), base.u[held].sum(axis=0), pool.T[held].sum(axis=0),
-               pool.w[held].sum(axis=0), pool.D[held].sum(axis=0))  # fmt: skip
-        train = tuple(a - b for a, b in zip(total, out, strict=True))
-        solved = _solve(pool, *train)
-        before += _residual_energy(base, solved.beta, held)
-        cross, square = _in_blocks(base, pool, held, solved)
-        drop[held] = 2.0 * cross - square
+    grams = (base.G, base.u, pool.T, pool.w, pool.D)
+    total = [gram.sum(axis=0) for gram in grams]
     every = _solve(pool, *total)
     score = np.zeros(pool.count)
     for f in np.unique(fold):
-        cross, square = _in_blocks(base, pool, np.flatnonzero(fold == f), every)
+        held = np.flatnonzero(fold == f)
+        own = [gram[held] for gram in grams]
+        train = [a - b.sum(axis=0) for a, b in zip(total, own, strict=True)]
+        solved = _solve(pool, *train)
+        before += _residual_energy(base, solved.beta, held)
+        cross, square = _in_blocks(pool, own, solved)
+        drop[held] = 2.0 * cross - square
+        cross, square = _in_blocks(pool, own, every)
         score += np.sum((cross - square) ** 2, axis=0)
     sure = every.fitted / np.sqrt(np.maximum(score, 1e-300))
     return Ranking(
@@ -123,18 +122,23 @@ def _residual_energy(base: Base, beta: np.ndarray, held: np.ndarray) -> np.ndarr
 
 
 def _in_blocks(
-    base: Base, pool: Pool, held: np.ndarray, at: _Solved
+    pool: Pool, grams: Sequence[np.ndarray], at: _Solved
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(b, N) e^T r and e^T e in these blocks: r the residual of the base, e what is added."""
-    G, u = base.G[held], base.u[held]
+    """(b, N) e^T r and e^T e in some blocks: r the residual of the base, e what is added.
+
+    Args:
+        pool: all candidates.
+        grams: G, u, T, w, D of these blocks.
+        at: parameters.
+    """
+    G, u, T, w, D = grams
     a = _by_owner(pool, at.A * at.gamma)
-    own = _by_owner(pool, pool.T[held] * at.gamma)
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    products = _sums(pool.D[held] * (at.gamma[i] * at.gamma[k]), _pair_starts(pool))
+    products = _sums(D * (at.gamma[i] * at.gamma[k]), _pair_starts(pool))
     left = u - G @ at.beta
-    cross = _by_owner(pool, pool.w[held] * at.gamma) - np.einsum("brn,r->bn", own, at.beta)
-    cross -= left @ a
-    inner = np.einsum("rn,brn->bn", a, G @ a - 2.0 * own)
+    cross = _by_owner(pool, (w - at.beta @ T) * at.gamma) - left @ a
+    own = _by_owner(pool, np.einsum("rk,brk->bk", a[:, pool.owner], T) * at.gamma)
+    inner = np.einsum("rn,brn->bn", a, G @ a) - 2.0 * own
     return cross, products + inner
 
 
