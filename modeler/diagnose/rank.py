@@ -57,7 +57,7 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
         own = [gram[held] for gram in grams]
         train = [a - b.sum(axis=0) for a, b in zip(total, own, strict=True)]
         solved = _solve(pool, *train)
-        before += _residual_energy(base, solved.beta, held)
+        before += _residual_energy(base, solved.beta, fold == f)
         cross, square = _in_blocks(pool, own, solved)
         drop[held] = 2.0 * cross - square
         cross, square = _in_blocks(pool, own, every)
@@ -113,10 +113,10 @@ def _solve(
 
 
 def _residual_energy(base: Base, beta: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """(J,) squared residual of the base alone in these blocks."""
+    """(J,) squared residual of the base alone in the blocks that are held out (blocks,)."""
     found = np.zeros(len(base.y))
     for j, (columns, y, block) in enumerate(zip(base.columns, base.y, base.block, strict=True)):
-        rows = np.isin(block, held)
+        rows = held[block]
         found[j] = np.sum((y[rows] - columns[rows] @ beta) ** 2)
     return found
 

@@ -25,7 +25,8 @@ def tilt_columns(signals: Signals) -> np.ndarray:
     if basis is None:
         return np.zeros((n, joints, 0))
     slopes = frame_slopes(signals.reference.compiled, signals.q)
-    return np.stack([gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=2)
+    weights = np.column_stack([_weights(axis, chi) for axis, chi in basis])
+    return -slopes.reshape(n, joints, -1) @ weights
 
 
 def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
@@ -47,9 +48,13 @@ def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.
         axis: (3,) m/s^2 in frame 0.
         chi: (rows, 4) M, MX, MY, MZ of every moving row.
     """
+    return -slopes.reshape(*slopes.shape[:2], -1) @ _weights(axis, chi)
+
+
+def _weights(axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+    """(rows 3 4,) of the frames' entries in axis . sum (M p + R MS)."""
     moments = np.column_stack([chi[:, 1:], chi[:, 0]])
-    weights = axis[None, :, None] * moments[:, None, :]
-    return -slopes.reshape(*slopes.shape[:2], -1) @ weights.ravel()
+    return (axis[None, :, None] * moments[:, None, :]).ravel()
 
 
 def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | None:

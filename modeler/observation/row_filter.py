@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array
 
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
@@ -35,7 +35,7 @@ class RowFilter:
 
     def means(self, values: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is."""
-        masked = self.weights @ diags_array(usable.astype(float))
+        masked = only(self.weights, usable)
         total = masked @ np.ones(len(usable))
         flat = masked @ values.reshape(len(values), -1)
         flat = flat / np.where(total > 0.0, total, 1.0)[:, None]
@@ -54,6 +54,12 @@ class RowFilter:
     def share(self, usable: np.ndarray) -> np.ndarray:
         """(rows,) share of each row's weight that falls on usable samples."""
         return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)
+
+
+def only(weights: csr_array, usable: np.ndarray) -> csr_array:
+    """The weights (rows, samples) with 0 for samples that are not usable (samples,)."""
+    data = weights.data * usable[weights.indices]
+    return csr_array((data, weights.indices, weights.indptr), shape=weights.shape)
 
 
 def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | None) -> RowFilter:
