@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.compare.predict import predict
+from modeler.compare.predict import on_rows
 from modeler.compare.prediction import check_prediction, relative_error
 from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError
@@ -22,7 +22,10 @@ from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
-from modeler.observation import Log, Processing, observe
+from modeler.observation import Log, Observation, Processing
+from modeler.observation.prepare import Prepared, prepare
+from modeler.observation.stack import observed
+from modeler.observation.torque import model_torque
 from modeler.robot import robot_from_text
 
 if TYPE_CHECKING:
@@ -37,6 +40,24 @@ class Logs:
 
     fitted: Sequence[Log]
     held_out: Sequence[Log] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class _Motion:
+    """Logs filtered and differentiated, for all models of a robot that differ in effects only."""
+
+    logs: Logs
+    fitted: Prepared
+    held_out: Prepared | None
+
+    def rows(self, compiled: CompiledModel) -> Observation:
+        """What the model is fitted to."""
+        return observed(compiled, self.logs.fitted, self.fitted)
+
+
+def _motion(model: IdentifiedModel, logs: Logs, processing: Processing) -> _Motion:
+    held_out = prepare(model.spec, logs.held_out, processing) if logs.held_out else None
+    return _Motion(logs, prepare(model.spec, logs.fitted, processing), held_out)
 
 
 def add_effect(
@@ -94,7 +115,7 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
         raise DataError("undo: no effect was added to this model")
     before = model.history[-2]
     processing = dataclasses.replace(model.processing, delay=before.delay)
-    fitted = _fitted(before.robot_text, logs.fitted, processing)
+    fitted, _, _ = _fitted(before.robot_text, _motion(model, Logs(logs.fitted), processing))
     return dataclasses.replace(fitted, history=model.history[:-1])
 
 
@@ -120,28 +141,33 @@ def _added(
     model: IdentifiedModel, compiled: CompiledModel, state: State, pick: Candidate,
     values: np.ndarray, logs: Logs,
 ) -> IdentifiedModel:  # fmt: skip
-    history = model.history or (_step(model, compiled, None, logs),)
+    motion = _motion(model, logs, model.processing)
+    history = model.history or (_step(model, compiled, None, motion, motion.rows(compiled)),)
     if pick.effect.acts is Acts.LINK:
         better = _loaded(model, compiled, pick, values)
-    elif pick.effect.acts is Acts.TORQUE:
+        step = _step(better, compiled, pick, motion, motion.rows(compiled))
+        return dataclasses.replace(better, history=(*history, step))
+    text = model.robot_text
+    if pick.effect.acts is Acts.TORQUE:
         delay = model.processing.delay + float(values[0])
-        processing = dataclasses.replace(model.processing, delay=delay)
-        better = _fitted(model.robot_text, logs.fitted, processing)
+        motion = _motion(model, logs, dataclasses.replace(model.processing, delay=delay))
     else:
-        text = described(model.robot_text, pick, values, state.reference)
-        better = _fitted(text, logs.fitted, model.processing)
-    step = _step(better, load(better.spec, better.sources), pick, logs)
+        text = described(text, pick, values, state.reference)
+    better, made, rows = _fitted(text, motion)
+    step = _step(better, made, pick, motion, rows)
     return dataclasses.replace(better, history=(*history, step))
 
 
-def _fitted(text: str, logs: Sequence[Log], processing: Processing) -> IdentifiedModel:
-    """The robot of that file fitted to the logs."""
+def _fitted(text: str, motion: _Motion) -> tuple[IdentifiedModel, CompiledModel, Observation]:
+    """The robot of that file fitted to the logs; the robot, and the rows of the fit."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
-    observation = observe(load(emitted.spec, emitted.files), logs, processing)
-    return IdentifiedModel(
-        text, emitted.spec, emitted.files, identify(observation), provenance(observation.report)
+    compiled = load(emitted.spec, emitted.files)
+    rows = motion.rows(compiled)
+    model = IdentifiedModel(
+        text, emitted.spec, emitted.files, identify(rows), provenance(rows.report)
     )
+    return model, compiled, rows
 
 
 def _loaded(
@@ -172,25 +198,28 @@ def _felt(compiled: CompiledModel, names: Sequence[str], own: Sequence[str]) -> 
 
 
 def _step(
-    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, logs: Logs
-) -> Addition:
-    """The error of a model, as a step of its history."""
-    training = _error(model, compiled, logs.fitted)
-    error = _error(model, compiled, logs.held_out) if logs.held_out else training
+    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, motion: _Motion,
+    rows: Observation,
+) -> Addition:  # fmt: skip
+    """The error of a model, as a step of its history; the rows are those of the fit."""
+    error = training = _error(model, compiled, rows)
+    held_out = motion.logs.held_out
+    if motion.held_out is not None:
+        error = _error(model, compiled, observed(compiled, held_out, motion.held_out))
     return Addition(
         effect=pick.effect.id if pick else "",
         joint=pick.joint if pick else None,
         shapes=dict(pick.shapes) if pick else {},
         error=error,
         training_error=training,
-        held_out=tuple(log.name for log in logs.held_out),
+        held_out=tuple(log.name for log in held_out),
         robot_text=model.robot_text,
         delay=model.processing.delay,
     )
 
 
-def _error(model: IdentifiedModel, compiled: CompiledModel, logs: Sequence[Log]) -> float:
+def _error(model: IdentifiedModel, compiled: CompiledModel, rows: Observation) -> float:
     """Relative error over all joints."""
-    prediction, _ = predict(model, logs, compiled)
+    prediction = on_rows(rows, model_torque(rows, compiled, model.beta))
     check_prediction(prediction)
     return relative_error(prediction)

@@ -42,6 +42,17 @@ def observe(
         DataError: no logs, of another robot, or no usable row.
     """
     prepared = prepare(model.spec, logs, processing or Processing())
+    return observed(model, logs, prepared, every_joint)
+
+
+def observed(
+    model: "CompiledModel", logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
+) -> Observation:
+    """The observation of logs that are prepared already, for this or a like robot.
+
+    Raises:
+        DataError: no usable row.
+    """
     parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
