@@ -64,5 +64,4 @@ def _whole(observation: Observation) -> Observation:
 
 def _complete(part: Stretch) -> np.ndarray:
     """(rows, joints) True where at least `COMPLETE` of a row's weights count."""
-    shares = [part.rows.share(part.usable[:, j]) for j in range(part.usable.shape[1])]
-    return np.column_stack(shares) >= COMPLETE
+    return part.rows.share(part.usable) >= COMPLETE

@@ -1,8 +1,7 @@
 """One effect more: described, derived, emitted, fitted, and judged on other motion."""
 
 import dataclasses
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,9 +21,8 @@ from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
-from modeler.observation import Log, Observation, Processing
-from modeler.observation.prepare import Prepared, prepare
-from modeler.observation.stack import observed
+from modeler.improve.rows import Logs, Rows, rows_of
+from modeler.observation import Observation
 from modeler.observation.torque import model_torque
 from modeler.robot import robot_from_text
 
@@ -32,32 +30,6 @@ if TYPE_CHECKING:
     from modeler.diagnose import Finding
 
 _HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
-
-
-@dataclass(frozen=True, eq=False)
-class Logs:
-    """What the model is fitted to, and what it is judged on."""
-
-    fitted: Sequence[Log]
-    held_out: Sequence[Log] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class _Motion:
-    """Logs filtered and differentiated, for all models of a robot that differ in effects only."""
-
-    logs: Logs
-    fitted: Prepared
-    held_out: Prepared | None
-
-    def rows(self, compiled: CompiledModel) -> Observation:
-        """What the model is fitted to."""
-        return observed(compiled, self.logs.fitted, self.fitted)
-
-
-def _motion(model: IdentifiedModel, logs: Logs, processing: Processing) -> _Motion:
-    held_out = prepare(model.spec, logs.held_out, processing) if logs.held_out else None
-    return _Motion(logs, prepare(model.spec, logs.fitted, processing), held_out)
 
 
 def add_effect(
@@ -115,7 +87,9 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
         raise DataError("undo: no effect was added to this model")
     before = model.history[-2]
     processing = dataclasses.replace(model.processing, delay=before.delay)
-    fitted, _, _ = _fitted(before.robot_text, _motion(model, Logs(logs.fitted), processing))
+    fitted, _ = _fitted(
+        before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
+    )
     return dataclasses.replace(fitted, history=model.history[:-1])
 
 
@@ -141,33 +115,26 @@ def _added(
     model: IdentifiedModel, compiled: CompiledModel, state: State, pick: Candidate,
     values: np.ndarray, logs: Logs,
 ) -> IdentifiedModel:  # fmt: skip
-    motion = _motion(model, logs, model.processing)
-    history = model.history or (_step(model, compiled, None, motion, motion.rows(compiled)),)
+    rows = rows_of(compiled, logs, model.processing)
+    history = model.history or (_step(model, None, rows),)
     if pick.effect.acts is Acts.LINK:
-        better = _loaded(model, compiled, pick, values)
-        step = _step(better, compiled, pick, motion, motion.rows(compiled))
-        return dataclasses.replace(better, history=(*history, step))
-    text = model.robot_text
-    if pick.effect.acts is Acts.TORQUE:
+        better, seen = _loaded(model, compiled, pick, values), rows
+    elif pick.effect.acts is Acts.TORQUE:
         delay = model.processing.delay + float(values[0])
-        motion = _motion(model, logs, dataclasses.replace(model.processing, delay=delay))
+        processing = dataclasses.replace(model.processing, delay=delay)
+        better, seen = _fitted(model.robot_text, lambda made: rows_of(made, logs, processing))
     else:
-        text = described(text, pick, values, state.reference)
-    better, made, rows = _fitted(text, motion)
-    step = _step(better, made, pick, motion, rows)
-    return dataclasses.replace(better, history=(*history, step))
+        better, seen = _fitted(described(model.robot_text, pick, values, state.reference), rows.of)
+    return dataclasses.replace(better, history=(*history, _step(better, pick, seen)))
 
 
-def _fitted(text: str, motion: _Motion) -> tuple[IdentifiedModel, CompiledModel, Observation]:
-    """The robot of that file fitted to the logs; the robot, and the rows of the fit."""
+def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> tuple[IdentifiedModel, Rows]:
+    """The robot of that file fitted to the logs, and their rows."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
-    compiled = load(emitted.spec, emitted.files)
-    rows = motion.rows(compiled)
-    model = IdentifiedModel(
-        text, emitted.spec, emitted.files, identify(rows), provenance(rows.report)
-    )
-    return model, compiled, rows
+    rows = seen(load(emitted.spec, emitted.files))
+    fit, used = identify(rows.fitted), provenance(rows.fitted.report)
+    return IdentifiedModel(text, emitted.spec, emitted.files, fit, used), rows
 
 
 def _loaded(
@@ -197,29 +164,23 @@ def _felt(compiled: CompiledModel, names: Sequence[str], own: Sequence[str]) -> 
     return [n for n in own if np.abs(phi[:, :, list(names).index(n)]).max() > 1e-12]
 
 
-def _step(
-    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, motion: _Motion,
-    rows: Observation,
-) -> Addition:  # fmt: skip
-    """The error of a model, as a step of its history; the rows are those of the fit."""
-    error = training = _error(model, compiled, rows)
-    held_out = motion.logs.held_out
-    if motion.held_out is not None:
-        error = _error(model, compiled, observed(compiled, held_out, motion.held_out))
+def _step(model: IdentifiedModel, pick: Candidate | None, rows: Rows) -> Addition:
+    """The error of a model, as a step of its history."""
+    training, *held_out = [_error(model, rows.compiled, seen) for seen in rows.seen]
     return Addition(
         effect=pick.effect.id if pick else "",
         joint=pick.joint if pick else None,
         shapes=dict(pick.shapes) if pick else {},
-        error=error,
+        error=held_out[0] if held_out else training,
         training_error=training,
-        held_out=tuple(log.name for log in held_out),
+        held_out=tuple(log.name for log in rows.logs.held_out),
         robot_text=model.robot_text,
         delay=model.processing.delay,
     )
 
 
-def _error(model: IdentifiedModel, compiled: CompiledModel, rows: Observation) -> float:
+def _error(model: IdentifiedModel, compiled: CompiledModel, seen: Observation) -> float:
     """Relative error over all joints."""
-    prediction = on_rows(rows, model_torque(rows, compiled, model.beta))
+    prediction = on_rows(seen, model_torque(seen, compiled, model.beta))
     check_prediction(prediction)
     return relative_error(prediction)

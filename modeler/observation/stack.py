@@ -1,5 +1,6 @@
 """y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
+import dataclasses
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
@@ -72,6 +73,18 @@ def observed(
             )
         )
     return _stack(model, logs, stretches, report)
+
+
+def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
+    """What a robot makes of logs that another one has seen, which masks the same samples."""
+    return dataclasses.replace(
+        like,
+        robot=model.spec.robot,
+        joints=model.spec.joints,
+        names=tuple(base.name for base in model.spec.base),
+        units=tuple(base.unit for base in model.spec.base),
+        regressor=_regressor(model, like.stretches),
+    )
 
 
 def _stretch(segment: Segment, parts: Sequence[Shaft], processing: Processing) -> Stretch:
