@@ -1,6 +1,6 @@
 """Ranking: how much of the residual each candidate explains on motion it was not fitted to."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,15 +48,9 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
     """
     drop = np.zeros((base.blocks, pool.count))
     before = np.zeros(len(base.y))
-    grams = (base.G, base.u, pool.T, pool.w, pool.D)
-    total = [gram.sum(axis=0) for gram in grams]
-    every = _solve(pool, *total)
+    every = _solve(pool, *(gram.sum(axis=0) for gram in _grams(base, pool)))
     score = np.zeros(pool.count)
-    for f in np.unique(fold):
-        held = np.flatnonzero(fold == f)
-        own = [gram[held] for gram in grams]
-        train = [a - b.sum(axis=0) for a, b in zip(total, own, strict=True)]
-        solved = _solve(pool, *train)
+    for f, held, own, solved in _folds(base, pool, fold):
         before += _residual_energy(base, solved.beta, fold == f)
         cross, square = _in_blocks(pool, own, solved)
         drop[held] = 2.0 * cross - square
@@ -72,6 +66,32 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
         every.visible,
         every.fitted,
     )
+
+
+def fall(base: Base, pool: Pool, fold: np.ndarray) -> np.ndarray:
+    """(blocks, N) fall of the squared residual in blocks that were held out: `Ranking.drop`."""
+    drop = np.zeros((base.blocks, pool.count))
+    for _, held, own, solved in _folds(base, pool, fold):
+        cross, square = _in_blocks(pool, own, solved)
+        drop[held] = 2.0 * cross - square
+    return drop
+
+
+def _grams(base: Base, pool: Pool) -> tuple[np.ndarray, ...]:
+    return base.G, base.u, pool.T, pool.w, pool.D
+
+
+def _folds(
+    base: Base, pool: Pool, fold: np.ndarray
+) -> Iterator[tuple[int, np.ndarray, list[np.ndarray], "_Solved"]]:
+    """Of every fold: its number, its blocks, their Gram matrices, and what all others say."""
+    grams = _grams(base, pool)
+    total = [gram.sum(axis=0) for gram in grams]
+    for f in np.unique(fold):
+        held = np.flatnonzero(fold == f)
+        own = [gram[held] for gram in grams]
+        others = [a - b.sum(axis=0) for a, b in zip(total, own, strict=True)]
+        yield int(f), held, own, _solve(pool, *others)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
-from modeler.diagnose.search import judged_state
+from modeler.diagnose.search import surveyed
 from modeler.diagnose.state import Data, State, state_of
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
@@ -95,7 +95,7 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    judgement = judged_state(state, only=effect.id)
+    judgement = surveyed(state, only=effect.id).judged()
     found = [j for j in judgement.ranked if joint is None or j.candidate.joint == joint]
     if not found:
         raise DataError(
