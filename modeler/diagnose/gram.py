@@ -11,6 +11,9 @@ from modeler.diagnose.rows import Columns, Rows
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
 
+_FEW = 4
+"""Columns up to which their products are summed at once, and not block by block."""
+
 VISIBLE = 0.005
 """A direction of candidate columns that the base hides beyond this share is not seen."""
 
@@ -154,11 +157,23 @@ def _add_joint(
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
     left, right = where[pairs[here, 0]], where[pairs[here, 1]]
+    if len(places) <= _FEW and np.all(np.diff(base.block[j]) >= 0):
+        number, start = np.unique(base.block[j], return_index=True)
+        products = base.columns[j].T[:, None] * columns
+        T[np.ix_(number, range(len(products)), places)] += _sums(products, start)
+        w[np.ix_(number, places)] += _sums(columns * base.y[j], start)
+        D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start)
+        return
     for b, rows in pieces(base.block[j]):
         part = columns[:, rows]
         T[b][:, places] += base.columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
         D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
+
+
+def _sums(values: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """(b, ...) sums of values (..., rows) from each start to the next."""
+    return np.moveaxis(np.add.reduceat(values, start, axis=-1), -1, 0)
 
 
 def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:

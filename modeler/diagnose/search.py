@@ -172,7 +172,7 @@ class Survey:
 def surveyed(state: State, without: Sequence[str] = (), only: str | None = None) -> Survey:
     """All candidates in a state, or those of one effect."""
     found = [
-        c for c in proposals(state)
+        c for c in proposals(state, only)
         if only in (None, c.effect.id) and not ruled_out(c.effect.id, c.joint, without)
     ]  # fmt: skip
     columns = [columns_of(state.rows, c, state.cache) for c in found]
