@@ -160,7 +160,7 @@ def _add_joint(
     if len(places) <= _FEW and np.all(np.diff(base.block[j]) >= 0):
         number, start = np.unique(base.block[j], return_index=True)
         products = base.columns[j].T[:, None] * columns
-        T[np.ix_(number, range(len(products)), places)] += _sums(products, start)
+        T[np.ix_(number, np.arange(len(products)), places)] += _sums(products, start)
         w[np.ix_(number, places)] += _sums(columns * base.y[j], start)
         D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start)
         return

@@ -7,7 +7,6 @@ from modeler.diagnose.orders import ripple_candidates
 from modeler.diagnose.state import State
 from modeler.effects import RIPPLES, effect_named
 
-
 _WAVES = (*RIPPLES, "encoder_eccentricity")
 
 

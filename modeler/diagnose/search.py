@@ -93,8 +93,7 @@ def search(
         veto: looks at held-out logs.
         progress: called with a share between 0 and 1.
     """
-    start = state_of(data, (), beta)
-    state = start = state_of(data, (), start.beta, start.cache)
+    state = start = _started(data, beta)
     steps: list[Step] = []
     vetoed: list[Candidate] = []
     survey = surveyed(state, without) if most else None
@@ -116,6 +115,12 @@ def search(
             progress(len(steps) / (most + 1))
     kept, state = _backward(state, steps)
     return Search(start, tuple(kept), state, judgement, tuple(vetoed), tuple(without))
+
+
+def _started(data: Data, beta: np.ndarray) -> State:
+    """Without any effect, linearised about its own parameters."""
+    given = state_of(data, (), beta)
+    return state_of(data, (), given.beta, given.cache)
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,8 +137,10 @@ class Signals:
         step[j] = size
         ahead[kind] = ahead[kind] + step
         behind[kind] = behind[kind] - step
-        forth = model.inverse_dynamics(*ahead, beta, self.read)
-        return (forth - model.inverse_dynamics(*behind, beta, self.read)) * (0.5 / size)
+        forth, back = (
+            model.inverse_dynamics(q, v, a, beta, self.read) for q, v, a in (ahead, behind)
+        )
+        return (forth - back) * (0.5 / size)
 
     def moved(self, j: int, dq: np.ndarray) -> np.ndarray:
         """(n, J) torque that follows a small change dq (n,) of the position of joint j.

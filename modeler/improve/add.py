@@ -52,13 +52,14 @@ def add_effect(
     """
     catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
     effect = asked(model, name, joint, catalogue)
-    observation = analysed(compiled, logs.fitted, model.processing)
+    rows = rows_of(compiled, logs, model.processing)
+    observation = analysed(compiled, logs.fitted, model.processing, prepared=rows.prepared[0])
     kept = kept_parameters(model, compiled, logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
     state = state_of(Data(compiled, observation, kept, catalogue), (), model.beta)
     best = _best(state, effect, joint)
-    return _added(model, compiled, state, best.candidate, best.values, logs)
+    return _added(model, rows, state, best.candidate, best.values)
 
 
 def add_findings(
@@ -112,17 +113,15 @@ def _best(state: State, effect: Effect, joint: str | None) -> Judged:
 
 
 def _added(
-    model: IdentifiedModel, compiled: CompiledModel, state: State, pick: Candidate,
-    values: np.ndarray, logs: Logs,
-) -> IdentifiedModel:  # fmt: skip
-    rows = rows_of(compiled, logs, model.processing)
+    model: IdentifiedModel, rows: Rows, state: State, pick: Candidate, values: np.ndarray
+) -> IdentifiedModel:
     history = model.history or (_step(model, None, rows),)
     if pick.effect.acts is Acts.LINK:
-        better, seen = _loaded(model, compiled, pick, values), rows
+        better, seen = _loaded(model, rows.compiled, pick, values), rows
     elif pick.effect.acts is Acts.TORQUE:
         delay = model.processing.delay + float(values[0])
         processing = dataclasses.replace(model.processing, delay=delay)
-        better, seen = _fitted(model.robot_text, lambda made: rows_of(made, logs, processing))
+        better, seen = _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
     else:
         better, seen = _fitted(described(model.robot_text, pick, values, state.reference), rows.of)
     return dataclasses.replace(better, history=(*history, _step(better, pick, seen)))

@@ -29,9 +29,9 @@ def model_torque(
 
     def torque(segment: Segment, window: slice) -> np.ndarray:
         read = signals_of(model.spec, segment)
-        motion = [x[window] for x in (segment.q, segment.qd, segment.qdd)]
+        q, qd, qdd = (x[window] for x in (segment.q, segment.qd, segment.qdd))
         if turn is not None:
-            motion = [x @ turn for x in motion]
-        return model.inverse_dynamics(*motion, beta, None if read is None else read[window])
+            q, qd, qdd = q @ turn, qd @ turn, qdd @ turn
+        return model.inverse_dynamics(q, qd, qdd, beta, None if read is None else read[window])
 
     return observation.filtered(torque)
