@@ -20,13 +20,20 @@ def tilt_columns(signals: Signals) -> np.ndarray:
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
-    basis = tilt_basis(signals.reference)
+    weights = tilt_weights(signals.reference)
     n, joints = signals.q.shape
-    if basis is None:
+    if weights is None:
         return np.zeros((n, joints, 0))
     slopes = frame_slopes(signals.reference.compiled, signals.q)
-    weights = np.column_stack([_weights(axis, chi) for axis, chi in basis])
-    return -slopes.reshape(n, joints, -1) @ weights
+    return slopes.reshape(n, joints, -1) @ weights
+
+
+def tilt_weights(reference: Reference) -> np.ndarray | None:
+    """(rows 3 4, k): `tilt_columns` of the entries of `frame_slopes`; None if it has none."""
+    basis = tilt_basis(reference)
+    if basis is None:
+        return None
+    return -np.column_stack([_weights(axis, chi) for axis, chi in basis])
 
 
 def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
