@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from modeler.base.field import Element
+from modeler.base.field import Element, times
 from modeler.base.transfer import Matrix
 
 LARGEST = 400
@@ -42,8 +42,9 @@ def sparse_row_reduce(
         # The shortest row keeps the fill, and so the size of the coefficients, small.
         pivot = min(having, key=len)
         left = [row for row in left if row is not pivot]
-        inverse = 1 / pivot[column]
-        pivot = {j: x * inverse for j, x in pivot.items()}
+        if pivot[column] != 1:
+            inverse = 1 / pivot[column]
+            pivot = {j: times(x, inverse) for j, x in pivot.items()}
         for row in (*left, *done):
             if column in row:
                 _subtract(row, pivot, row[column])
@@ -55,7 +56,8 @@ def sparse_row_reduce(
 
 def _subtract(row: dict[int, Element], pivot: Mapping[int, Element], factor: Element) -> None:
     for j, x in pivot.items():
-        value = row[j] - factor * x if j in row else -(factor * x)
+        part = times(factor, x)
+        value = row[j] - part if j in row else -part
         if _terms(value) > LARGEST:
             raise TooLarge(f"a coefficient has more than {LARGEST} terms")
         if value:

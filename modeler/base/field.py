@@ -19,6 +19,13 @@ Element = Any
 """An element of the field: a sympy `FracElement`, or a rational number."""
 
 
+def times(a: Element, b: Element) -> Element:
+    """a b. Most factors are 1, and the product of two fractions cancels common divisors."""
+    if a == 1:
+        return b
+    return a if b == 1 else a * b
+
+
 class ExactField:
     """Q(letters): conversion from and to sympy expressions.
 
@@ -38,6 +45,7 @@ class ExactField:
             self._one = self._field.one
         else:
             self._field, generators, self._one = None, [], sympy.QQ(1)
+        self._zero = self._one - self._one
         self._generator = dict(zip(self.letters, generators, strict=True))
         self._found: dict[sympy.Expr, Element] = {}
 
@@ -49,7 +57,7 @@ class ExactField:
     @property
     def zero(self) -> Element:
         """0."""
-        return self._one - self._one
+        return self._zero
 
     def element(self, value: sympy.Expr) -> Element:
         """The field element of a constant expression."""

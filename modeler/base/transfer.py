@@ -12,7 +12,7 @@ from functools import lru_cache
 import sympy
 from sympy import QQ
 
-from modeler.base.field import Element, ExactField
+from modeler.base.field import Element, ExactField, times
 from modeler.symbolic.geometry import Row
 
 Matrix = list[list[Element]]
@@ -31,7 +31,7 @@ def _dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:
     total = zero
     for x, y in zip(a, b, strict=True):
         if x and y:
-            total = total + x * y
+            total = total + times(x, y)
     return total
 
 
@@ -53,14 +53,15 @@ def _moved(R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element)
     M = c[9]
     S = apply(R, c[6:9], zero)
     turned = product(product(R, J, zero), [list(column) for column in zip(*R, strict=True)], zero)
-    pS = _dot(p, S, zero)
-    pp = _dot(p, p, zero) if M else zero
+    spread = 2 * _dot(p, S, zero) + M * (_dot(p, p, zero) if M else zero)
     out = []
     for i, j in _J:
-        value = turned[i][j] - p[i] * S[j] - S[i] * p[j]
+        value = turned[i][j]
+        if any(S):
+            value = value - p[i] * S[j] - S[i] * p[j]
         if M:
             value = value - M * p[i] * p[j]
-        out.append(value + 2 * pS + M * pp if i == j else value)
+        out.append(value + spread if i == j else value)
     return out + [S[i] + M * p[i] for i in range(3)] + [M]
 
 

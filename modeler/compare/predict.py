@@ -1,5 +1,6 @@
 """From a fitted model and logs to measured and predicted torque."""
 
+import dataclasses
 from collections.abc import Sequence
 from typing import Literal, cast
 
@@ -32,8 +33,20 @@ def predict(
         DataError: no usable row.
     """
     observation = observe(compiled, logs, model.processing)
-    prediction = Prediction(
-        robot=model.spec.robot,
+    prediction = dataclasses.replace(
+        on_rows(observation, observation.predicted(model.beta)),
+        travel=_travel(observation),
+        temperature=_temperature(observation),
+        full=_full_rate(observation, compiled, model.beta),
+        motors=_motors(compiled),
+    )
+    return prediction, observation
+
+
+def on_rows(observation: Observation, predicted: np.ndarray) -> Prediction:
+    """Measured and predicted torque (s, joints) on the rows, and nothing besides."""
+    return Prediction(
+        robot=observation.robot,
         joints=tuple(
             JointInfo(
                 joint.name,
@@ -50,14 +63,9 @@ def predict(
         qd=observation.qd,
         qdd=observation.qdd,
         measured=observation.torque,
-        predicted=observation.predicted(model.beta),
+        predicted=predicted,
         used=observation.used,
-        travel=_travel(observation),
-        temperature=_temperature(observation),
-        full=_full_rate(observation, compiled, model.beta),
-        motors=_motors(compiled),
     )
-    return prediction, observation
 
 
 def _travel(observation: Observation) -> np.ndarray:

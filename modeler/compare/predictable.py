@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg.lapack import dposv
 
 _OWN, _BENT, _WIDE = 80, 40, 350  # features of the joint, turned with its direction, of all joints
 LEAST = 300
@@ -60,14 +60,22 @@ def _left(features: np.ndarray, y: np.ndarray, fold: np.ndarray) -> float:
     parts = [(features[fold == f], y[fold == f]) for f in np.unique(fold)]
     grams = [X.T @ X for X, _ in parts]
     sides = [X.T @ t for X, t in parts]
-    G, u = np.sum(grams, axis=0), np.sum(sides, axis=0)
+    G, u = sum(grams), sum(sides)
     total = np.zeros(len(_RIDGES))
     for (X, t), gram, side in zip(parts, grams, sides, strict=True):
         for k, ridge in enumerate(_RIDGES):
-            matrix = G - gram + ridge * np.eye(len(G))
-            theta = cho_solve(cho_factor(matrix, check_finite=False), u - side)
+            theta = _solved(G - gram, ridge, u - side)
             total[k] += float(np.sum((t - X @ theta) ** 2))
     return float(total.min())
+
+
+def _solved(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
+    """x of (gram + ridge 1) x = side; a fresh symmetric gram is used up."""
+    matrix = gram.T  # in the order of LAPACK, which then copies nothing
+    matrix.flat[:: len(matrix) + 1] += ridge
+    _, x, failed = dposv(matrix, side, lower=1, overwrite_a=1)
+    assert failed == 0, "a ridge keeps the matrix positive"
+    return np.asarray(x)
 
 
 def _features(moved: Moved) -> tuple[np.ndarray, np.ndarray]:
@@ -87,8 +95,12 @@ def _features(moved: Moved) -> tuple[np.ndarray, np.ndarray]:
 def _standard(features: np.ndarray) -> np.ndarray:
     """Mean 0 and standard deviation 1."""
     centred = features - features.mean(axis=0)
-    size = centred.std(axis=0)
-    return centred[:, size > 1e-9] / size[size > 1e-9]
+    size = np.sqrt(np.einsum("ij,ij->j", centred, centred) / max(1, len(centred)))
+    seen = size > 1e-9
+    if not seen.all():
+        centred, size = centred[:, seen], size[seen]
+    centred /= size
+    return centred
 
 
 def _fourier(x: np.ndarray, count: int, generator: np.random.Generator) -> np.ndarray:

@@ -9,6 +9,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from modeler.core.errors import ManifestError
@@ -170,6 +171,10 @@ class ModuleSpec:
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
+        return self._text
+
+    @cached_property
+    def _text(self) -> str:
         return json.dumps(dataclasses.asdict(self), indent=1) + "\n"
 
     def signature(self) -> str:

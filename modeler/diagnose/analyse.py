@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.observation import Log, Observation, Processing, observe
+from modeler.observation.prepare import Prepared
+from modeler.observation.stack import observed
 from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
@@ -32,8 +34,9 @@ def analysis_processing(fitted: Processing) -> Processing:
 
 
 def analysed(
-    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, chosen: bool = False
-) -> Observation:
+    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, chosen: bool = False,
+    prepared: Prepared | None = None,
+) -> Observation:  # fmt: skip
     """The observation of a diagnosis.
 
     Args:
@@ -41,8 +44,13 @@ def analysed(
         logs: to look at.
         fitted: processing of the fit.
         chosen: True if `fitted` is that of a diagnosis already.
+        prepared: the logs as `fitted` prepares them; the motion is the same in the wider band,
+            unless derivatives were logged, which are checked in the band of the rows.
     """
     processing = fitted if chosen else analysis_processing(fitted)
+    if prepared is not None and all(check is None for check in prepared.checks):
+        wider = dataclasses.replace(prepared, processing=processing)
+        return _whole(observed(compiled, logs, wider, every_joint=True))
     return _whole(observe(compiled, logs, processing, every_joint=True))
 
 
@@ -64,5 +72,4 @@ def _whole(observation: Observation) -> Observation:
 
 def _complete(part: Stretch) -> np.ndarray:
     """(rows, joints) True where at least `COMPLETE` of a row's weights count."""
-    shares = [part.rows.share(part.usable[:, j]) for j in range(part.usable.shape[1])]
-    return np.column_stack(shares) >= COMPLETE
+    return part.rows.share(part.usable) >= COMPLETE

@@ -35,6 +35,8 @@ def _unmoved(state: State) -> list[Key]:
     """
     own = (Acts.JOINT, Acts.MOTOR, Acts.POSITION)
     steady = [one_speed(state, j) is not None for j in range(state.rows.joints)]
+    if not any(steady) and all(y.size for y in state.rows.y):
+        return []
     return [
         candidate.key for candidate in proposals(state)
         if candidate.effect.acts in own

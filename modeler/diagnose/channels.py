@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.observation import Observation
-from modeler.observation.motion import Segment
-from modeler.observation.signals import signals_of
+from modeler.observation.torque import model_torque
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -52,11 +51,12 @@ def faults(
         observation: of the logs.
         beta: (c,) base parameters of the model as it was fitted.
     """
-    errors = _errors(observation, observation.predicted(beta))
+    predicted = model_torque(observation, compiled, beta)
+    errors = _errors(observation, predicted)
     wrong = [j for j, error in enumerate(errors) if error > WRONG]
     if not wrong:
         return ()
-    found = {j: _torque(observation, observation.predicted(beta), j) for j in wrong}
+    found = {j: _torque(observation, predicted, j) for j in wrong}
     if any(fault is None for fault in found.values()):
         motion = _motion(compiled, observation, beta, errors)
         if motion is not None:
@@ -110,27 +110,11 @@ def _motion(
         return None  # positions that do not close the loops have no torque
     best, size = None, 0.5 * float(np.linalg.norm(errors))
     for line, turn in _turns(observation):
-        predicted = observation.filtered(_Turned(compiled, beta, turn))
+        predicted = model_torque(observation, compiled, beta, turn)
         left = _errors(observation, predicted)
         if float(np.linalg.norm(left)) < size and left.max() < WRONG:
             best, size = Fault(line, True), float(np.linalg.norm(left))
     return best
-
-
-@dataclass(frozen=True, eq=False)
-class _Turned:
-    """The model's torque over a motion q turn, (b, J) for the samples of a segment in a window."""
-
-    compiled: "CompiledModel"
-    beta: np.ndarray
-    turn: np.ndarray
-
-    def __call__(self, segment: Segment, window: slice) -> np.ndarray:
-        read = signals_of(self.compiled.spec, segment)
-        q, qd, qdd = (x[window] @ self.turn for x in (segment.q, segment.qd, segment.qdd))
-        return self.compiled.inverse_dynamics(
-            q, qd, qdd, self.beta, None if read is None else read[window]
-        )
 
 
 def _turns(observation: Observation) -> Iterator[tuple[str, np.ndarray]]:

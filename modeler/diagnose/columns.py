@@ -63,12 +63,7 @@ def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
         return _passive(candidate, signals)
     own = own_columns(candidate, signals)
     if acts is Acts.POSITION:
-        dq = np.zeros((n, joints))
-        found = []
-        for k in range(own.shape[1]):
-            dq[:, candidate.index] = own[:, k]
-            found.append(signals.moved(dq))
-        return np.stack(found, axis=2)
+        return np.stack([signals.moved(candidate.index, dq) for dq in own.T], axis=2)
     result = np.zeros((n, joints, own.shape[1]))
     result[:, candidate.index] = own
     return result

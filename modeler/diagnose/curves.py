@@ -52,7 +52,14 @@ def _hats(x: np.ndarray, knots: np.ndarray) -> np.ndarray:
     """(n, knots) linear B-splines; constant outside."""
     if len(knots) < 2:
         return np.zeros((len(x), 0))
-    return np.column_stack([np.interp(x, knots, row) for row in np.eye(len(knots))])
+    inside = np.clip(x, knots[0], knots[-1])
+    place = np.clip(np.searchsorted(knots, inside, side="right") - 1, 0, len(knots) - 2)
+    share = (inside - knots[place]) / (knots[place + 1] - knots[place])
+    found = np.zeros((len(x), len(knots)))
+    every = np.arange(len(x))
+    found[every, place] = 1.0 - share
+    found[every, place + 1] = share
+    return found
 
 
 def _own(signals: Signals, j: int, knots: _Knots) -> np.ndarray:

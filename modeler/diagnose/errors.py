@@ -6,7 +6,6 @@ from collections.abc import Callable
 import numpy as np
 
 from modeler.diagnose.judge import Judged
-from modeler.diagnose.rows import rows_of
 from modeler.diagnose.state import Data, State, columns_of
 
 
@@ -29,7 +28,7 @@ def held_out_squares(state: State, data: Data, later: float = 0.0) -> tuple[np.n
         later: s, added to their clock.
     """
     reference = dataclasses.replace(state.reference, time=state.reference.time - later)
-    rows = rows_of(data.observation, reference)
+    rows = data.rows.about(reference)
     cache: dict = {}
     squares, size = np.zeros(rows.joints), np.zeros(rows.joints)
     extra = [columns_of(rows, pick, cache) for pick in state.picks]

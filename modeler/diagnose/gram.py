@@ -11,6 +11,9 @@ from modeler.diagnose.rows import Columns, Rows
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
 
+_FEW = 4
+"""Columns up to which their products are summed at once, and not block by block."""
+
 VISIBLE = 0.005
 """A direction of candidate columns that the base hides beyond this share is not seen."""
 
@@ -119,26 +122,24 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
     first = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(int) if sizes else np.zeros(0, int)
     owner = np.repeat(np.arange(len(sizes)), sizes)
     K, r = len(owner), base.turn.shape[1]
-    square = np.zeros(K)
-    parts = []
-    for j in range(len(base.sigma)):
-        own = [i for i, columns in enumerate(every) if columns[j] is not None]
-        spans = [np.arange(first[i], first[i] + sizes[i]) for i in own]
-        places = np.concatenate(spans) if spans else np.zeros(0, dtype=int)
-        blocks = [np.asarray(every[i][j]) for i in own]
-        stacked = np.hstack(blocks) / base.sigma[j] if blocks else np.zeros((len(base.y[j]), 0))
-        square[places] += np.einsum("ij,ij->j", stacked, stacked)
-        parts.append((places, stacked))
-    scale = np.sqrt(np.where(square > 0.0, square, 1.0))
     pairs = np.array(
         [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
          for i in range(size) for k in range(size)]
     ).reshape(-1, 2).astype(int)  # fmt: skip
+    square = np.zeros(K)
     T, w = np.zeros((base.blocks, r, K)), np.zeros((base.blocks, K))
     D = np.zeros((base.blocks, len(pairs)))
-    for j, (places, stacked) in enumerate(parts):
-        if places.size:
-            _add_joint(base, j, places, stacked / scale[places], (T, w, D), pairs)
+    for j in range(len(base.sigma)):
+        own = [i for i, columns in enumerate(every) if columns[j] is not None]
+        if own and base.y[j].size:
+            places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in own])
+            stacked = np.concatenate([np.asarray(every[i][j]).T for i in own]) / base.sigma[j]
+            square[places] += np.einsum("ij,ij->i", stacked, stacked)
+            _add_joint(base, j, places, stacked, (T, w, D), pairs)
+    scale = np.sqrt(np.where(square > 0.0, square, 1.0))
+    T /= scale
+    w /= scale
+    D /= scale[pairs].prod(axis=1)
     return Pool(owner, first, scale, T, w, pairs, D)
 
 
@@ -150,17 +151,29 @@ def _add_joint(
     grams: tuple[np.ndarray, np.ndarray, np.ndarray],
     pairs: np.ndarray,
 ) -> None:
-    """Adds the rows of one joint to (T, w, D)."""
+    """Adds the rows of one joint, columns (k, rows_j), to (T, w, D)."""
     T, w, D = grams
     where = np.full(T.shape[2], -1)
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
     left, right = where[pairs[here, 0]], where[pairs[here, 1]]
+    if len(places) <= _FEW and np.all(np.diff(base.block[j]) >= 0):
+        number, start = np.unique(base.block[j], return_index=True)
+        products = base.columns[j].T[:, None] * columns
+        T[np.ix_(number, np.arange(len(products)), places)] += _sums(products, start)
+        w[np.ix_(number, places)] += _sums(columns * base.y[j], start)
+        D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start)
+        return
     for b, rows in pieces(base.block[j]):
-        part = columns[rows]
-        T[b][:, places] += base.columns[j][rows].T @ part
-        w[b, places] += part.T @ base.y[j][rows]
-        D[b, here] += np.einsum("ij,ij->j", part[:, left], part[:, right])
+        part = columns[:, rows]
+        T[b][:, places] += base.columns[j][rows].T @ part.T
+        w[b, places] += part @ base.y[j][rows]
+        D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
+
+
+def _sums(values: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """(b, ...) sums of values (..., rows) from each start to the next."""
+    return np.moveaxis(np.add.reduceat(values, start, axis=-1), -1, 0)
 
 
 def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:

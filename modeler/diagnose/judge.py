@@ -84,6 +84,13 @@ class Judgement:
 
 def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> Judgement:
     """The best shapes of every effect on every joint, judged."""
+    return decide(state, best_shapes(state, found, columns))
+
+
+def best_shapes(
+    state: State, found: Sequence[Candidate], columns: Sequence[Columns]
+) -> list[Judged]:
+    """Every effect on every joint at the best of the given shapes, best first."""
     pool, ranking = state.ranked(columns)
     best: dict[tuple[str, str | None], int] = {}
     total = ranking.drop.sum(axis=0)
@@ -97,10 +104,10 @@ def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) 
             best[candidate.key] = i
     judged = [_judged(state, found[i], ranking, pool, i) for i in best.values()]
     judged.sort(key=lambda j: -float(j.drop.sum()))
-    return _decide(state, judged)
+    return judged
 
 
-def _decide(state: State, judged: list[Judged]) -> Judgement:
+def decide(state: State, judged: list[Judged]) -> Judgement:
     """The first that passes, or a simpler one that the data do not tell from it.
 
     Timing-like ones are confirmed only when they lead.

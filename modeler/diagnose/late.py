@@ -28,9 +28,7 @@ def late_lines(found: Search) -> list[str]:
     for j in driven:
         moved = []
         for signals in state.rows.signals:
-            shift = np.zeros_like(signals.q)
-            shift[:, j] = signals.v[:, j]
-            moved.append(signals.moved(shift)[:, :, None])
+            moved.append(signals.moved(j, signals.v[:, j])[:, :, None])
         columns.append(state.rows.spread(moved))
     shown = [i for i, own in enumerate(columns) if any(c is not None for c in own)]
     if not shown:

@@ -8,7 +8,7 @@ from scipy.optimize import minimize, minimize_scalar
 
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.gram import pool_of
-from modeler.diagnose.rank import rank
+from modeler.diagnose.rank import fall
 from modeler.diagnose.state import State, columns_of, visible
 from modeler.effects import Shape
 
@@ -101,4 +101,4 @@ def _explained(state: State, candidate: Candidate) -> float:
     if not visible(columns):
         return 0.0
     pool = pool_of(state.base, [columns])
-    return float(rank(state.base, pool, state.data.blocks.fold).drop.sum())
+    return float(fall(state.base, pool, state.data.blocks.fold).sum())

@@ -7,16 +7,24 @@ from modeler.diagnose.orders import ripple_candidates
 from modeler.diagnose.state import State
 from modeler.effects import RIPPLES, effect_named
 
+_WAVES = (*RIPPLES, "encoder_eccentricity")
 
-def proposals(state: State) -> list[Candidate]:
-    """What could be missing in this state, without what was put in already."""
+
+def proposals(state: State, only: str | None = None) -> list[Candidate]:
+    """What could be missing in this state, without what was put in already.
+
+    Args:
+        state: it.
+        only: id of the one effect that is asked for; others are proposed as far as is free.
+    """
     spec = state.data.compiled.spec
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
     found = candidates(spec, state.scales, temperature, present, state.data.catalogue)
     found = [c for c in found if _lasts(state, c)]
-    found += ripple_candidates(state)
+    if only is None or only in _WAVES:
+        found += ripple_candidates(state)
     if changed:
         found += load_candidates(state)
     taken = {pick.key for pick in state.picks if pick.effect.id not in RIPPLES}

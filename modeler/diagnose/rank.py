@@ -1,5 +1,6 @@
 """Ranking: how much of the residual each candidate explains on motion it was not fitted to."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,21 +48,13 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
     """
     drop = np.zeros((base.blocks, pool.count))
     before = np.zeros(len(base.y))
-    total = (base.G.sum(axis=0), base.u.sum(axis=0), pool.T.sum(axis=0), pool.w.sum(axis=0),
-             pool.D.sum(axis=0))  # fmt: skip
-    for f in np.unique(fold):
-        held = np.flatnonzero(fold == f)
-        out = (base.G[held].sum(axis=0), base.u[held].sum(axis=0), pool.T[held].sum(axis=0),
-               pool.w[held].sum(axis=0), pool.D[held].sum(axis=0))  # fmt: skip
-        train = tuple(a - b for a, b in zip(total, out, strict=True))
-        solved = _solve(pool, *train)
-        before += _residual_energy(base, solved.beta, held)
-        cross, square = _in_blocks(base, pool, held, solved)
-        drop[held] = 2.0 * cross - square
-    every = _solve(pool, *total)
+    every = _solve(pool, *(gram.sum(axis=0) for gram in _grams(base, pool)))
     score = np.zeros(pool.count)
-    for f in np.unique(fold):
-        cross, square = _in_blocks(base, pool, np.flatnonzero(fold == f), every)
+    for f, held, own, solved in _folds(base, pool, fold):
+        before += _residual_energy(base, solved.beta, fold == f)
+        cross, square = _in_blocks(pool, own, solved)
+        drop[held] = 2.0 * cross - square
+        cross, square = _in_blocks(pool, own, every)
         score += np.sum((cross - square) ** 2, axis=0)
     sure = every.fitted / np.sqrt(np.maximum(score, 1e-300))
     return Ranking(
@@ -73,6 +66,32 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
         every.visible,
         every.fitted,
     )
+
+
+def fall(base: Base, pool: Pool, fold: np.ndarray) -> np.ndarray:
+    """(blocks, N) fall of the squared residual in blocks that were held out: `Ranking.drop`."""
+    drop = np.zeros((base.blocks, pool.count))
+    for _, held, own, solved in _folds(base, pool, fold):
+        cross, square = _in_blocks(pool, own, solved)
+        drop[held] = 2.0 * cross - square
+    return drop
+
+
+def _grams(base: Base, pool: Pool) -> tuple[np.ndarray, ...]:
+    return base.G, base.u, pool.T, pool.w, pool.D
+
+
+def _folds(
+    base: Base, pool: Pool, fold: np.ndarray
+) -> Iterator[tuple[int, np.ndarray, list[np.ndarray], "_Solved"]]:
+    """Of every fold: its number, its blocks, their Gram matrices, and what all others say."""
+    grams = _grams(base, pool)
+    total = [gram.sum(axis=0) for gram in grams]
+    for f in np.unique(fold):
+        held = np.flatnonzero(fold == f)
+        own = [gram[held] for gram in grams]
+        others = [a - b.sum(axis=0) for a, b in zip(total, own, strict=True)]
+        yield int(f), held, own, _solve(pool, *others)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,27 +133,32 @@ def _solve(
 
 
 def _residual_energy(base: Base, beta: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """(J,) squared residual of the base alone in these blocks."""
+    """(J,) squared residual of the base alone in the blocks that are held out (blocks,)."""
     found = np.zeros(len(base.y))
     for j, (columns, y, block) in enumerate(zip(base.columns, base.y, base.block, strict=True)):
-        rows = np.isin(block, held)
+        rows = held[block]
         found[j] = np.sum((y[rows] - columns[rows] @ beta) ** 2)
     return found
 
 
 def _in_blocks(
-    base: Base, pool: Pool, held: np.ndarray, at: _Solved
+    pool: Pool, grams: Sequence[np.ndarray], at: _Solved
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(b, N) e^T r and e^T e in these blocks: r the residual of the base, e what is added."""
-    G, u = base.G[held], base.u[held]
+    """(b, N) e^T r and e^T e in some blocks: r the residual of the base, e what is added.
+
+    Args:
+        pool: all candidates.
+        grams: G, u, T, w, D of these blocks.
+        at: parameters.
+    """
+    G, u, T, w, D = grams
     a = _by_owner(pool, at.A * at.gamma)
-    own = _by_owner(pool, pool.T[held] * at.gamma)
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    products = _sums(pool.D[held] * (at.gamma[i] * at.gamma[k]), _pair_starts(pool))
+    products = _sums(D * (at.gamma[i] * at.gamma[k]), _pair_starts(pool))
     left = u - G @ at.beta
-    cross = _by_owner(pool, pool.w[held] * at.gamma) - np.einsum("brn,r->bn", own, at.beta)
-    cross -= left @ a
-    inner = np.einsum("rn,brn->bn", a, G @ a - 2.0 * own)
+    cross = _by_owner(pool, (w - at.beta @ T) * at.gamma) - left @ a
+    own = _by_owner(pool, np.einsum("rk,brk->bk", a[:, pool.owner], T) * at.gamma)
+    inner = np.einsum("rn,brn->bn", a, G @ a) - 2.0 * own
     return cross, products + inner
 
 

@@ -1,16 +1,17 @@
 """The rows of an analysis: measured torque, base columns and candidates through one filter."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array
 
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.columns import all_columns, own_columns
 from modeler.diagnose.signals import Reference, Signals
 from modeler.observation import Observation
-from modeler.observation.row_filter import SPREAD
+from modeler.observation.row_filter import SPREAD, only
 from modeler.observation.stretch import Stretch
 
 Columns = tuple[np.ndarray | None, ...]
@@ -43,6 +44,11 @@ class Rows:
     def joints(self) -> int:
         """Number of joints, J."""
         return len(self.y)
+
+    def about(self, reference: Reference) -> "Rows":
+        """The same rows with effects linearised about another reference of the same robot."""
+        signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
+        return dataclasses.replace(self, signals=signals)
 
     def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
@@ -107,19 +113,21 @@ def rows_of(observation: Observation, reference: Reference) -> Rows:
 
 def _filter(part: Stretch, j: int) -> csr_array:
     """(used rows, samples) weights over usable samples, each row summing to one."""
-    masked = part.rows.weights @ diags_array(part.usable[:, j].astype(float))
-    kept = csr_array(masked)[part.used[:, j]]
-    total = kept @ np.ones(kept.shape[1])
-    return csr_array(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ kept)
+    return _normed(only(part.rows.weights, part.usable[:, j])[part.used[:, j]])
 
 
 def _thinned(weights: csr_array, every: int) -> csr_array:
     """The same filter over every k-th sample."""
     if every == 1:
         return weights
-    kept = csr_array(weights[:, ::every])
-    total = kept @ np.ones(kept.shape[1])
-    return csr_array(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ kept)
+    return _normed(csr_array(weights[:, ::every]))
+
+
+def _normed(weights: csr_array) -> csr_array:
+    """Each row divided by its sum."""
+    total = weights @ np.ones(weights.shape[1])
+    share = np.repeat(1.0 / np.where(total > 0.0, total, 1.0), np.diff(weights.indptr))
+    return csr_array((weights.data * share, weights.indices, weights.indptr), shape=weights.shape)
 
 
 def _signals(part: Stretch, reference: Reference, cutoff: float) -> Signals:

@@ -2,15 +2,26 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.judge import Judged, Judgement, alternatives, judge
+from modeler.diagnose.judge import (
+    Judged,
+    Judgement,
+    alternatives,
+    best_shapes,
+    decide,
+    judge,
+)
 from modeler.diagnose.polish import polished
 from modeler.diagnose.propose import proposals
+from modeler.diagnose.rows import Columns
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
 from modeler.effects import RIPPLES
+
+_T = TypeVar("_T")
 
 MOST = 8
 """Effects named in one diagnosis."""
@@ -82,19 +93,20 @@ def search(
         veto: looks at held-out logs.
         progress: called with a share between 0 and 1.
     """
-    start = state_of(data, (), beta)
-    state = start = state_of(data, (), start.beta, start.cache)
+    state = start = _started(data, beta)
     steps: list[Step] = []
     vetoed: list[Candidate] = []
-    judgement = judged_state(state, without, vetoed) if most else Judgement((), None)
-    while judgement.best is not None and len(steps) < most:
+    survey = surveyed(state, without) if most else None
+    judgement = survey.judged() if survey is not None else Judgement((), None)
+    while survey is not None and judgement.best is not None and len(steps) < most:
         best = judgement.best
         later = extended(state, best.candidate)
         if veto is not None and veto(state, later, best):
             vetoed.append(best.candidate)
-            judgement = judged_state(state, without, vetoed)
+            judgement = survey.judged(vetoed)
             continue
-        after = judged_state(later, without, vetoed)
+        survey = surveyed(later, without)
+        after = survey.judged(vetoed)
         rivals = judgement.others(best)
         ties = tuple(alternatives(best, rivals, after))
         steps.append(Step(best.candidate, best, rivals, state, ties))
@@ -105,35 +117,86 @@ def search(
     return Search(start, tuple(kept), state, judgement, tuple(vetoed), tuple(without))
 
 
-def judged_state(
-    state: State,
-    without: Sequence[str] = (),
-    vetoed: Sequence[Candidate] = (),
-    only: str | None = None,
-) -> Judgement:
-    """All candidates in a state, or those of one effect; the leading ones refined."""
-    gone = {c.key for c in vetoed if not _ripples(c)}
-    orders = [c.shapes["m"] for c in vetoed if _ripples(c)]
+def _started(data: Data, beta: np.ndarray) -> State:
+    """Without any effect, linearised about its own parameters."""
+    given = state_of(data, (), beta)
+    return state_of(data, (), given.beta, given.cache)
+
+
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """Every candidate in a state.
+
+    Attributes:
+        state: it.
+        found: candidates that show.
+        columns: theirs.
+        best: every effect on every joint at the best of its shapes, none refined, best first.
+    """
+
+    state: State
+    found: Sequence[Candidate]
+    columns: Sequence[Columns]
+    best: Sequence[Judged]
+
+    def but(self, vetoed: Sequence[Candidate]) -> "Survey":
+        """The same without what was vetoed."""
+        left = [i for i, c in enumerate(self.found) if not _among(c, vetoed)]
+        if len(left) == len(self.found):
+            return self
+        kept = _picked(self.found, left), _picked(self.columns, left)
+        touched = {c.key for c in self.found if _among(c, vetoed)}
+        again = [i for i in left if self.found[i].key in touched]
+        best = [j for j in self.best if j.candidate.key not in touched]
+        if again:
+            columns = _picked(self.columns, again)
+            best += best_shapes(self.state, _picked(self.found, again), columns)
+        return Survey(self.state, *kept, sorted(best, key=lambda j: -float(j.drop.sum())))
+
+    def judged(self, vetoed: Sequence[Candidate] = ()) -> Judgement:
+        """All but what was vetoed; the leading ones refined."""
+        left = self.but(vetoed)
+        state, found, columns = self.state, list(left.found), list(left.columns)
+        leading = [
+            j for j in left.best[:5]
+            if j.possible and j.gain > CLOSE * left.best[0].gain and j.gain > 0.02
+        ]  # fmt: skip
+        if not leading:
+            return decide(state, list(left.best))
+        for item in leading:
+            better = polished(state, item.candidate)
+            if better is not item.candidate:
+                place = next(i for i, c in enumerate(found) if c is item.candidate)
+                found[place], columns[place] = better, columns_of(state.rows, better, {})
+        # Of effects that were not refined, only the best shapes may win still.
+        keys, best = {j.candidate.key for j in leading}, {id(j.candidate) for j in left.best}
+        again = [i for i, c in enumerate(found) if c.key in keys or id(c) in best]
+        return judge(state, _picked(found, again), _picked(columns, again))
+
+
+def surveyed(state: State, without: Sequence[str] = (), only: str | None = None) -> Survey:
+    """All candidates in a state, or those of one effect."""
     found = [
-        c for c in proposals(state)
-        if only in (None, c.effect.id) and c.key not in gone
-        and not ruled_out(c.effect.id, c.joint, without)
-        and not (_ripples(c) and any(abs(c.shapes["m"] - m) < 0.1 * m for m in orders))
+        c for c in proposals(state, only)
+        if only in (None, c.effect.id) and not ruled_out(c.effect.id, c.joint, without)
     ]  # fmt: skip
     columns = [columns_of(state.rows, c, state.cache) for c in found]
     seen = [i for i, c in enumerate(columns) if visible(c)]
-    found, columns = [found[i] for i in seen], [columns[i] for i in seen]
-    first = judge(state, found, columns)
-    leading = [
-        j for j in first.ranked[:5]
-        if j.possible and j.gain > CLOSE * first.ranked[0].gain and j.gain > 0.02
-    ]  # fmt: skip
-    for item in leading:
-        better = polished(state, item.candidate)
-        if better is not item.candidate:
-            place = next(i for i, c in enumerate(found) if c is item.candidate)
-            found[place], columns[place] = better, columns_of(state.rows, better, {})
-    return judge(state, found, columns) if leading else first
+    found, columns = _picked(found, seen), _picked(columns, seen)
+    return Survey(state, found, columns, best_shapes(state, found, columns))
+
+
+def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
+    return [items[i] for i in places]
+
+
+def _among(candidate: Candidate, vetoed: Sequence[Candidate]) -> bool:
+    """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
+    if not _ripples(candidate):
+        return any(c.key == candidate.key for c in vetoed if not _ripples(c))
+    order = candidate.shapes["m"]
+    orders = [c.shapes["m"] for c in vetoed if _ripples(c)]
+    return any(abs(order - m) < 0.1 * m for m in orders)
 
 
 def _ripples(candidate: Candidate) -> bool:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 DAMPING = 0.1
 """Damping ratio of the resonance through which an elastic joint sees its load."""
+
+_STEP = 1e-5  # rad or m, of central differences
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,29 +121,54 @@ class Signals:
             return bristle(self.q[:, j], value)
         return resonance(self.load[:, j], self.step, value)
 
-    def moved(self, dq: np.ndarray) -> np.ndarray:
-        """(n, J) torque that follows a small change of the links' positions by dq (n, J).
+    @cached_property
+    def slopes(self) -> list[list[np.ndarray]]:
+        """(n, J) derivatives of the links' torque, by joint and q, v, a of it.
 
-        The directional derivative of the inverse dynamics of the links along (dq, dq', dq''), by
-        central differences, per unit of dq.
+        The torque is quadratic in v and linear in a: there differences are exact.
         """
-        largest = float(np.max(np.abs(dq), initial=0.0))
-        if largest == 0.0:
-            return np.zeros_like(self.q)
-        unit = dq * (1e-4 / largest)
-        dv = np.gradient(unit, self.step, axis=0)
-        da = np.gradient(dv, self.step, axis=0)
+        return [[self._slope(j, k) for k in range(3)] for j in range(self.q.shape[1])]
+
+    def _slope(self, j: int, kind: int) -> np.ndarray:
         model, beta = self.reference.compiled, self.reference.links
-        ahead = model.inverse_dynamics(self.q + unit, self.v + dv, self.a + da, beta, self.read)
-        behind = model.inverse_dynamics(self.q - unit, self.v - dv, self.a - da, beta, self.read)
-        return (ahead - behind) * (0.5 * largest / 1e-4)
+        size = (_STEP, 1.0, 1.0)[kind]
+        ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
+        step = np.zeros(self.q.shape[1])
+        step[j] = size
+        ahead[kind] = ahead[kind] + step
+        behind[kind] = behind[kind] - step
+        forth, back = (
+            model.inverse_dynamics(q, v, a, beta, self.read) for q, v, a in (ahead, behind)
+        )
+        return (forth - back) * (0.5 / size)
+
+    def moved(self, j: int, dq: np.ndarray) -> np.ndarray:
+        """(n, J) torque that follows a small change dq (n,) of the position of joint j.
+
+        The derivative of the inverse dynamics of the links along (dq, dq', dq'').
+        """
+        if not dq.any():
+            return np.zeros_like(self.q)
+        dv = np.gradient(dq, self.step)
+        da = np.gradient(dv, self.step)
+        return sum(
+            slope * change[:, None]
+            for slope, change in zip(self.slopes[j], (dq, dv, da), strict=True)
+        )
 
 
 def resonance(load: np.ndarray, step: float, frequency: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    numerator, denominator = _oscillator(step, frequency)
+    first = load[0]
+    return first + lfilter(numerator, denominator, load - first)
+
+
+@lru_cache(maxsize=64)
+def _oscillator(step: float, frequency: float) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of the resonance on a grid, loads straight between its points."""
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
     numerator, denominator, _ = cont2discrete(
         ([w**2], [1.0, 2.0 * DAMPING * w, w**2]), step, method="foh"
     )
-    first = load[0]
-    return first + lfilter(np.ravel(numerator), denominator, load - first)
+    return np.ravel(numerator), denominator

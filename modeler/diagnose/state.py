@@ -14,7 +14,8 @@ from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
 from modeler.diagnose.rank import Ranking, rank
 from modeler.diagnose.rows import Columns, Rows, rows_of
 from modeler.diagnose.signals import Reference
-from modeler.effects import CATALOGUE, Effect
+from modeler.diagnose.tilt import frame_slopes, tilt_weights
+from modeler.effects import CATALOGUE, Acts, Effect
 from modeler.observation import Observation
 
 if TYPE_CHECKING:
@@ -42,6 +43,19 @@ class Data:
     def blocks(self) -> Blocks:
         """Blocks and folds."""
         return blocks_of(self.observation)
+
+    @cached_property
+    def rows(self) -> Rows:
+        """All rows; effects are not linearised about anything yet."""
+        beta = np.zeros(len(self.compiled.spec.base))
+        return rows_of(
+            self.observation, Reference(self.compiled, beta, *_references(self.observation))
+        )
+
+    def rows_about(self, beta: np.ndarray) -> Rows:
+        """The rows with effects linearised about beta (c,)."""
+        blank = self.rows.signals[0].reference
+        return self.rows.about(dataclasses.replace(blank, beta=beta))
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -166,24 +180,41 @@ def state_of(
         beta: (c,) base parameters.
         cache: of columns that do not depend on beta, kept between states.
     """
-    reference = Reference(data.compiled, beta, *_references(data.observation))
-    rows = rows_of(data.observation, reference)
+    rows = data.rows_about(beta)
     kept = {} if cache is None else cache
     extra = tuple(columns_of(rows, pick, kept) for pick in picks)
-    return State(data, tuple(picks), reference, rows, extra, kept)
+    return State(data, tuple(picks), rows.signals[0].reference, rows, extra, kept)
 
 
 def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
     """The candidate's columns; those that do not depend on the model are computed once."""
+    if candidate.effect.acts is Acts.GRAVITY:
+        return _tilt(rows, cache)
     fixed = candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
     memory = candidate.form.memory
-    fixed = fixed and candidate.local and (memory is None or memory.kind == "slip")
+    fixed = fixed and candidate.effect.acts in _FIXED and (memory is None or memory.kind == "slip")
     key = (candidate.effect.id, candidate.joint, tuple(sorted(candidate.shapes.items())))
     if not fixed:
         return rows.columns(candidate)
     if key not in cache:
         cache[key] = rows.columns(candidate)
     return cache[key]
+
+
+_FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)
+"""What reads the motion only, if its equations do."""
+
+
+def _tilt(rows: Rows, cache: dict) -> Columns:
+    """`tilt_columns`: the model only weighs the slopes of the frames, which are filtered once."""
+    weights = tilt_weights(rows.signals[0].reference)
+    if weights is None:
+        return (None,) * rows.joints
+    key = "frame slopes"
+    if key not in cache:
+        slopes = [frame_slopes(s.reference.compiled, s.q) for s in rows.signals]
+        cache[key] = rows.spread([x.reshape(*x.shape[:2], -1) for x in slopes])
+    return tuple(None if own is None else own @ weights for own in cache[key])
 
 
 def visible(columns: Columns) -> bool:

@@ -20,37 +20,48 @@ def tilt_columns(signals: Signals) -> np.ndarray:
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
-    basis = tilt_basis(signals.reference)
+    weights = tilt_weights(signals.reference)
     n, joints = signals.q.shape
-    if basis is None:
+    if weights is None:
         return np.zeros((n, joints, 0))
-    model = signals.reference.compiled
-    return np.stack([gravity_torque(model, signals.q, axis, chi) for axis, chi in basis], axis=2)
+    slopes = frame_slopes(signals.reference.compiled, signals.q)
+    return slopes.reshape(n, joints, -1) @ weights
 
 
-def gravity_torque(
-    model: "CompiledModel", q: np.ndarray, axis: np.ndarray, chi: np.ndarray
-) -> np.ndarray:
-    """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS), by differences.
+def tilt_weights(reference: Reference) -> np.ndarray | None:
+    """(rows 3 4, k): `tilt_columns` of the entries of `frame_slopes`; None if it has none."""
+    basis = tilt_basis(reference)
+    if basis is None:
+        return None
+    return -np.column_stack([_weights(axis, chi) for axis, chi in basis])
 
-    Args:
-        model: the robot.
-        q: (n, J).
-        axis: (3,) m/s^2 in frame 0.
-        chi: (rows, 4) M, MX, MY, MZ of every moving row.
-    """
-    found = np.empty(q.shape)
+
+def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
+    """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
+    found = []
     for j in range(q.shape[1]):
         step = np.zeros(q.shape[1])
         step[j] = _STEP
-        found[:, j] = _moment(model, q + step, axis, chi) - _moment(model, q - step, axis, chi)
-    return -found / (2.0 * _STEP)
+        ahead, behind = model.forward_kinematics(q + step), model.forward_kinematics(q - step)
+        found.append((ahead - behind) / (2.0 * _STEP))
+    return np.stack(found, axis=1)
 
 
-def _moment(model: "CompiledModel", q: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
-    frames = model.forward_kinematics(q)
-    along = np.einsum("a,nrab->nrb", axis, frames)
-    return np.einsum("nrb,rb->n", along, np.column_stack([chi[:, 1:], chi[:, 0]]))
+def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+    """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS).
+
+    Args:
+        slopes: (n, J, rows, 3, 4) of `frame_slopes`.
+        axis: (3,) m/s^2 in frame 0.
+        chi: (rows, 4) M, MX, MY, MZ of every moving row.
+    """
+    return -slopes.reshape(*slopes.shape[:2], -1) @ _weights(axis, chi)
+
+
+def _weights(axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+    """(rows 3 4,) of the frames' entries in axis . sum (M p + R MS)."""
+    moments = np.column_stack([chi[:, 1:], chi[:, 0]])
+    return (axis[None, :, None] * moments[:, None, :]).ravel()
 
 
 def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | None:
@@ -65,7 +76,8 @@ def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | No
     chi = _stands_for(reference, rows)
     q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
     unit = np.eye(3)
-    along = np.column_stack([gravity_torque(model, q, e, chi).ravel() for e in unit])
+    slopes = frame_slopes(model, q)
+    along = np.column_stack([gravity_torque(slopes, e, chi).ravel() for e in unit])
     target = model.gravity(q, reference.links).ravel()
     if np.linalg.norm(target) <= _SEEN or np.linalg.norm(along) <= _SEEN:
         return None
@@ -76,7 +88,7 @@ def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | No
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
     found = [(axis, chi) for axis in axes]
-    return found + _woken(model, q, axes, down, rows)
+    return found + _woken(slopes, axes, down, len(rows))
 
 
 def _stands_for(reference: Reference, rows: list[str]) -> np.ndarray:
@@ -91,20 +103,19 @@ def _stands_for(reference: Reference, rows: list[str]) -> np.ndarray:
 
 
 def _woken(
-    model: "CompiledModel", q: np.ndarray, axes: tuple[np.ndarray, np.ndarray], down: np.ndarray,
-    rows: list[str],
-) -> list[tuple[np.ndarray, np.ndarray]]:  # fmt: skip
+    slopes: np.ndarray, axes: tuple[np.ndarray, np.ndarray], down: np.ndarray, rows: int
+) -> list[tuple[np.ndarray, np.ndarray]]:
     """First moments without torque under the model's gravity that the others make felt."""
     found: list[tuple[np.ndarray, np.ndarray]] = []
-    known = np.zeros((q.size, 0))
-    for r in range(len(rows)):
+    known = np.zeros((slopes.shape[0] * slopes.shape[1], 0))
+    for r in range(rows):
         for k in (1, 2, 3):
-            chi = np.zeros((len(rows), 4))
+            chi = np.zeros((rows, 4))
             chi[r, k] = 1.0
-            if np.linalg.norm(gravity_torque(model, q, down, chi)) > _SEEN:
+            if np.linalg.norm(gravity_torque(slopes, down, chi)) > _SEEN:
                 continue
             for axis in axes:
-                column = gravity_torque(model, q, axis, chi).ravel()
+                column = gravity_torque(slopes, axis, chi).ravel()
                 rest = column - known @ (known.T @ column)
                 if np.linalg.norm(rest) > 1e-3 * max(1.0, float(np.linalg.norm(column))):
                     known = np.column_stack([known, rest / np.linalg.norm(rest)])

@@ -1,13 +1,12 @@
 """One effect more: described, derived, emitted, fitted, and judged on other motion."""
 
 import dataclasses
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.compare.predict import predict
+from modeler.compare.predict import on_rows
 from modeler.compare.prediction import check_prediction, relative_error
 from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError
@@ -16,27 +15,21 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
-from modeler.diagnose.search import judged_state
+from modeler.diagnose.search import surveyed
 from modeler.diagnose.state import Data, State, state_of
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
-from modeler.observation import Log, Processing, observe
+from modeler.improve.rows import Logs, Rows, rows_of
+from modeler.observation import Observation
+from modeler.observation.torque import model_torque
 from modeler.robot import robot_from_text
 
 if TYPE_CHECKING:
     from modeler.diagnose import Finding
 
 _HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
-
-
-@dataclass(frozen=True, eq=False)
-class Logs:
-    """What the model is fitted to, and what it is judged on."""
-
-    fitted: Sequence[Log]
-    held_out: Sequence[Log] = ()
 
 
 def add_effect(
@@ -59,13 +52,14 @@ def add_effect(
     """
     catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
     effect = asked(model, name, joint, catalogue)
-    observation = analysed(compiled, logs.fitted, model.processing)
+    rows = rows_of(compiled, logs, model.processing)
+    observation = analysed(compiled, logs.fitted, model.processing, prepared=rows.prepared[0])
     kept = kept_parameters(model, compiled, logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
     state = state_of(Data(compiled, observation, kept, catalogue), (), model.beta)
     best = _best(state, effect, joint)
-    return _added(model, compiled, state, best.candidate, best.values, logs)
+    return _added(model, rows, state, best.candidate, best.values)
 
 
 def add_findings(
@@ -94,13 +88,15 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
         raise DataError("undo: no effect was added to this model")
     before = model.history[-2]
     processing = dataclasses.replace(model.processing, delay=before.delay)
-    fitted = _fitted(before.robot_text, logs.fitted, processing)
+    fitted, _ = _fitted(
+        before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
+    )
     return dataclasses.replace(fitted, history=model.history[:-1])
 
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    judgement = judged_state(state, only=effect.id)
+    judgement = surveyed(state, only=effect.id).judged()
     found = [j for j in judgement.ranked if joint is None or j.candidate.joint == joint]
     if not found:
         raise DataError(
@@ -117,31 +113,27 @@ def _best(state: State, effect: Effect, joint: str | None) -> Judged:
 
 
 def _added(
-    model: IdentifiedModel, compiled: CompiledModel, state: State, pick: Candidate,
-    values: np.ndarray, logs: Logs,
-) -> IdentifiedModel:  # fmt: skip
-    history = model.history or (_step(model, compiled, None, logs),)
+    model: IdentifiedModel, rows: Rows, state: State, pick: Candidate, values: np.ndarray
+) -> IdentifiedModel:
+    history = model.history or (_step(model, None, rows),)
     if pick.effect.acts is Acts.LINK:
-        better = _loaded(model, compiled, pick, values)
+        better, seen = _loaded(model, rows.compiled, pick, values), rows
     elif pick.effect.acts is Acts.TORQUE:
         delay = model.processing.delay + float(values[0])
         processing = dataclasses.replace(model.processing, delay=delay)
-        better = _fitted(model.robot_text, logs.fitted, processing)
+        better, seen = _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
     else:
-        text = described(model.robot_text, pick, values, state.reference)
-        better = _fitted(text, logs.fitted, model.processing)
-    step = _step(better, load(better.spec, better.sources), pick, logs)
-    return dataclasses.replace(better, history=(*history, step))
+        better, seen = _fitted(described(model.robot_text, pick, values, state.reference), rows.of)
+    return dataclasses.replace(better, history=(*history, _step(better, pick, seen)))
 
 
-def _fitted(text: str, logs: Sequence[Log], processing: Processing) -> IdentifiedModel:
-    """The robot of that file fitted to the logs."""
+def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> tuple[IdentifiedModel, Rows]:
+    """The robot of that file fitted to the logs, and their rows."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
-    observation = observe(load(emitted.spec, emitted.files), logs, processing)
-    return IdentifiedModel(
-        text, emitted.spec, emitted.files, identify(observation), provenance(observation.report)
-    )
+    rows = seen(load(emitted.spec, emitted.files))
+    fit, used = identify(rows.fitted), provenance(rows.fitted.report)
+    return IdentifiedModel(text, emitted.spec, emitted.files, fit, used), rows
 
 
 def _loaded(
@@ -171,26 +163,23 @@ def _felt(compiled: CompiledModel, names: Sequence[str], own: Sequence[str]) -> 
     return [n for n in own if np.abs(phi[:, :, list(names).index(n)]).max() > 1e-12]
 
 
-def _step(
-    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate | None, logs: Logs
-) -> Addition:
+def _step(model: IdentifiedModel, pick: Candidate | None, rows: Rows) -> Addition:
     """The error of a model, as a step of its history."""
-    training = _error(model, compiled, logs.fitted)
-    error = _error(model, compiled, logs.held_out) if logs.held_out else training
+    training, *held_out = [_error(model, rows.compiled, seen) for seen in rows.seen]
     return Addition(
         effect=pick.effect.id if pick else "",
         joint=pick.joint if pick else None,
         shapes=dict(pick.shapes) if pick else {},
-        error=error,
+        error=held_out[0] if held_out else training,
         training_error=training,
-        held_out=tuple(log.name for log in logs.held_out),
+        held_out=tuple(log.name for log in rows.logs.held_out),
         robot_text=model.robot_text,
         delay=model.processing.delay,
     )
 
 
-def _error(model: IdentifiedModel, compiled: CompiledModel, logs: Sequence[Log]) -> float:
+def _error(model: IdentifiedModel, compiled: CompiledModel, seen: Observation) -> float:
     """Relative error over all joints."""
-    prediction, _ = predict(model, logs, compiled)
+    prediction = on_rows(seen, model_torque(seen, compiled, model.beta))
     check_prediction(prediction)
     return relative_error(prediction)

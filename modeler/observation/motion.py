@@ -126,8 +126,10 @@ def _counted(
     valid = np.ones(piece.valid.shape, dtype=bool)
     lost = {}
     for cause, flags in causes.items():
-        lost[cause] = np.sum(valid & flags, axis=0)
-        valid = valid & ~flags
+        lost[cause] = np.zeros(len(valid[0]), dtype=int)
+        if flags.any():
+            lost[cause] = np.sum(valid & flags, axis=0)
+            valid = valid & ~flags
     return valid, lost
 
 

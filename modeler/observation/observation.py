@@ -27,9 +27,9 @@ class Observation:
         time: (s,) s.
         q, qd, qdd: (s, n) motion, filtered alike.
         torque: (s, n) filtered torque, N m or N.
-        columns: (s, n, c) filtered regressor: torque = columns beta + residual.
         used: (s, n) rows that count; the others are for pictures.
         stretches: full-rate data, for further columns.
+        regressor: (b, n, c) at full rate, for the b samples of a segment in a window.
         report: what was done.
     """
 
@@ -45,10 +45,15 @@ class Observation:
     qd: np.ndarray
     qdd: np.ndarray
     torque: np.ndarray
-    columns: np.ndarray
     used: np.ndarray
     stretches: tuple[Stretch, ...]
+    regressor: Callable[[Segment, slice], np.ndarray]
     report: DataReport
+
+    @cached_property
+    def columns(self) -> np.ndarray:
+        """(s, n, c) filtered regressor: torque = columns beta + residual."""
+        return self.filtered(self.regressor)
 
     @cached_property
     def W(self) -> np.ndarray:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array
 
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
@@ -33,9 +33,15 @@ class RowFilter:
     weights: csr_array
     centres: np.ndarray
 
-    def means(self, values: np.ndarray, usable: np.ndarray) -> np.ndarray:
-        """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is."""
-        masked = self.weights @ diags_array(usable.astype(float))
+    def means(
+        self, values: np.ndarray, usable: np.ndarray,
+        used: np.ndarray | None = None, whole: np.ndarray | None = None,
+    ) -> np.ndarray:  # fmt: skip
+        """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is.
+
+        Rows that are not used (rows,), if that is given, are means over whole (samples,).
+        """
+        masked = only(self.weights, usable, used, whole)
         total = masked @ np.ones(len(usable))
         flat = masked @ values.reshape(len(values), -1)
         flat = flat / np.where(total > 0.0, total, 1.0)[:, None]
@@ -52,8 +58,24 @@ class RowFilter:
         return RowFilter(self.weights[rows, window], self.centres[rows] - window.start)
 
     def share(self, usable: np.ndarray) -> np.ndarray:
-        """(rows,) share of each row's weight that falls on usable samples."""
-        return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)
+        """(rows, joints) share of each row's weight on usable samples (samples, joints)."""
+        return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)[:, None]
+
+
+def only(
+    weights: csr_array, usable: np.ndarray,
+    used: np.ndarray | None = None, whole: np.ndarray | None = None,
+) -> csr_array:  # fmt: skip
+    """The weights (rows, samples) with 0 for samples that are not usable (samples,).
+
+    In rows that are not used (rows,) with 0 for samples that are not whole (samples,).
+    """
+    counts = usable[weights.indices]
+    if used is not None and whole is not None and not used.all():
+        row_used = np.repeat(used, np.diff(weights.indptr))
+        counts = np.where(row_used, counts, whole[weights.indices])
+    data = weights.data * counts
+    return csr_array((data, weights.indices, weights.indptr), shape=weights.shape)
 
 
 def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | None) -> RowFilter:

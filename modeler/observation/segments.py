@@ -114,8 +114,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     step = float(time[1] - time[0])
     uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
 
-    near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
-    near = near - (time - measured[near - 1] < measured[near] - time)
+    near = np.arange(samples) if uniform else _nearest(measured, time)
     bridged = np.abs(time - measured[near]) > _NEAR * step
     short = bridged & ~longer_runs(bridged, SHORT)
 
@@ -130,7 +129,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     def smooth(values: np.ndarray | None) -> np.ndarray | None:
         return on_grid(values) if values is not None and logged_motion else None
 
-    tau, valid = _bridge(time, measured, log.tau[rows], step)
+    tau, valid = _bridge(time, measured, log.tau[rows], bridged, step)
     return Piece(
         run=run,
         time=time,
@@ -140,12 +139,18 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
         qd=smooth(log.qd),
         qdd=smooth(log.qdd),
         extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
-        valid=valid & ~bridged[:, None],
+        valid=valid,
         bridged=bridged,
         contradicted=np.zeros(samples, dtype=bool),
         clipped=clipped[rows][near],
         resampled=not uniform,
     )
+
+
+def _nearest(stamps: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """(n,) place of the nearest of the stamps, two or more, to each time."""
+    near = np.searchsorted(stamps, time).clip(1, len(stamps) - 1)
+    return np.asarray(near - (time - stamps[near - 1] < stamps[near] - time))
 
 
 def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:
@@ -158,19 +163,29 @@ def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:
 
 
 def _bridge(
-    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, step: float
+    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, bridged: np.ndarray, step: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Torque on the grid, missing entries bridged linearly; and where it is measured."""
+    """Torque on the grid, missing entries bridged linearly; and where it and all else is measured.
+
+    Args:
+        time: (n,) the grid.
+        measured: (m,) time stamps.
+        tau: (m, joints) as measured.
+        bridged: (n,) True where no row was measured near.
+        step: of the grid, s.
+    """
     values = np.zeros((len(time), tau.shape[1]))
-    valid = np.zeros(values.shape, dtype=bool)
+    valid = np.repeat(~bridged[:, None], tau.shape[1], axis=1)
     for j in range(tau.shape[1]):
         there = np.isfinite(tau[:, j])
         if not there.any():
+            valid[:, j] = False
             continue
         stamps = measured[there]
         values[:, j] = np.interp(time, stamps, tau[there, j])
-        right = np.searchsorted(stamps, time).clip(0, len(stamps) - 1)
-        left = (right - 1).clip(0)
-        distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
-        valid[:, j] = distance <= _NEAR * step
+        if not there.all():
+            right = np.searchsorted(stamps, time).clip(0, len(stamps) - 1)
+            left = (right - 1).clip(0)
+            distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
+            valid[:, j] &= distance <= _NEAR * step
     return values, valid

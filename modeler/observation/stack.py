@@ -1,7 +1,7 @@
 """y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
+import dataclasses
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,6 +43,17 @@ def observe(
         DataError: no logs, of another robot, or no usable row.
     """
     prepared = prepare(model.spec, logs, processing or Processing())
+    return observed(model, logs, prepared, every_joint)
+
+
+def observed(
+    model: "CompiledModel", logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
+) -> Observation:
+    """The observation of logs that are prepared already, for this or a like robot.
+
+    Raises:
+        DataError: no usable row.
+    """
     parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
@@ -64,6 +75,18 @@ def observe(
     return _stack(model, logs, stretches, report)
 
 
+def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
+    """What a robot makes of logs that another one has seen, which masks the same samples."""
+    return dataclasses.replace(
+        like,
+        robot=model.spec.robot,
+        joints=model.spec.joints,
+        names=tuple(base.name for base in model.spec.base),
+        units=tuple(base.unit for base in model.spec.base),
+        regressor=_regressor(model, like.stretches),
+    )
+
+
 def _stretch(segment: Segment, parts: Sequence[Shaft], processing: Processing) -> Stretch:
     assert processing.parallel_cutoff is not None
     assert processing.speed_floors is not None
@@ -80,16 +103,7 @@ def _stack(
     stretches: tuple[Stretch, ...],
     report: DataReport,
 ) -> Observation:
-    def gather(evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
-        return np.concatenate(
-            [part.filtered(partial(evaluate, part.segment)) for part in stretches]
-        )
-
-    def plain(name: str) -> np.ndarray:
-        return np.concatenate(
-            [part.rows.means(getattr(part.segment, name), part.segment.whole) for part in stretches]
-        )
-
+    motion = np.concatenate([_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
         robot=model.spec.robot,
@@ -100,15 +114,25 @@ def _stack(
         run=np.repeat([part.segment.run for part in stretches], counts),
         segment=np.repeat(np.arange(len(stretches)), counts),
         time=np.concatenate([part.segment.time[part.rows.centres] for part in stretches]),
-        q=plain("q"),
-        qd=plain("qd"),
-        qdd=plain("qdd"),
-        torque=gather(lambda s, w: s.tau[w]),
-        columns=gather(_regressor(model, stretches)),
+        q=motion[:, 0],
+        qd=motion[:, 1],
+        qdd=motion[:, 2],
+        torque=np.concatenate([part.filtered(_torque(part.segment)) for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
+        regressor=_regressor(model, stretches),
         report=report,
     )
+
+
+def _motion(part: Stretch) -> np.ndarray:
+    """(rows, 3, joints) q, qd, qdd over all whole samples."""
+    s = part.segment
+    return part.rows.means(np.stack([s.q, s.qd, s.qdd], axis=1), s.whole)
+
+
+def _torque(segment: Segment) -> Callable[[slice], np.ndarray]:
+    return lambda window: segment.tau[window]
 
 
 def _regressor(

@@ -53,14 +53,12 @@ class Stretch:
         """Means over usable samples where the row counts, over all whole samples elsewhere."""
         result = np.empty((len(used), *values.shape[1:]))
         for j in range(values.shape[1]):
-            result[:, j] = part.means(values[:, j], self.usable[window, j])
-            if not used[:, j].all():
-                plain = part.means(values[:, j], self.segment.whole[window])
-                result[~used[:, j], j] = plain[~used[:, j]]
+            result[:, j] = part.means(
+                values[:, j], self.usable[window, j], used[:, j], self.segment.whole[window]
+            )
         return result
 
 
 def stretch(segment: Segment, usable: np.ndarray, rows: RowFilter) -> Stretch:
     """The segment with its filter; rows with half of their weight on usable samples count."""
-    share = [rows.share(usable[:, j]) for j in range(usable.shape[1])]
-    return Stretch(segment, usable, rows, np.column_stack(share) >= LEAST_WEIGHT)
+    return Stretch(segment, usable, rows, rows.share(usable) >= LEAST_WEIGHT)

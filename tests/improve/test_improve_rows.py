@@ -1,0 +1,36 @@
+"""Rows of one robot serve the same robot with other effects."""
+
+import numpy as np
+
+from modeler.compiled import load
+from modeler.improve import Logs, add_effect
+from modeler.improve.rows import rows_of
+from modeler.observation import Log
+from modeler.observation.torque import model_torque
+from tests.diagnose.conftest import Case, motion, on_joint
+from tests.diagnose.conftest import case as case  # the fixture
+
+
+def spring(log: Log) -> np.ndarray:
+    return on_joint(log, 2, 1.5 * motion(log)[0][:, 2])
+
+
+def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case) -> None:
+    model, train, holdout = case.hidden(spring)
+    logs = Logs([train], [holdout])
+    before = rows_of(case.compiled, logs, model.processing)
+    better = add_effect(model, case.compiled, "spring", "3", logs)
+    compiled = load(better.spec, better.sources)
+    alike, fresh = before.of(compiled), rows_of(compiled, logs, model.processing)
+    for ours, own in zip(alike.seen, fresh.seen, strict=True):
+        np.testing.assert_array_equal(ours.W, own.W)
+        np.testing.assert_array_equal(ours.y, own.y)
+        assert (ours.names, ours.units, ours.joints) == (own.names, own.units, own.joints)
+        assert ours.report == own.report
+
+
+def test_the_inverse_dynamics_give_the_torque_of_the_columns(case: Case) -> None:
+    model, train, _ = case.hidden(spring)
+    seen = rows_of(case.compiled, Logs([train]), model.processing).fitted
+    torque = model_torque(seen, case.compiled, model.beta)
+    np.testing.assert_allclose(torque, seen.predicted(model.beta), atol=1e-9)
