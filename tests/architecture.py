@@ -38,10 +38,10 @@ PACKAGES: dict[str, set[str]] = {
     "observation": {"numpy", "scipy", "pyarrow"},
     "fit": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
-    "diagnose": {"numpy", "scipy"},
+    "diagnose": {"numpy", "scipy", "threadpoolctl"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "derivation": set(),
-    "improve": {"numpy"},
+    "improve": {"numpy", "threadpoolctl"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
@@ -26,6 +27,7 @@ CHANGED = 1.3
 has changed since the fit."""
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def diagnose(
     model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
     holdout: Sequence[Log] = (),

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from modeler.compare.predict import on_rows
 from modeler.compare.prediction import check_prediction, relative_error
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 _HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def add_effect(
     model: IdentifiedModel, compiled: CompiledModel, name: str, joint: str | None, logs: Logs
 ) -> IdentifiedModel:
