@@ -5,21 +5,21 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.diagnose.blind import blind_spots
-from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.channels import Fault
 from modeler.diagnose.closure import CLOSED, closure
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
+from modeler.diagnose.detected import detected
 from modeler.diagnose.doubts import doubts
-from modeler.diagnose.errors import crossed_errors, held_out_squares, relative
+from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
-from modeler.diagnose.search import Search, Step, ruled_out
+from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
-from modeler.diagnose.systematic import predictable, repeatable
+from modeler.diagnose.systematic import systematic_share
 from modeler.diagnose.values import values_of
 from modeler.effects import RIPPLES, Acts
 from modeler.fit import IdentifiedModel
@@ -57,11 +57,11 @@ def assembled(
     chain = _chain(found)
     seen = [held_out_squares(s, other) for s in chain] if other else None
     errors = [relative(*pair) for pair in seen] if seen else [crossed_errors(s) for s in chain]
-    systematic = [_systematic(found.end, j) for j in range(len(errors[0]))]
+    shares = [systematic_share(found.end, j) for j in range(len(errors[0]))]
     contradicted = any(fault.certain for fault in faults)
-    findings = [] if contradicted else _findings(found, chain, window, errors, systematic, seen)
+    findings = [] if contradicted else _findings(found, chain, window, errors, shares, seen)
     effects = tuple(f for f in findings if not f.refines)
-    joints = _joints(found, errors, systematic)
+    joints = _joints(found, errors, shares)
     data = found.start.data
     diagnosis = Diagnosis(
         robot=model.spec.robot,
@@ -104,7 +104,7 @@ def _findings(
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
         findings.append(_finding(found, step, touched, errors[k : k + 2], closed))
-    return findings + _detected(found, window, errors, findings)
+    return findings + detected(found, window, errors, findings)
 
 
 def _chain(found: Search) -> list[State]:
@@ -115,12 +115,6 @@ def _chain(found: Search) -> list[State]:
         for k in range(1, len(picks))
     ]
     return [found.start, *middle, *([found.end] if picks else [])]
-
-
-def _systematic(state: State, j: int) -> float:
-    """Share of the residual's variance that is systematic."""
-    again = repeatable(state, j)
-    return max(predictable(state, j), again if again is not None else 0.0)
 
 
 def _touched(step: Step, before: State, after: State) -> list[int]:
@@ -148,7 +142,7 @@ def _finding(
     place = next(i for i, s in enumerate(found.steps) if s is step)
     named = values_of(found.end, pick, found.end.values[place], judged.deviations)
     parameters = named.value | dict(pick.shapes)
-    start, end = (_over(found, touched, error) for error in errors)
+    start, end = (finite(over(found.end, touched, error)) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
                                 *_same(judged, found)]))  # fmt: skip
     return Finding(
@@ -213,75 +207,6 @@ def _same_waves(first: Candidate, later: Candidate) -> bool:
     kinds = {c.effect.id for c in (first, later)}
     waves = kinds <= {*RIPPLES, "encoder_eccentricity"}
     return waves and abs(orders[0] - orders[1]) < SAME_WAVES * max(orders)
-
-
-def _over(found: Search, concerned: Sequence[int], errors: np.ndarray) -> float:
-    """Relative error over some joints: the torque of each counts in units of what is left of it."""
-    torque = zip(found.end.rows.y, found.end.base.sigma, strict=True)
-    size = np.array([float(np.mean((y / s) ** 2)) if y.size else 0.0 for y, s in torque])
-    own = list(concerned)
-    total = float(size[own].sum())
-    return finite(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
-
-
-def _detected(
-    found: Search,
-    window: Window | None,
-    errors: Sequence[np.ndarray],
-    findings: Sequence[Finding],
-) -> list[Finding]:
-    """Findings that are no columns: contact and play."""
-    result = []
-    every = range(len(errors[0]))
-    if window is not None:
-        force = window.force if window.force is not None else np.zeros(3)
-        names = ("fx", "fy", "fz")
-        result.append(
-            Finding(
-                "external_force", None, 1.0 - 1.0 / window.ratio,
-                _over(found, every, errors[0]), _over(found, every, errors[-1]),
-                {"t0": window.start, "t1": window.end}
-                | dict(zip(names, map(float, force), strict=True)),
-                {}, dict.fromkeys(names, "N"), (),
-                f"the residuals of several joints burst from {window.start:.1f} to "
-                f"{window.end:.1f} s, {window.ratio:.0f} times the energy of any other moment; "
-                "these rows are left out of everything else",
-                None, False,
-            )
-        )  # fmt: skip
-    least = LOUD if any(not f.refines for f in findings) else BURST
-    return result + _play(found, errors, least)
-
-
-def _play(found: Search, errors: Sequence[np.ndarray], least: float) -> list[Finding]:
-    """Play in a gear, on the joint whose bursts its column describes best."""
-    joints = found.end.data.compiled.spec.joints
-    ratios = [
-        burst_ratio(found.end, j)
-        if joint.actuated and not ruled_out("backlash", joint.name, found.without)
-        else 0.0
-        for j, joint in enumerate(joints)
-    ]
-    bursting = [j for j, ratio in enumerate(ratios) if ratio > least]
-    if not bursting:
-        return []
-    described = {
-        item.candidate.index: item.gain
-        for item in found.last.ranked if item.candidate.effect.id == "backlash"
-    }  # fmt: skip
-    j = max(bursting, key=lambda k: (described.get(k, 0.0), ratios[k]))
-    text = (
-        f"joint {joints[j].name}: {ratios[j]:.0f} times the residual energy within 0.1 s after "
-        "the load changes sign, while the joint moves on"
-    )
-    others = tuple(("backlash", joints[k].name) for k in bursting if k != j)
-    before, after = float(errors[0][j]), float(errors[-1][j])
-    gain = 1.0 - 1.0 / ratios[j]
-    return [
-        Finding(
-            "backlash", joints[j].name, gain, before, after, {}, {}, {}, others, text, None, False
-        )
-    ]
 
 
 def _joints(

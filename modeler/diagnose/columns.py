@@ -6,7 +6,7 @@ from modeler.core.contract import ModuleSpec, ParameterSpec
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.signals import Signals
 from modeler.diagnose.tilt import tilt_columns
-from modeler.effects import Acts, Memory
+from modeler.effects import ENCODERS, Acts, Memory
 
 FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp,
@@ -63,7 +63,8 @@ def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
         return _passive(candidate, signals)
     own = own_columns(candidate, signals)
     if acts is Acts.POSITION:
-        return np.stack([signals.moved(candidate.index, dq) for dq in own.T], axis=2)
+        whole = candidate.effect.id in ENCODERS
+        return np.stack([signals.moved(candidate.index, dq, whole) for dq in own.T], axis=2)
     result = np.zeros((n, joints, own.shape[1]))
     result[:, candidate.index] = own
     return result

@@ -1,7 +1,7 @@
 """Errors of a state on motion it was not fitted to."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -59,6 +59,15 @@ def crossed_errors(state: State) -> np.ndarray:
     size = np.array([float(np.sum((y / s) ** 2)) for y, s in
                      zip(state.rows.y, base.sigma, strict=True)])  # fmt: skip
     return np.sqrt(left / np.where(size > 0.0, size, 1.0))
+
+
+def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:
+    """Relative error over some joints: the torque of each counts in units of what is left of it."""
+    torque = zip(state.rows.y, state.base.sigma, strict=True)
+    size = np.array([float(np.mean((y / s) ** 2)) if y.size else 0.0 for y, s in torque])
+    own = list(concerned)
+    total = float(size[own].sum())
+    return float(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
 
 
 KEPT = 0.2

@@ -125,6 +125,8 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
+    What only mends a law in the model comes last.
+
     A timing-like effect may stand for another timing-like one only.
     """
     timing = best.candidate.effect.timing
@@ -133,12 +135,19 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         if other.significant and (timing or not other.candidate.effect.timing)
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
     ]  # fmt: skip
-    order = sorted([best, *near], key=lambda j: (_numbers(j.candidate), -float(j.drop.sum())))
+    order = sorted(
+        [best, *near], key=lambda j: (_mends(j), _numbers(j.candidate), -float(j.drop.sum()))
+    )
     return next(
         j
         for j in order
         if j is best or not j.candidate.effect.timing or confirmed(state, j.candidate, j.values)
     )
+
+
+def _mends(judged: Judged) -> bool:
+    """True if its sign says that it mends the form of a law in the model."""
+    return judged.candidate.effect.negative != "" and float(judged.values[0]) < 0.0
 
 
 def _numbers(candidate: Candidate) -> float:

@@ -20,6 +20,14 @@ WHOLE = 0.85
 rollers are counted."""
 
 
+def best_polished(state: State, starts: Sequence[Candidate]) -> Candidate:
+    """The best of several shapes of one effect, each refined."""
+    found = [polished(state, start) for start in starts]
+    if len(found) == 1:
+        return found[0]
+    return max(found, key=lambda candidate: _explained(state, candidate))
+
+
 def polished(state: State, candidate: Candidate) -> Candidate:
     """The candidate at the shapes that explain most: variable projection, one shape at a time."""
     smooth = [s for s in candidate.form.shapes if _free(s, candidate)]

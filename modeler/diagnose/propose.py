@@ -1,5 +1,7 @@
 """All candidates of a state: those of the effects' grids, and those that the data suggest."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate, candidates
@@ -10,25 +12,41 @@ from modeler.effects import RIPPLES, effect_named
 _WAVES = (*RIPPLES, "encoder_eccentricity")
 
 
-def proposals(state: State, only: str | None = None) -> list[Candidate]:
+def proposals(
+    state: State, only: str | None = None, without: Sequence[str] = ()
+) -> list[Candidate]:
     """What could be missing in this state, without what was put in already.
 
     Args:
         state: it.
-        only: id of the one effect that is asked for; others are proposed as far as is free.
+        only: id of the one effect that is asked for.
+        without: ids of effects, or id@joint, that the user rules out.
     """
     spec = state.data.compiled.spec
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
-    found = candidates(spec, state.scales, temperature, present, state.data.catalogue)
+    asked = [e for e in state.data.catalogue if e.id not in without and only in (None, e.id)]
+    found = candidates(spec, state.scales, temperature, present, asked)
     found = [c for c in found if _lasts(state, c)]
     if only is None or only in _WAVES:
         found += ripple_candidates(state)
     if changed:
         found += load_candidates(state)
-    taken = {pick.key for pick in state.picks if pick.effect.id not in RIPPLES}
-    return [candidate for candidate in found if candidate.key not in taken]
+    taken = {
+        (same, pick.joint) for pick in state.picks if pick.effect.id not in RIPPLES
+        for same in (pick.effect.id, *pick.effect.same_as)
+    }  # fmt: skip
+    return [
+        c for c in found
+        if c.key not in taken and only in (None, c.effect.id)
+        and not ruled_out(c.effect.id, c.joint, without)
+    ]  # fmt: skip
+
+
+def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
+    """True if the user rules out the effect, everywhere or on that joint."""
+    return effect in without or f"{effect}@{joint}" in without
 
 
 def _lasts(state: State, candidate: Candidate) -> bool:

@@ -15,7 +15,7 @@ from modeler.diagnose.judge import (
     decide,
     judge,
 )
-from modeler.diagnose.polish import polished
+from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals
 from modeler.diagnose.rows import Columns
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
@@ -25,6 +25,9 @@ _T = TypeVar("_T")
 
 MOST = 8
 """Effects named in one diagnosis."""
+
+STARTS = 4
+"""Grid values from which an effect with two shapes is refined: its fit has several summits."""
 
 CLOSE = 0.7
 """Rivals with this share of the best gain are refined before the best is chosen."""
@@ -164,7 +167,7 @@ class Survey:
         if not leading:
             return decide(state, list(left.best))
         for item in leading:
-            better = polished(state, item.candidate)
+            better = best_polished(state, self._starts(item.candidate))
             if better is not item.candidate:
                 place = next(i for i, c in enumerate(found) if c is item.candidate)
                 found[place], columns[place] = better, columns_of(state.rows, better, {})
@@ -173,13 +176,19 @@ class Survey:
         again = [i for i, c in enumerate(found) if c.key in keys or id(c) in best]
         return judge(state, _picked(found, again), _picked(columns, again))
 
+    def _starts(self, first: Candidate) -> list[Candidate]:
+        """Shapes of one effect from which refining starts, the best first."""
+        if sum(shape.smooth for shape in first.form.shapes) < 2:
+            return [first]
+        own = [i for i, c in enumerate(self.found) if c.key == first.key]
+        total = self.state.ranked(_picked(self.columns, own))[1].drop.sum(axis=0)
+        order = [self.found[own[k]] for k in np.argsort(-total)]
+        return [first, *(c for c in order if c is not first)][:STARTS]
+
 
 def surveyed(state: State, without: Sequence[str] = (), only: str | None = None) -> Survey:
     """All candidates in a state, or those of one effect."""
-    found = [
-        c for c in proposals(state, only)
-        if only in (None, c.effect.id) and not ruled_out(c.effect.id, c.joint, without)
-    ]  # fmt: skip
+    found = proposals(state, only, without)
     columns = [columns_of(state.rows, c, state.cache) for c in found]
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
@@ -201,11 +210,6 @@ def _among(candidate: Candidate, vetoed: Sequence[Candidate]) -> bool:
 
 def _ripples(candidate: Candidate) -> bool:
     return candidate.effect.id in RIPPLES
-
-
-def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
-    """True if the user rules out the effect, everywhere or on that joint."""
-    return effect in without or f"{effect}@{joint}" in without
 
 
 def extended(state: State, pick: Candidate) -> State:

@@ -108,6 +108,8 @@ def _named(finding: Finding, diagnosis: Diagnosis) -> str:
 
 
 def _effect_line(finding: Finding) -> str:
+    if not finding.parameters:  # seen by a detector: neither value nor column
+        return finding.evidence
     values = ", ".join(
         f"{name} = {value:.4g}{unit(finding, name)}" for name, value in finding.parameters.items()
     )

@@ -44,6 +44,22 @@ class Reference:
         kinds = [base.kind for base in self.compiled.spec.base]
         return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
 
+    @cached_property
+    def drives(self) -> np.ndarray:
+        """(2, J) viscous friction and rotor inertia of each joint, where they stand alone."""
+        spec = self.compiled.spec
+        owner = {p.name: (p.effect, p.joint) for p in spec.standard}
+        values = {
+            owner[base.column_of]: float(value)
+            for base, value in zip(spec.base, self.beta, strict=True)
+        }
+        return np.array(
+            [
+                [values.get((effect, joint.name), 0.0) for joint in spec.joints]
+                for effect in ("viscous", "rotor_inertia")
+            ]
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Signals:
@@ -142,19 +158,28 @@ class Signals:
         )
         return (forth - back) * (0.5 / size)
 
-    def moved(self, j: int, dq: np.ndarray) -> np.ndarray:
+    def moved(self, j: int, dq: np.ndarray, whole: bool = False) -> np.ndarray:
         """(n, J) torque that follows a small change dq (n,) of the position of joint j.
 
         The derivative of the inverse dynamics of the links along (dq, dq', dq'').
+
+        Args:
+            j: index of the joint.
+            dq: rad or m.
+            whole: True if rotor and viscous friction are moved too.
         """
         if not dq.any():
             return np.zeros_like(self.q)
         dv = np.gradient(dq, self.step)
         da = np.gradient(dv, self.step)
-        return sum(
+        torque = sum(
             slope * change[:, None]
             for slope, change in zip(self.slopes[j], (dq, dv, da), strict=True)
         )
+        if whole:
+            viscous, rotor = self.reference.drives[:, j]
+            torque[:, j] += viscous * dv + rotor * da
+        return torque
 
 
 def resonance(load: np.ndarray, step: float, frequency: float) -> np.ndarray:

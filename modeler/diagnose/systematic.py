@@ -1,14 +1,22 @@
-"""How much of a residual is physics of whatever cause: predictable, or back in every lap."""
+"""How much of a residual is physics of whatever cause: predictable, back in every lap, no noise."""
 
 import numpy as np
 
 from modeler.compare.predictable import Moved
 from modeler.compare.predictable import predictable as predictable_share
 from modeler.diagnose.curves import curve_sets
+from modeler.diagnose.noise import knocking, lasting
 from modeler.diagnose.state import State
 from modeler.observation.bristle import bristle
 
 _SLIPS = (0.001, 0.01, 0.1)  # of the range of motion
+
+
+def systematic_share(state: State, j: int) -> float:
+    """Share of the variance of joint j's residual that cannot be noise."""
+    again = repeatable(state, j)
+    shares = (predictable(state, j), again or 0.0, lasting(state, j), knocking(state, j))
+    return max(shares)
 
 
 def predictable(state: State, j: int) -> float:

@@ -1,6 +1,7 @@
 """The catalogue of physical effects, each defined once."""
 
 from modeler.effects.catalogue import CATALOGUE as CATALOGUE
+from modeler.effects.catalogue import ENCODERS as ENCODERS
 from modeler.effects.catalogue import RIPPLES as RIPPLES
 from modeler.effects.catalogue import effect_named as effect_named
 from modeler.effects.effect import VARIABLES as VARIABLES

@@ -11,6 +11,9 @@ from modeler.effects.transmission import TRANSMISSION
 CATALOGUE: tuple[Effect, ...] = (*STANDARD, *FRICTION, *BODIES, *TRANSMISSION)
 
 
+ENCODERS = ("encoder_offset", "encoder_eccentricity")
+"""What moves the position of the whole axis, motor and links: the encoder shows it wrongly."""
+
 RIPPLES = ("motor_ripple", "joint_ripple")
 """Ids of effects that a joint may have several times: their orders come from the spectrum."""
 

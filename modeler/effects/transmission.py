@@ -6,7 +6,7 @@ from modeler.effects.writing import column, form
 _FREQUENCY = Shape(
     "f",
     "hertz",
-    (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0),
+    (3.0, 4.0, 5.0, 6.5, 8.0, 10.0, 12.5, 16.0, 20.0, 27.0, 40.0),
     (1.5, 60.0),
     "natural frequency, motor locked",
 )

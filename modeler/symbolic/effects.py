@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from modeler.core.errors import DerivationError
-from modeler.effects import Acts
+from modeler.effects import ENCODERS, Acts
 from modeler.symbolic.columns import StandardColumn
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.graph import Expr, Graph
@@ -78,7 +78,7 @@ def _moved(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
     """Torque of the links at the reference, differentiated along a small change of position.
 
     The change is the column's equation, dq(q); speeds and accelerations change by its time
-    derivatives.
+    derivatives. An encoder's error moves the rotor too.
 
     Raises:
         DerivationError: the equation has a part without derivative.
@@ -101,5 +101,6 @@ def _moved(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
     for k, coefficient in column.shaft.items():
         for kind, change in (("q", dq), ("qd", dv), ("qdd", da)):
             direction[f"{kind}[{k}]"] = change * coefficient
-    moved = derivatives(model.reference_torque("load"), direction)
+    kind = "axis" if column.effect in ENCODERS else "load"
+    moved = derivatives(model.reference_torque(kind), direction)
     return {k: value for k, value in enumerate(moved) if not value.is_zero}

@@ -35,6 +35,8 @@ from modeler.symbolic.signals import Signal, signals_of
 _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
 """Effects whose parameters `[reference]` may state: those that depend on nothing else."""
 
+_SMOOTH = ("rigid_body", "rotor_inertia", "viscous")
+
 Entries = Mapping[tuple[int, int], Expr]
 """Structural nonzeros of a regressor: (joint, column) -> expression."""
 
@@ -158,16 +160,18 @@ class SymbolicModel:
         """Torques along the free variables at the parameters of `[reference]`.
 
         Args:
-            kind: "load", of the links; "static", of gravity; "torque", of the textbook effects too.
+            kind: "load", of the links; "static", of gravity; "torque", of the textbook effects too;
+                "axis", of links, rotors and viscous friction: what follows from a motion smoothly.
         """
+        referred = _SMOOTH if kind == "axis" else _REFERRED
         known = {
             place: self.graph.constant(Fraction(repr(float(self.robot.reference[column.name]))))
             for place, column in enumerate(self.columns)
-            if column.name in self.robot.reference and column.effect in _REFERRED
+            if column.name in self.robot.reference and column.effect in referred
         }
         still = kind == "static"
         return self.torque(
-            known, speeds=not still, accelerations=not still, effects=kind == "torque"
+            known, speeds=not still, accelerations=not still, effects=kind in ("torque", "axis")
         )
 
     def torque(

@@ -138,17 +138,19 @@ def test_every_id_of_the_contract_is_there() -> None:
     assert {effect.id for effect in CATALOGUE} == set(wanted)
 
 
-def test_an_encoder_offset_is_the_derivative_of_the_links_torques() -> None:
-    """Column of the C against differences of the inverse dynamics."""
+def test_an_encoders_error_moves_links_and_rotor() -> None:
+    """Column of the C against differences of the inverse dynamics, friction that jumps apart."""
     text = load("demo-arm").text
     text = text[: text.index("[parameters]")].replace(
         'viscous = "all"', 'viscous = "all"\nencoder_offset = ["2"]\nencoder_eccentricity = ["2"]'
     )
-    robot = robot_from_text(text + REFERENCE, "offset")
+    robot = robot_from_text(text + REFERENCE + "Ia2 = 0.7\n", "offset")
     compiled = compile_model(generate(derive(robot)))
     names = [p.name for p in compiled.spec.standard]
     chi = np.array([robot.reference.get(n, 0.0) for n in names])
-    chi[[p.effect != "rigid_body" for p in compiled.spec.standard]] = 0.0
+    smooth = ("rigid_body", "viscous", "rotor_inertia")
+    chi[[p.effect not in smooth for p in compiled.spec.standard]] = 0.0
+    assert chi[names.index("Fv2")] == 4.0 and chi[names.index("Ia2")] == 0.7
     q, v, a = np.random.default_rng(4).uniform(-1.5, 1.5, (3, SAMPLES, 3))
     phi = compiled.regressor(q, v, a)
     step = np.array([0.0, 1e-6, 0.0])
