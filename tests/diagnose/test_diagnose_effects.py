@@ -158,6 +158,45 @@ def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> No
     assert diagnosis.verdict in ("closest description", "unexplained")
 
 
+def test_a_brake_that_drags_now_and_then_is_no_noise(case: Case) -> None:
+    def dragging(log: Log) -> np.ndarray:
+        _, v = motion(log)
+        on = np.sin(2.0 * log.time) > 0.6
+        return on_joint(log, 1, 6.0 * on * np.tanh(v[:, 1] / 0.002))
+
+    diagnosis = found(case, dragging)
+    assert diagnosis.verdict in ("unexplained", "closest description")
+    assert diagnosis.joints["2"].systematic > 0.5 * diagnosis.joints["2"].noise
+
+
+def test_knocks_that_follow_nothing_are_play_at_most(case: Case) -> None:
+    def knocks(log: Log) -> np.ndarray:
+        random = np.random.default_rng(len(log.time)).normal(size=len(log.time))
+        return on_joint(log, 0, 60.0 * random * (np.abs(np.sin(0.8 * log.time)) > 0.99))
+
+    diagnosis = found(case, knocks)
+    first = diagnosis.effects[0]
+    assert (first.effect, first.joint) == ("backlash", "1")
+    assert diagnosis.verdict == "closest description"
+    assert "do not follow the sign of the load" in diagnosis.sentences[0]
+    assert found(case, knocks, without=("backlash",)).verdict == "unexplained"
+
+
+def test_of_two_springs_on_levers_the_other_is_tried_where_one_is_ruled_out(case: Case) -> None:
+    def gas(log: Log) -> np.ndarray:
+        q, _ = motion(log)
+        turn = q[:, 1] - 0.6
+        return on_joint(log, 1, 25.0 * np.sin(turn) / np.sqrt(1.36 - 1.2 * np.cos(turn)))
+
+    tied = found(case, gas).effects[0]
+    assert tied.joint == "2"
+    assert {tied.effect, *(effect for effect, _ in tied.ties)} >= {
+        "counterbalance", "constant_force_spring"
+    }  # fmt: skip
+    alone = found(case, gas, without=("counterbalance",)).effects[0]
+    assert (alone.effect, alone.joint) == ("constant_force_spring", "2")
+
+
 def test_the_json_has_the_fields_that_scripts_read(case: Case) -> None:
     content = found(case, spring).to_json()
     assert {"verdict", "effects", "blind_spots", "joints"} <= content.keys()

@@ -38,6 +38,7 @@ def parser() -> argparse.ArgumentParser:
         "--acceptance", nargs="?", type=int, const=SEEDS, metavar="N",
         help=f"the first N (default {SEEDS}) of the seeds {ACCEPTANCE[0]} to {ACCEPTANCE[-1]}",
     )  # fmt: skip
+    add("--first", type=int, default=0, metavar="SEED", help="leave out seeds below this one")
     add(
         "--two", nargs="?", type=int, const=PAIRS, default=0, metavar="N",
         help=f"and N (default {PAIRS}) pairs of effects at every noise",
@@ -71,7 +72,8 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
     for given, known in ((names, EFFECTS), (noises, NOISE)):
         if unknown := [name for name in given if name not in known]:
             sys.exit(f"unknown: {', '.join(unknown)}; expected of {', '.join(known)}")
-    pool = ACCEPTANCE if options.acceptance else DEVELOPMENT
+    every = ACCEPTANCE if options.acceptance else DEVELOPMENT
+    pool = range(max(every.start, options.first), every.stop)
     seeds = list(pool[: options.acceptance or SEEDS])
     if options.seeds:
         seeds = [int(seed) for seed in options.seeds.split(",")]

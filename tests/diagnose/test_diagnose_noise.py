@@ -1,0 +1,58 @@
+"""What noise does not do, from residuals made by hand."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from modeler.diagnose.noise import knocking, lasting
+
+STEP = 0.0125
+TIME = np.arange(3200) * STEP  # 40 s in two logs
+
+
+def state(residual: np.ndarray) -> SimpleNamespace:
+    run = (TIME >= 20.0).astype(int)
+    return SimpleNamespace(
+        residual=(residual,),
+        rows=SimpleNamespace(run=[run], time=[TIME]),
+        base=SimpleNamespace(block=[(TIME / 0.5).astype(int)]),
+    )
+
+
+def noise(seed: int = 3) -> np.ndarray:
+    return np.random.default_rng(seed).normal(size=len(TIME))
+
+
+def coloured(seconds: float) -> np.ndarray:
+    """Noise that is forgotten within some seconds."""
+    keep, drawn = np.exp(-STEP / seconds), noise()
+    found = np.zeros_like(drawn)
+    for k in range(1, len(drawn)):
+        found[k] = keep * found[k - 1] + drawn[k]
+    return found
+
+
+@pytest.mark.parametrize("residual", [noise(), coloured(0.03), noise() * (1.0 + np.sin(TIME))])
+def test_noise_neither_lasts_nor_knocks(residual: np.ndarray) -> None:
+    assert lasting(state(residual), 0) < 0.1
+    assert knocking(state(residual), 0) == 0.0
+
+
+def test_a_brake_that_drags_lasts() -> None:
+    dragging = 3.0 * (np.sin(0.4 * TIME) > 0.3) * np.sign(np.sin(0.9 * TIME))
+    share = float(np.mean(dragging**2) / np.mean((noise() + dragging) ** 2))
+    assert lasting(state(noise() + dragging), 0) == pytest.approx(share, abs=0.2)
+
+
+def test_a_loose_part_knocks_and_does_not_last() -> None:
+    knocks = 20.0 * noise(4) * (np.abs(np.sin(0.7 * TIME)) > 0.995)
+    assert knocking(state(noise() + knocks), 0) > 0.85
+    assert lasting(state(noise() + knocks), 0) < 0.2
+
+
+def test_too_few_rows_say_nothing() -> None:
+    few = state(noise())
+    few.residual = (noise()[:50],)
+    few.base.block = [few.base.block[0][:50]]
+    assert knocking(few, 0) == 0.0
