@@ -104,7 +104,7 @@ def _findings(
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
         findings.append(_finding(found, step, touched, errors[k : k + 2], closed))
-    return findings + detected(found, window, errors, findings)
+    return detected(found, window, errors, findings)
 
 
 def _chain(found: Search) -> list[State]:
@@ -119,7 +119,7 @@ def _chain(found: Search) -> list[State]:
 
 def _touched(step: Step, before: State, after: State) -> list[int]:
     """Joints whose residuals the effect explains: its own, or all where they fall most."""
-    if step.pick.local:
+    if step.judged.alone:
         return [step.pick.index]
     sigma = before.base.sigma
     fall = np.array(

@@ -1,5 +1,6 @@
 """Findings that are no columns: a contact, play in a gear."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,6 +12,7 @@ from modeler.diagnose.noise import knocking, lasting
 from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Finding, finite
 from modeler.diagnose.search import Search
+from modeler.diagnose.state import State
 
 KNOCKS = 0.85
 """Share of a residual's energy in outbursts from which on something knocks."""
@@ -19,13 +21,20 @@ BRIEF = 0.2
 """Autocorrelation of a residual below which its outbursts are knocks, and no torque that lasts."""
 
 
+WEAK = 0.5
+"""Gain of a column below which play that is loud without it comes first on its joint."""
+
+
 def detected(
     found: Search,
     window: Window | None,
     errors: Sequence[np.ndarray],
     findings: Sequence[Finding],
 ) -> list[Finding]:
-    """Contact, and play.
+    """The findings with contact and play among them.
+
+    Play goes ahead of columns that explain little on its joint: while a gear floats in its gap,
+    elasticity describes some of it.
 
     Args:
         found: of the training logs.
@@ -35,10 +44,16 @@ def detected(
     """
     contact = [_contact(found, window, errors)] if window is not None else []
     alone = all(f.refines for f in findings)
-    play = _play(found, errors, BURST if alone else LOUD)
+    play = _play(found, found.end, errors, BURST if alone else LOUD)
+    if not play:
+        first = _play(found, found.start, errors, LOUD)
+        own = [f for f in findings if first and f.joint == first[0].joint]
+        if first and all(f.gain < WEAK for f in own):
+            rest = [dataclasses.replace(f, refines=True) if f in own else f for f in findings]
+            return [*first, *rest, *contact]
     if alone and not contact and not play:
         play = _knocks(found, errors)
-    return contact + play
+    return [*findings, *contact, *play]
 
 
 def _contact(found: Search, window: Window, errors: Sequence[np.ndarray]) -> Finding:
@@ -64,9 +79,9 @@ def _asked(found: Search) -> list[int]:
     ]  # fmt: skip
 
 
-def _play(found: Search, errors: Sequence[np.ndarray], least: float) -> list[Finding]:
+def _play(found: Search, state: State, errors: Sequence[np.ndarray], least: float) -> list[Finding]:
     """Play in a gear, on the joint whose bursts its column describes best."""
-    ratios = {j: burst_ratio(found.end, j) for j in _asked(found)}
+    ratios = {j: burst_ratio(state, j) for j in _asked(found)}
     bursting = [j for j, ratio in ratios.items() if ratio > least]
     if not bursting:
         return []

@@ -77,7 +77,7 @@ KEPT = 0.2
 def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
     """A veto by held-out logs: True if the errors do not fall there as an effect lets expect.
 
-    The error of its joint counts for what enters that joint alone, else those of all joints:
+    The error of its joint counts for what is felt on that joint alone, else those of all joints:
     where the model imitates an effect on its own joint, it shows on others. Squared errors count
     in units of each joint's residual on the training logs. The clock of a held-out log may start
     anew: for effects that depend on time it may also go on where the training logs end, whichever
@@ -86,8 +86,9 @@ def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
 
     def veto(before: State, after: State, judged: Judged) -> bool:
         candidate = judged.candidate
-        own = [candidate.index] if candidate.local else list(range(before.rows.joints))
-        expected = judged.gain if candidate.local else judged.share
+        alone = judged.alone
+        own = [candidate.index] if alone else list(range(before.rows.joints))
+        expected = judged.gain if alone else judged.share
         size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in before.rows.y])
         weight = (size / before.base.sigma)[own] ** 2
         timed = "t" in candidate.form.names

@@ -64,6 +64,16 @@ class Judged:
     confirmed: bool = True
 
     @property
+    def alone(self) -> bool:
+        """True if only its own joint feels it.
+
+        A drive gain is a matter of all joints that share parameters, and so is what explains more
+        than there is to explain on its joint.
+        """
+        candidate = self.candidate
+        return candidate.local and "torque" not in candidate.form.names and self.gain < 1.0
+
+    @property
     def significant(self) -> bool:
         """True if it is worth a name."""
         big = self.gain > GATE and self.sure > SURE and self.felt > FELT

@@ -142,7 +142,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         id="drive_gain",
         aliases=("torque_constant",),
         title="the drive gain is wrong",
-        equation="-eps * torque; true gain = gain (1 + eps)",
+        equation="-eps * torque; true gain = gain / (1 - eps)",
         forms=(form(column("eps", "-torque", "ratio", "other")),),
         acts=Acts.JOINT,
         family="measurement",

@@ -158,6 +158,15 @@ def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> No
     assert diagnosis.verdict in ("closest description", "unexplained")
 
 
+def test_a_drive_gain_is_a_matter_of_all_joints_that_share_parameters(case: Case) -> None:
+    """Held-out errors of its own joint alone would veto it: the fit spreads it over others."""
+    diagnosis = found(case, lambda log: on_joint(log, 2, -0.12 * log.tau[:, 2]))
+    first = diagnosis.effects[0]
+    assert (first.effect, first.joint) == ("drive_gain", "3")
+    assert 1.0 / (1.0 - first.parameters["eps3"]) == pytest.approx(1.0 / 0.88, rel=0.02)
+    assert diagnosis.verdict == "missing"
+
+
 def test_a_brake_that_drags_now_and_then_is_no_noise(case: Case) -> None:
     def dragging(log: Log) -> np.ndarray:
         _, v = motion(log)
