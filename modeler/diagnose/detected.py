@@ -34,7 +34,7 @@ def detected(
     """The findings with contact and play among them.
 
     Play goes ahead of columns that explain little on its joint: while a gear floats in its gap,
-    elasticity describes some of it.
+    elasticity describes some of it. And one of its knocks is no contact.
 
     Args:
         found: of the training logs.
@@ -45,15 +45,17 @@ def detected(
     contact = [_contact(found, window, errors)] if window is not None else []
     alone = all(f.refines for f in findings)
     play = _play(found, found.end, errors, BURST if alone else LOUD)
-    if not play:
-        first = _play(found, found.start, errors, LOUD)
-        own = [f for f in findings if first and f.joint == first[0].joint]
-        if first and all(f.gain < WEAK for f in own):
-            rest = [dataclasses.replace(f, refines=True) if f in own else f for f in findings]
-            return [*first, *rest, *contact]
-    if alone and not contact and not play:
-        play = _knocks(found, errors)
-    return [*findings, *contact, *play]
+    if play:
+        loud = _play(found, found.end, errors, LOUD)
+        return [*findings, *([] if loud else contact), *play]
+    first = _play(found, found.start, errors, LOUD) or _knocks(found, errors)
+    if not first or contact:
+        return [*findings, *contact]
+    own = [f for f in findings if f.joint == first[0].joint]
+    if any(f.gain > WEAK and not f.refines for f in own):
+        return list(findings)
+    rest = [dataclasses.replace(f, refines=True) if f in own else f for f in findings]
+    return [*first, *rest] if own or alone else [*rest, *first]
 
 
 def _contact(found: Search, window: Window, errors: Sequence[np.ndarray]) -> Finding:
@@ -99,8 +101,9 @@ def _play(found: Search, state: State, errors: Sequence[np.ndarray], least: floa
 
 def _knocks(found: Search, errors: Sequence[np.ndarray]) -> list[Finding]:
     """Outbursts that do not last and that nothing else explains: play, or a loose part."""
-    shares = {j: knocking(found.end, j) for j in _asked(found)}
-    loud = [j for j, s in shares.items() if s > KNOCKS and lasting(found.end, j) < BRIEF]
+    state = found.end
+    shares = {j: knocking(state, j) for j in _asked(found)}
+    loud = [j for j, s in shares.items() if s > KNOCKS and lasting(state, j) < BRIEF]
     if not loud:
         return []
     loud.sort(key=lambda j: -shares[j])

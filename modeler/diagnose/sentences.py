@@ -90,6 +90,8 @@ def _headline(diagnosis: Diagnosis) -> str:
         return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
         return "cannot tell: too few rows; record longer motions of all joints"
+    if diagnosis.refinements:
+        return "nothing is missing; a law that the model has can be refined"
     return "nothing to add: no effect of the catalogue would lower the error by more than 3 %"
 
 

@@ -87,6 +87,7 @@ def test_friction_that_vibration_smooths_mends_the_law_and_hides_nothing(case: C
     alone = found(case, smoothed)
     assert alone.effects == ()
     assert alone.verdict == "nothing significant"
+    assert alone.sentences[0] == "nothing is missing; a law that the model has can be refined"
     assert [(f.effect, f.joint) for f in alone.refinements] == [("stribeck", "2")]
     assert alone.refinements[0].parameters["Fst2"] < 0.0
     assert any("has not yet built up near standstill" in line for line in alone.sentences)
