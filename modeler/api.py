@@ -28,7 +28,7 @@ from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate
 from modeler.derivation import load as load
-from modeler.diagnose import Diagnosis
+from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
 from modeler.fit import FitResult, IdentifiedModel, identify, provenance
 from modeler.fit.least_squares import Method
@@ -150,6 +150,7 @@ def diagnose(
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled = recompile(model)
-    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
+    robot = robot_from_text(model.robot_text, "robot of the model")
+    known = Known(robot.catalogue, robot.coupling)
     given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
-    return find_missing(model, compiled, given, kept, without, catalogue=catalogue)
+    return find_missing(model, compiled, given, kept, without, known=known)

@@ -10,7 +10,7 @@ from modeler.cli.rows import check_apart
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.diagnose import diagnose, write_additions
+from modeler.diagnose import Known, diagnose, write_additions
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, notes, undone
 from modeler.robot import robot_from_text
@@ -90,8 +90,9 @@ def _better(
         return undone(model, logs)
     if args.effect != "auto":
         return add_effect(model, compiled, args.effect, args.joint, logs)
-    catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
-    found = diagnose(model, compiled, logs.fitted, logs.held_out, catalogue=catalogue)
+    robot = robot_from_text(model.robot_text, f"{args.model}, robot")
+    known = Known(robot.catalogue, robot.coupling)
+    found = diagnose(model, compiled, logs.fitted, logs.held_out, known=known)
     better = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
     if better is model:
         raise DataError(

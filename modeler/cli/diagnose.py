@@ -9,7 +9,7 @@ from modeler.cli.console import Json, progress, say, working
 from modeler.cli.places import check_places
 from modeler.cli.rows import check_apart
 from modeler.core.errors import DataError
-from modeler.diagnose import Diagnosis, diagnose, write_diagnosis
+from modeler.diagnose import Diagnosis, Known, diagnose, write_diagnosis
 from modeler.diagnose.sentences import blind_spots
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
@@ -50,8 +50,8 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     outputs = {"--report": args.report, "--json": args.json}
     check_places(args.model, [*args.logs, *args.holdout], outputs)
     model = load_model(args.model)
-    catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
-    _check_effects(args.without, catalogue)
+    robot = robot_from_text(model.robot_text, f"{args.model}, robot")
+    _check_effects(args.without, robot.catalogue)
     _check_joints(args.without, model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
@@ -60,8 +60,9 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     check_apart(logs, holdout)
     with progress("looking for missing effects") as bar:
         diagnosis = diagnose(
-            model, compiled, logs, holdout, args.without, progress=bar, catalogue=catalogue
-        )
+            model, compiled, logs, holdout, args.without, progress=bar,
+            known=Known(robot.catalogue, robot.coupling),
+        )  # fmt: skip
     written = []
     if args.report is not None:
         with working("drawing"):

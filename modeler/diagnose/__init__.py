@@ -1,5 +1,6 @@
 """Which physical effect a model lacks, and what it would gain."""
 
+from modeler.diagnose.candidates import Known as Known
 from modeler.diagnose.diagnosis import diagnose as diagnose
 from modeler.diagnose.report import write_additions as write_additions
 from modeler.diagnose.report import write_diagnosis as write_diagnosis

@@ -15,26 +15,25 @@ from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.plausible import objection
+from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import systematic_share
+from modeler.diagnose.timing import instrumental
 from modeler.diagnose.values import values_of
 from modeler.effects import RIPPLES, Acts
 from modeler.fit import IdentifiedModel
 
-FELT = 0.005
-"""Of the torque's rms: what is systematic below is not worth a word."""
-
-LEFT = 0.15
-"""Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+LOST = 1.0
+"""Held-out error of a joint from which on the model says nothing about that motion."""
 
 TOUCHED = 0.1
 """Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
 
 SMALLER = 0.4
-"""Torque of an effect over that of the same effect beside it, below which it only mends that."""
+"""Torque of an effect over that of one of its family before, below which it only mends that."""
 
 
 SAME_WAVES = 0.1
@@ -128,6 +127,8 @@ def _touched(step: Step, before: State, after: State) -> list[int]:
             for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
         ]
     )
+    if fall.max() <= 0.0:
+        return [int(np.argmax(fall))]
     return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
 
 
@@ -136,11 +137,14 @@ def _finding(
     step: Step,
     touched: Sequence[int],
     errors: Sequence[np.ndarray],
-    closed: float | None,
+    closed: float,
 ) -> Finding:
     judged, pick = step.judged, step.pick
     place = next(i for i, s in enumerate(found.steps) if s is step)
-    named = values_of(found.end, pick, found.end.values[place], judged.deviations)
+    values = found.end.values[place]
+    if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
+        values = instrumental(step.before, pick)[0]
+    named = values_of(found.end, pick, values, judged.deviations)
     parameters = named.value | dict(pick.shapes)
     start, end = (finite(over(found.end, touched, error)) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
@@ -166,16 +170,15 @@ def _same(judged: Judged, found: Search) -> list[Key]:
     """Effects that no data tell from it; whose motor turns two joints is a matter of words."""
     pick = judged.candidate
     same: list[Key] = [(other, pick.joint) for other in pick.effect.same_as]
-    if pick.effect.acts is Acts.MOTOR:
+    if pick.effect.acts is Acts.MOTOR and "c" in pick.shapes:
         same.append((pick.effect.id, found.start.data.compiled.spec.joints[pick.index - 1].name))
-    return same
+    return [key for key in same if not ruled_out(*key, found.without)]
 
 
 def _refines(found: Search, step: Step) -> bool:
     """True if it mends a law in the model, or an effect of its family named before on its joint.
 
-    What moves the links is felt next to its joint too: there the same effect, far smaller, mends
-    the form of the one before.
+    Those are far smaller than what they mend. What moves the links is felt next to its joint too.
     """
     if _mends(found, step):
         return True
@@ -185,20 +188,19 @@ def _refines(found: Search, step: Step) -> bool:
         if _mends(found, earlier):
             continue
         first, later = earlier.pick, step.pick
-        if first.joint == later.joint and (
-            first.effect.family == later.effect.family or _same_waves(first, later)
-        ):
+        if first.joint == later.joint and _same_waves(first, later):
             return True
+        alike = first.joint == later.joint and first.effect.family == later.effect.family
         moves = first.effect is later.effect and first.effect.acts is Acts.POSITION
-        near = abs(first.index - later.index) <= 1
-        if moves and near and step.judged.felt < SMALLER * earlier.judged.felt:
+        beside = moves and abs(first.index - later.index) <= 1
+        if (alike or beside) and step.judged.felt < SMALLER * earlier.judged.felt:
             return True
     return False
 
 
 def _mends(found: Search, step: Step) -> bool:
     place = next(i for i, s in enumerate(found.steps) if s is step)
-    return step.pick.effect.negative != "" and float(found.end.values[place][0]) < 0.0
+    return step.pick.effect.mends(float(found.end.values[place][0]))
 
 
 def _same_waves(first: Candidate, later: Candidate) -> bool:
@@ -239,8 +241,8 @@ def _verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: S
         return "missing" if closed and not first.objection else "closest description"
     if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
         return "cannot tell"
-    for state in joints.values():
-        left = state.systematic + state.noise
-        if np.sqrt(state.systematic) > FELT and state.systematic > LEFT * left:
-            return "unexplained"
+    if any(state.error_after > LOST for state in joints.values()):
+        return "cannot tell"
+    if any(state.unexplained for state in joints.values()):
+        return "unexplained"
     return "nothing significant"

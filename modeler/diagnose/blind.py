@@ -2,11 +2,11 @@
 
 from modeler.diagnose.data_checks import one_speed
 from modeler.diagnose.gram import VISIBLE
-from modeler.diagnose.propose import proposals
+from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.result import Key
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import State
-from modeler.effects import Acts, effect_named
+from modeler.effects import ENCODERS, Acts, effect_named
 
 
 def blind_spots(found: Search) -> tuple[Key, ...]:
@@ -15,16 +15,20 @@ def blind_spots(found: Search) -> tuple[Key, ...]:
     seen = {j.candidate.key for j in judged}
     hidden: list[Key] = [j.candidate.key for j in judged if j.visible < 2.0 * VISIBLE]
     spec = found.start.data.compiled.spec
+
+    def ruled(effect: str, joint: str | None) -> bool:
+        return ruled_out(effect, joint, found.without)
+
     for joint in spec.joints:
-        for name in ("encoder_offset", "encoder_eccentricity"):
-            if joint.actuated and (name, joint.name) not in seen:
+        for name in ENCODERS:
+            if joint.actuated and (name, joint.name) not in seen and not ruled(name, joint.name):
                 hidden.append((name, joint.name))
-    if found.start.data.kept is None:
+    if found.start.data.kept is None and not ruled("payload", None):
         hidden.append(("payload", None))
-    hidden += _unmoved(found.start)
+    hidden += [key for key in _unmoved(found.start) if not ruled(*key)]
     named = {step.pick.key for step in found.steps}
     kept = [key for key in dict.fromkeys(hidden) if key not in named]
-    assert all(effect_named(name, found.start.data.catalogue) is not None for name, _ in kept)
+    assert all(effect_named(name, found.start.data.known.catalogue) is not None for name, _ in kept)
     return tuple(kept)
 
 

@@ -18,7 +18,7 @@ def closure(
     touched: Sequence[int],
     systematic: Sequence[float],
     held_out: Sequence[np.ndarray] | None,
-) -> float | None:
+) -> float:
     """What one effect explains, over that, what later ones explain and what stays systematic.
 
     Squared residuals of the joints it touches, in units of their first residual. What a wrong name
@@ -38,8 +38,7 @@ def closure(
     shares = [_share(squares, touched, noise, sigma)]
     if held_out is not None:
         shares.append(_share(held_out, touched, [ALIKE * n for n in noise], sigma))
-    found = [share for share in shares if share is not None]
-    return min(found) if found else None
+    return min(shares)
 
 
 def _means(state: State) -> np.ndarray:
@@ -48,8 +47,8 @@ def _means(state: State) -> np.ndarray:
 
 def _share(
     squares: Sequence[np.ndarray], touched: Sequence[int], noise: Sequence[float], sigma: np.ndarray
-) -> float | None:
-    """Explained over explained and left; None if nothing is explained."""
+) -> float:
+    """Explained over explained and left; 0 if nothing is explained."""
     before, after, end = squares[0], squares[1], squares[-1]
     explained = left = 0.0
     for j in touched:
@@ -57,4 +56,4 @@ def _share(
         explained += max(0.0, float(before[j] - after[j])) / unit
         left += max(0.0, float(after[j] - end[j])) / unit
         left += max(0.0, float(end[j] - noise[j])) / unit
-    return explained / (explained + left) if explained > 0.0 else None
+    return explained / (explained + left) if explained > 0.0 else 0.0

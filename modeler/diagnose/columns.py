@@ -44,7 +44,7 @@ def own_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
 
 
 def _state(memory: Memory, candidate: Candidate, signals: Signals) -> np.ndarray:
-    return signals.state(memory, candidate.index, candidate.shapes[memory.shape])
+    return signals.state(memory, candidate.index, candidate.shapes)
 
 
 def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
@@ -79,9 +79,8 @@ def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) ->
 
 
 def _motor(candidate: Candidate, signals: Signals) -> np.ndarray:
-    j, c = candidate.index, candidate.shapes["c"]
     turn = np.zeros(signals.q.shape[1])
-    turn[j - 1], turn[j] = c, 1.0
+    turn[list(candidate.turn)] = list(candidate.turn.values())
     own = _shaft(candidate, signals.v @ turn, signals.a @ turn)
     return own[:, None, :] * turn[None, :, None]
 

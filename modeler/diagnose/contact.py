@@ -1,15 +1,19 @@
-"""Something pushed for a while: a burst of the residual on several joints that stands alone."""
+"""Something pushed for a while: a torque that lasts on one or more joints and comes only once."""
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import medfilt
 
 from modeler.diagnose.state import State
 
 _CELL = 0.1  # s
-_STANDS_OUT = 8.0  # rms of the window over the largest outside its surroundings
-_LONGEST = 3.0  # s
+_LENGTHS = range(2, 41)  # cells of a window; one of the longest is no push
+_APART = 2.0  # s between a push and what counts as elsewhere: the torque turns as the robot moves
+_STANDS_OUT = 4.0  # energy over the largest elsewhere; 1 to 2 without a push, whatever is hidden
+_ALSO = 2.0  # energy of what adjoins a push and is part of it, over the largest elsewhere
+_GAP = 0.15  # s
+_SEEN = 0.1  # of the direction felt most: a force that is felt less is taken as 0
 _BEGINNING = 2.0  # s of a log in which inner states of friction and cables are not known yet
 
 
@@ -20,7 +24,7 @@ class Window:
     Attributes:
         log: index.
         start, end: s.
-        ratio: residual there over the largest elsewhere, energies of 0.1 s.
+        ratio: energy of the steady torque there over the largest in any window elsewhere.
         force: (3,) N on the last frame's origin, axes of frame 0; None without kinematics.
     """
 
@@ -30,63 +34,105 @@ class Window:
     ratio: float
     force: np.ndarray | None
 
+    def with_part(self, other: "Window") -> "Window | None":
+        """The push together with a part of it that was found later; None if it is another push."""
+        near = other.start < self.end + _APART and other.end > self.start - _APART
+        if other.log != self.log or not near:
+            return None
+        start, end = min(self.start, other.start), max(self.end, other.end)
+        return dataclasses.replace(self, start=start, end=end)
+
+
+@dataclass(frozen=True, eq=False)
+class _Windows:
+    """All windows of some lengths within the logs.
+
+    Attributes:
+        run: (windows,) index of the log.
+        start, end: (windows,) s.
+        cells: (windows,) length.
+        energy: (windows,) of a steady torque, in units of each joint's median residual.
+    """
+
+    run: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+    cells: np.ndarray
+    energy: np.ndarray
+
 
 def contact_window(state: State) -> Window | None:
-    """The window whose residual stands out from all others; None if none does.
+    """The window in which a steady torque stands out from that in any other; None if none does.
 
-    Energy of the residuals of all joints, each in units of its own median size, in cells of a tenth
-    of a second; the highest run of cells must exceed the highest cell elsewhere several times.
+    A push gives joint j a mean residual m_j over the n_j rows of its window, of energy
+    sum_j n_j m_j^2 / s_j^2 (s_j the joint's median residual): largest over the very window of the
+    push. What acts more than once, as friction or a wrong model do, is as large elsewhere.
     """
-    cells = _cells(state)
-    if cells is None:
+    windows = _windows(state)
+    if windows is None:
         return None
-    run, time, raw = cells
-    if len(raw) < 3:
+    top = int(np.argmax(windows.energy))
+    run, start, end = int(windows.run[top]), float(windows.start[top]), float(windows.end[top])
+    same = windows.run == run
+    near = same & (windows.end > start - _APART) & (windows.start < end + _APART)
+    elsewhere = max(float(windows.energy[~near].max(initial=0.0)), 1e-300)
+    ratio = float(windows.energy[top]) / elsewhere
+    if ratio < _STANDS_OUT or near.all():
         return None
-    energy = medfilt(raw, 3)  # single cells are reversals
-    top = int(np.argmax(energy))
-    level = max(float(np.quantile(energy, 0.9)), 1e-300)
-    first = last = top
-    threshold = max(0.1 * energy[top], 2.0 * level)
-    while first > 0 and _linked(run, time, first - 1, first) and energy[first - 1] > threshold:
-        first -= 1
-    while (
-        last < len(energy) - 1 and _linked(run, time, last, last + 1)
-        and energy[last + 1] > threshold
-    ):  # fmt: skip
-        last += 1
-    near = (run == run[top]) & (time > time[first] - 1.0) & (time < time[last] + 1.0)
-    elsewhere = float(energy[~near].max(initial=0.0))
-    ratio = float(energy[top]) / max(elsewhere, 1e-300)
-    start, end = float(time[first]), float(time[last]) + _CELL
-    if start - float(time[run == run[top]].min()) < _BEGINNING:
+    start, end = _grown(windows, same & (windows.energy > _ALSO * elsewhere), start, end)
+    began = float(windows.start[same].min())
+    if start - began < _BEGINNING or end - start >= _LENGTHS[-1] * _CELL:
         return None
-    if ratio < _STANDS_OUT or end - start > _LONGEST or end - start < 2 * _CELL:
-        return None
-    window = (int(run[top]), start, end)
-    return Window(*window, ratio, _force(state, *window))
+    return Window(run, start, end, ratio, _force(state, run, start, end))
 
 
-def _linked(run: np.ndarray, time: np.ndarray, a: int, b: int) -> bool:
-    return bool(run[a] == run[b] and time[b] - time[a] < 3.0 * _CELL)
+def _grown(windows: _Windows, loud: np.ndarray, start: float, end: float) -> tuple[float, float]:
+    """The push with what adjoins it: as the robot moves, the torque of a push changes its sign."""
+    while True:
+        after = loud & (np.abs(windows.start - end) < _GAP)
+        before = loud & (np.abs(windows.end - start) < _GAP)
+        if not (after | before).any():
+            return start, end
+        best = int(np.argmax(np.where(after | before, windows.energy, 0.0)))
+        start = min(start, float(windows.start[best]))
+        end = max(end, float(windows.end[best]))
+        loud = loud & ((windows.end <= start + _GAP) | (windows.start >= end - _GAP))
 
 
-def _cells(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Log, start and mean energy of every cell of time."""
-    rows = state.rows
+def _windows(state: State) -> _Windows | None:
+    """The windows, from sums over cells of a tenth of a second; None where none fits."""
+    run, number, total, rows = _sums(state)
     parts = []
-    for j in range(rows.joints):
-        size = float(np.median(np.abs(state.residual[j]))) if state.residual[j].size else 0.0
+    for length in _LENGTHS:
+        last = np.arange(length - 1, len(run))
+        first = last - length + 1
+        whole = (run[first] == run[last]) & (number[last] - number[first] <= length)
+        first, last = first[whole], last[whole]
+        count = rows[last + 1] - rows[first]
+        square = (total[last + 1] - total[first]) ** 2
+        energy = np.divide(square, count, out=np.zeros_like(square), where=count > 0).sum(axis=1)
+        start, end = number[first] * _CELL, (number[last] + 1) * _CELL
+        parts.append((run[first], start, end, np.full(len(first), length), energy))
+    found = _Windows(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+    return found if len(found.run) else None
+
+
+def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Log and number of each cell (cells,); sums before it of residuals and rows (cells + 1, J)."""
+    rows = state.rows
+    own = [
+        np.column_stack([run, np.floor(time / _CELL).astype(int)])
+        for run, time in zip(rows.run, rows.time, strict=True)
+    ]
+    cells, place = np.unique(np.concatenate(own), axis=0, return_inverse=True)
+    total, count = np.zeros((2, len(cells) + 1, rows.joints))
+    ends = np.cumsum([len(keys) for keys in own])[:-1]
+    for j, at in enumerate(np.split(np.ravel(place), ends)):
+        size = float(np.median(np.abs(state.residual[j]))) if len(at) else 0.0
         if size > 0.0:
-            parts.append((rows.run[j], rows.time[j], (state.residual[j] / size) ** 2))
-    if not parts:
-        return None
-    run, time, square = (np.concatenate(x) for x in zip(*parts, strict=True))
-    cell = np.floor(time / _CELL).astype(int)
-    key, place = np.unique(np.column_stack([run, cell]), axis=0, return_inverse=True)
-    place = np.ravel(place)
-    energy = np.bincount(place, square) / np.bincount(place)
-    return key[:, 0], key[:, 1] * _CELL, energy
+            total[1:, j] = np.bincount(at, state.residual[j] / size, len(cells))
+            count[1:, j] = np.bincount(at, minlength=len(cells))
+    return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
 
 def _force(state: State, log: int, start: float, end: float) -> np.ndarray | None:
@@ -110,4 +156,4 @@ def _force(state: State, log: int, start: float, end: float) -> np.ndarray | Non
         b.append(-state.residual[j][own] / state.base.sigma[j])
     if not A:
         return None
-    return np.asarray(np.linalg.lstsq(np.vstack(A), np.concatenate(b), rcond=None)[0])
+    return np.asarray(np.linalg.lstsq(np.vstack(A), np.concatenate(b), rcond=_SEEN)[0])

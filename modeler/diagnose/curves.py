@@ -7,6 +7,7 @@ from modeler.diagnose.signals import Signals, resonance
 from modeler.diagnose.state import State
 
 _KNOTS = {"q": 14, "v": 24, "a": 10, "load": 12, "torque": 16}
+_LIGHT = 0.1  # damping ratio of what rings
 _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
 """Hz of the oscillators that the motion excites: sloshing, swinging, springs."""
 
@@ -91,6 +92,6 @@ def _ringing(signals: Signals, j: int, knots: _Knots) -> np.ndarray:
     parts = []
     for k in range(signals.q.shape[1]):
         for frequency in _RINGING:
-            z = resonance(signals.a[:, k], signals.step, frequency)
+            z = resonance(signals.a[:, k], signals.step, frequency, _LIGHT)
             parts += [z, np.gradient(z)]
     return np.column_stack(parts)

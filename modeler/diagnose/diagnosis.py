@@ -9,13 +9,16 @@ from threadpoolctl import threadpool_limits
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
+from modeler.diagnose.candidates import Known
 from modeler.diagnose.channels import Fault, faults
 from modeler.diagnose.contact import Window, contact_window
+from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.result import Diagnosis
-from modeler.diagnose.search import MOST, search
+from modeler.diagnose.search import MOST, Search, search
 from modeler.diagnose.state import Data, state_of
-from modeler.effects import CATALOGUE, Effect
+from modeler.diagnose.timing import logger_shift
+from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
 from modeler.observation import Log, Observation
 
@@ -34,7 +37,7 @@ def diagnose(
     without: Sequence[str] = (),
     most: int = MOST,
     progress: Callable[[float], None] | None = None,
-    catalogue: Sequence[Effect] = CATALOGUE,
+    known: Known | None = None,
 ) -> Diagnosis:  # fmt: skip
     """The effects that the model lacks on these logs, with what they would gain.
 
@@ -46,27 +49,60 @@ def diagnose(
         without: ids of effects, or id@joint, that the user rules out.
         most: effects to name at most.
         progress: called with a share between 0 and 1.
-        catalogue: the effects to try; for those of a robot file too, `Robot.catalogue`.
+        known: the effects to try, and how motors are coupled, by the robot file.
 
     Raises:
         DataError: no usable row.
     """
-    observation = analysed(compiled, logs, model.processing)
-    kept = kept_parameters(model, compiled, logs, observation)
-    data = Data(compiled, observation, kept, catalogue)
+    known = known or Known()
+    without = _ids(without, known.catalogue)
+    seen = analysed(compiled, logs, model.processing)
+    data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known)
     other = _held_out(data, holdout)
-    doubted = _faults(model, compiled, observation, other)
-    if any(fault.certain for fault in doubted):
-        most = 0
-    veto = vetoing(other) if other is not None else None
-    found = search(data, model.beta, without, most, veto, progress)
-    window = contact_window(found.end) if most and "external_force" not in without else None
+    doubted = _faults(model, compiled, seen, other)
+    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, progress
+    found = _searched(data, other, *options)
+    aligned = _aligned(data, found, model, logs)
+    if aligned is not None:
+        data, other = aligned, _held_out(aligned, holdout)
+        found = _searched(data, other, *options)
+    window = _push(data, found) if CONTACT not in without else None
     if window is not None:
-        data = dataclasses.replace(data, observation=_masked(observation, window))
-        found = search(data, model.beta, without, most, veto, progress)
+        seen = _masked(data.observation, window)
+        found = _searched(dataclasses.replace(data, observation=seen), other, *options)
+    return assembled(model, found, other, window, doubted)
+
+
+def _searched(
+    data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
+    progress: Callable[[float], None] | None,
+) -> Search:  # fmt: skip
+    veto = vetoing(other) if other is not None else None
+    found = search(data, beta, without, most, veto, progress)
     if progress is not None:
         progress(1.0)
-    return assembled(model, found, other, window, doubted)
+    return found
+
+
+def _aligned(data: Data, found: Search, model: IdentifiedModel, logs: Sequence[Log]) -> Data | None:
+    """The data without a delay that is a convention of the logger; None if there is none."""
+    ranked = found.steps[0].rivals if found.steps else found.last.ranked
+    delays = [j for j in ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
+    shift = logger_shift(found.start, delays[0].candidate, delays[0].values) if delays else 0.0
+    if shift == 0.0:
+        return None
+    moved = dataclasses.replace(model.processing, delay=model.processing.delay + shift)
+    return dataclasses.replace(data, observation=analysed(data.compiled, logs, moved))
+
+
+def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]:
+    """What the user rules out, by ids in place of aliases."""
+    found = []
+    for entry in without:
+        name, at, joint = entry.partition("@")
+        effect = effect_named(name, catalogue)
+        found.append(f"{effect.id if effect else name}{at}{joint}")
+    return tuple(found)
 
 
 def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
@@ -104,6 +140,18 @@ def kept_parameters(
         for y, w, s in zip(free.rows.y, free.rows.W, free.base.sigma, strict=True)
     )
     return model.beta if given > CHANGED * fitted else None
+
+
+def _push(data: Data, found: Search) -> Window | None:
+    """When something pushed; with its first part left out of the fit, more of it may show."""
+    window = contact_window(found.end) if found.last.ranked else None
+    more = window
+    while window is not None and more is not None:
+        rest = dataclasses.replace(data, observation=_masked(data.observation, window))
+        later = contact_window(state_of(rest, found.end.picks, found.end.beta))
+        more = window.with_part(later) if later is not None else None
+        window = more or window
+    return window
 
 
 def _masked(observation: Observation, window: Window) -> Observation:

@@ -6,7 +6,7 @@ from modeler.diagnose.channels import Fault
 from modeler.diagnose.data_checks import data_lines, log_lines
 from modeler.diagnose.late import late_lines
 from modeler.diagnose.search import Search
-from modeler.diagnose.state import Data
+from modeler.diagnose.state import Data, State
 from modeler.fit import IdentifiedModel
 
 
@@ -24,11 +24,41 @@ def doubts(
     lines = [fault.line for fault in faults]
     if not any(fault.certain for fault in faults):
         lines += late_lines(found)
-    lines += data_lines(found.start)
+    lines += [*_moved(model, found.start.data), *data_lines(found.start)]
     if other is not None:
         lines += [f"held out: {line}" for line in log_lines(other.observation.report)]
-        lines += _fitted_before(model, other)
+        lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
+
+
+def _moved(model: IdentifiedModel, data: Data) -> list[str]:
+    """A delay that the diagnosis took out of the logs."""
+    moved = data.observation.report.processing.delay - model.processing.delay
+    if moved == 0.0:
+        return []
+    when = "before" if moved > 0.0 else "after"
+    return [
+        f"torques are logged {1e3 * abs(moved):.2g} ms {when} the motion that they belong to, "
+        "about half a sample: a convention of the logger; the diagnosis has moved them back"
+    ]
+
+
+def _without_temperature(state: State, other: Data) -> list[str]:
+    """Held-out logs without a temperature that the training logs have."""
+    known = state.reference.temperature
+    found = []
+    for k, log in enumerate(other.observation.logs):
+        extra = [s.segment.extra for s in other.rows.signals if s.segment.run == k]
+        lacking = [
+            joint for joint in known
+            if not all({f"temperature{joint}", "temperature"} & part.keys() for part in extra)
+        ]  # fmt: skip
+        if lacking:
+            found.append(
+                f"held out: {log} has no temperature of joint {', '.join(lacking)}: taken as the "
+                "mean of the training logs; log it"
+            )
+    return found
 
 
 def _fitted_before(model: IdentifiedModel, other: Data) -> list[str]:

@@ -27,20 +27,28 @@ def held_out_squares(state: State, data: Data, later: float = 0.0) -> tuple[np.n
         data: held-out logs, in the same band.
         later: s, added to their clock.
     """
+    squares, size = np.zeros(data.rows.joints), np.zeros(data.rows.joints)
+    for j, left in enumerate(_held_out_residuals(state, data, later)):
+        if left.size:
+            squares[j], size[j] = np.mean(left**2), np.mean(data.rows.y[j] ** 2)
+    return squares, size
+
+
+def _held_out_residuals(state: State, data: Data, later: float) -> list[np.ndarray]:
+    """(rows_j,) by joint, N m or N."""
     reference = dataclasses.replace(state.reference, time=state.reference.time - later)
     rows = data.rows.about(reference)
     cache: dict = {}
-    squares, size = np.zeros(rows.joints), np.zeros(rows.joints)
     extra = [columns_of(rows, pick, cache) for pick in state.picks]
+    found = []
     for j in range(rows.joints):
         left = rows.y[j] - rows.W[j] @ state.beta
         for columns, values in zip(extra, state.values, strict=True):
             own = columns[j]
             if own is not None:
                 left = left - own @ values
-        if left.size:
-            squares[j], size[j] = np.mean(left**2), np.mean(rows.y[j] ** 2)
-    return squares, size
+        found.append(left)
+    return found
 
 
 def crossed_errors(state: State) -> np.ndarray:
@@ -71,7 +79,10 @@ def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:
 
 
 KEPT = 0.2
-"""Share of the expected gain that must come true on held-out motion."""
+"""Share of the expected gain that must come true on held-out motion, which may excite it less."""
+
+CONFIRMED = 0.05
+"""The same for effects that instrumental variables have confirmed already."""
 
 
 def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
@@ -88,17 +99,26 @@ def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
         candidate = judged.candidate
         alone = judged.alone
         own = [candidate.index] if alone else list(range(before.rows.joints))
-        expected = judged.gain if alone else judged.share
-        size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in before.rows.y])
-        weight = (size / before.base.sigma)[own] ** 2
+        gain = judged.gain if alone else judged.share
         timed = "t" in candidate.form.names
         later = [0.0, float(np.ptp(before.data.observation.time))] if timed else [0.0]
-        old = min(_weighed(before, data, own, weight, shift) for shift in later)
-        new = min(_weighed(after, data, own, weight, shift) for shift in later)
-        return new > old * (1.0 - KEPT * expected)
+        size = before.base.sigma
+        old = [_weighed(before, data, own, size, shift) for shift in later]
+        new = [_weighed(after, data, own, size, shift) for shift in later]
+        least, best = (min(found, key=_energy) for found in (old, new))
+        kept = CONFIRMED if candidate.effect.timing else KEPT
+        return _energy(best) > _energy(least) * (1.0 - kept * gain)
 
     return veto
 
 
-def _weighed(state: State, data: Data, own: list[int], weight: np.ndarray, later: float) -> float:
-    return float(np.sum(weight * held_out_errors(state, data, later)[own] ** 2))
+def _energy(parts: Sequence[np.ndarray]) -> float:
+    return sum(float(part @ part) for part in parts)
+
+
+def _weighed(
+    state: State, data: Data, own: list[int], size: np.ndarray, later: float
+) -> list[np.ndarray]:
+    """(rows_j,) residuals of some joints on held-out logs, in units of a size (J,)."""
+    left = _held_out_residuals(state, data, later)
+    return [left[j] / size[j] for j in own]

@@ -30,7 +30,6 @@ class Base:
         block: (rows_j,) by joint, number of the block of time.
         blocks: how many.
         G, u: (blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y.
-        energy: (blocks, J) of y.
     """
 
     columns: tuple[np.ndarray, ...]
@@ -41,7 +40,6 @@ class Base:
     blocks: int
     G: np.ndarray
     u: np.ndarray
-    energy: np.ndarray
 
 
 def base_of(
@@ -71,13 +69,11 @@ def base_of(
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     r = turn.shape[1]
     G, u = np.zeros((blocks, r, r)), np.zeros((blocks, r))
-    energy = np.zeros((blocks, len(y)))
-    for j, (w, t, own) in enumerate(zip(columns, target, block, strict=True)):
+    for w, t, own in zip(columns, target, block, strict=True):
         for b, rows in pieces(own):
             G[b] += w[rows].T @ w[rows]
             u[b] += w[rows].T @ t[rows]
-            energy[b, j] += t[rows] @ t[rows]
-    return Base(columns, target, turn, sigma, tuple(block), blocks, G, u, energy)
+    return Base(columns, target, turn, sigma, tuple(block), blocks, G, u)
 
 
 def pieces(block: np.ndarray) -> list[tuple[int, slice]]:

@@ -23,6 +23,12 @@ SURE = 4.5
 """Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
 chance with one candidate in a hundred thousand."""
 
+STRONG = 0.15
+"""Gain from which on an effect may show in few moments: noise never explains as much elsewhere."""
+
+RARE = 3.0
+"""Least of that ratio then."""
+
 TIED = 2.0
 """Paired differences over blocks below this many standard errors do not decide."""
 
@@ -31,6 +37,9 @@ SAME = 0.3
 
 NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
+
+MORE = 1.3
+"""What that one may leave of the squared residuals, at most, over what the best leaves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +56,7 @@ class Judged:
         sure: fall over its standard error.
         felt: rms of what it explains over the rms torque of its joints.
         visible: share that the model does not hide.
-        possible: False for a sign that physics forbids.
+        possible: False for a sign or a size that physics forbids.
         confirmed: False if only errors of timing speak for it.
     """
 
@@ -76,7 +85,8 @@ class Judged:
     @property
     def significant(self) -> bool:
         """True if it is worth a name."""
-        big = self.gain > GATE and self.sure > SURE and self.felt > FELT
+        surely = self.sure > SURE or (self.gain > STRONG and self.sure > RARE)
+        big = self.gain > GATE and surely and self.felt > FELT
         return big and self.possible and self.confirmed and self.visible > VISIBLE
 
 
@@ -144,6 +154,7 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         other for other in tied(best, judged)
         if other.significant and (timing or not other.candidate.effect.timing)
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
+        and (_mends(best) or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
     order = sorted(
         [best, *near], key=lambda j: (_mends(j), _numbers(j.candidate), -float(j.drop.sum()))
@@ -157,7 +168,7 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
 
 def _mends(judged: Judged) -> bool:
     """True if its sign says that it mends the form of a law in the model."""
-    return judged.candidate.effect.negative != "" and float(judged.values[0]) < 0.0
+    return judged.candidate.effect.mends(float(judged.values[0]))
 
 
 def _numbers(candidate: Candidate) -> float:
@@ -175,7 +186,8 @@ def _own(pool: Pool, i: int) -> np.ndarray:
 def _possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> bool:
     own = _own(pool, i)
     for place, column in zip(own, candidate.form.columns, strict=False):
-        if column.nonnegative and ranking.value[place] < 0.0:
+        value = float(ranking.value[place])
+        if (column.nonnegative and value < 0.0) or abs(value) > column.largest:
             return False
     return True
 

@@ -28,7 +28,7 @@ def late_lines(found: Search) -> list[str]:
     for j in driven:
         moved = []
         for signals in state.rows.signals:
-            moved.append(signals.moved(j, signals.v[:, j])[:, :, None])
+            moved.append(signals.moved(j, signals.v[:, j], whole=True)[:, :, None])
         columns.append(state.rows.spread(moved))
     shown = [i for i, own in enumerate(columns) if any(c is not None for c in own)]
     if not shown:

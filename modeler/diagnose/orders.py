@@ -1,5 +1,7 @@
 """The order spectrum of a state, and the ripples that it proposes."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from modeler.compare.orders import OrderSpectrum
@@ -7,7 +9,7 @@ from modeler.compare.orders import order_spectrum as spectrum_of
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.columns import all_columns
 from modeler.diagnose.state import State
-from modeler.effects import effect_named
+from modeler.effects import RIPPLES, effect_named
 
 MOTOR = 70.0
 """Waves per turn from which on a ripple is taken for the motor's: teeth and rollers are fewer."""
@@ -59,13 +61,22 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
     return total
 
 
-def ripple_candidates(state: State) -> list[Candidate]:
-    """Waves at the orders that stand out on each joint."""
+def ripple_candidates(
+    state: State, allowed: Callable[[str, str | None], bool]
+) -> list[Candidate]:  # fmt: skip
+    """Waves at the orders that stand out on each joint.
+
+    Args:
+        state: it.
+        allowed: False for an id and a joint that the user rules out; the other name of a ripple
+            stands for it then.
+    """
     found = []
     for j, joint in enumerate(state.data.compiled.spec.joints):
         spectrum = order_spectrum(state, j) if joint.actuated else None
         for order in spectrum.peaks if spectrum else ():
-            effect = effect_named("motor_ripple" if order >= MOTOR else "joint_ripple")
+            names = RIPPLES if order >= MOTOR else RIPPLES[::-1]
+            effect = effect_named(next((n for n in names if allowed(n, joint.name)), names[0]))
             runout = effect_named("encoder_eccentricity")
             assert effect is not None and runout is not None
             found.append(Candidate(effect, effect.forms[0], joint.name, j, {"m": order}))

@@ -6,10 +6,14 @@ import numpy as np
 
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.state import State
+from modeler.effects import Acts
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
 which on it is not this joint that rings."""
+
+OFF = 0.5
+"""Relative error of a drive gain from which on it is none."""
 
 BALANCERS = ("counterbalance", "constant_force_spring")
 
@@ -31,9 +35,26 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
     """
     if pick.effect.id in BALANCERS:
         return _nothing_to_balance(state, pick)
+    if pick.effect.acts is Acts.LINK:
+        return _no_body(parameters)
+    if pick.effect.id == "drive_gain":
+        return _no_gain(parameters[pick.parameter_names()[0]])
     if pick.effect.id == "elasticity":
         return _other_oscillator(state, pick, parameters)
     return ""
+
+
+def _no_body(parameters: Mapping[str, float]) -> str:
+    mass = parameters.get("mass", 0.0)
+    return f"no body has a mass of {mass:.3g} kg" if mass < 0.0 else ""
+
+
+def _no_gain(eps: float) -> str:
+    """A torque constant that is off by that much is a matter of sign or unit."""
+    if abs(eps) < OFF:
+        return ""
+    true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
+    return f"the true gain would be {true} the given one: check sign and unit of that torque"
 
 
 def _nothing_to_balance(state: State, pick: Candidate) -> str:

@@ -65,7 +65,7 @@ def _free(shape: Shape, candidate: Candidate) -> bool:
     """True if values beside that of the candidate make sense: orders are, if not given."""
     if shape.scale == "waves":
         return candidate.shapes[shape.name] not in shape.grid
-    return shape.smooth and len(shape.grid) > 1
+    return shape.smooth
 
 
 def _limits(
@@ -75,7 +75,7 @@ def _limits(
     scale = state.scales[max(candidate.index, 0)]
     if smooth[0].scale == "waves":
         return np.zeros(1), np.full(1, np.inf)
-    ends = [[_coded(shape, end * scale.unit(shape)) for end in shape.limits] for shape in smooth]
+    ends = [[_coded(shape, scale.value(shape, end)) for end in shape.limits] for shape in smooth]
     return np.array([e[0] for e in ends]), np.array([e[1] for e in ends])
 
 
@@ -94,7 +94,10 @@ def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
         return 0.3
     if shape.scale == "waves":
         return float(np.pi / state.scales[candidate.index].range)
-    gaps = np.diff([_coded(shape, value) for value in shape.grid])
+    if len(shape.grid) == 1:
+        return np.log(2.0)
+    unit = state.scales[candidate.index].unit(shape)
+    gaps = np.diff([_coded(shape, unit * value) for value in shape.grid])
     return float(gaps.max() if shape.scale == "own" else gaps[0])
 
 

@@ -1,5 +1,6 @@
 """All candidates of a state: those of the effects' grids, and those that the data suggest."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -26,11 +27,18 @@ def proposals(
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
-    asked = [e for e in state.data.catalogue if e.id not in without and only in (None, e.id)]
-    found = candidates(spec, state.scales, temperature, present, asked)
+    known = state.data.known
+    if only is not None:
+        asked = [e for e in known.catalogue if e.id == only]
+        known = dataclasses.replace(known, catalogue=asked)
+
+    def allowed(effect: str, joint: str | None) -> bool:
+        return not ruled_out(effect, joint, without)
+
+    found = candidates(spec, state.scales, temperature, present, known, allowed)
     found = [c for c in found if _lasts(state, c)]
     if only is None or only in _WAVES:
-        found += ripple_candidates(state)
+        found += ripple_candidates(state, allowed)
     if changed:
         found += load_candidates(state)
     taken = {
@@ -39,8 +47,7 @@ def proposals(
     }  # fmt: skip
     return [
         c for c in found
-        if c.key not in taken and only in (None, c.effect.id)
-        and not ruled_out(c.effect.id, c.joint, without)
+        if c.key not in taken and only in (None, c.effect.id) and allowed(*c.key)
     ]  # fmt: skip
 
 

@@ -22,7 +22,6 @@ class Ranking:
         value: (K,) parameters on all rows, SI.
         deviation: (K,) their standard deviation for white residuals of variance 1, SI.
         visible: (N,) share of the columns that the base does not hide.
-        fitted: (N,) fall of the squared residual on all rows, fitted there.
     """
 
     drop: np.ndarray
@@ -31,7 +30,6 @@ class Ranking:
     value: np.ndarray
     deviation: np.ndarray
     visible: np.ndarray
-    fitted: np.ndarray
 
 
 def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
@@ -64,7 +62,6 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
         every.gamma / pool.scale,
         every.deviation / pool.scale,
         every.visible,
-        every.fitted,
     )
 
 

@@ -17,7 +17,6 @@ from modeler.effects import effect_named
 from modeler.fit import Addition
 
 _HERE = Path(__file__).parent
-_SMALL = 0.005  # of the torque: what is systematic below is not worth a word
 
 
 def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] = ()) -> Path:
@@ -114,7 +113,7 @@ def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
         verdict, _, reason = diagnosis.sentences[0].partition(": ")
         return verdict, reason
     first = diagnosis.effects[0]
-    effect = effect_named(first.effect, diagnosis.search.start.data.catalogue)
+    effect = effect_named(first.effect, diagnosis.search.start.data.known.catalogue)
     assert effect is not None
     size = f"{percent(first.error_before)} \u2192 {percent(first.error_after)}"
     return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}"
@@ -129,7 +128,7 @@ def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     left = [
         f"joint {name}: {percent(j.systematic / (j.systematic + j.noise))} systematic"
         for name, j in diagnosis.joints.items()
-        if j.systematic > _SMALL**2 and j.systematic > 0.3 * j.noise
+        if j.unexplained
     ]
     facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
     if diagnosis.data:
@@ -205,7 +204,8 @@ def _joints(diagnosis: Diagnosis) -> str:
     )
     note = (
         "<caption>Shares of the torque's variance with the effects in. Systematic is what smooth "
-        "functions of the motion predict, or what returns in the next lap.</caption>"
+        "functions of the motion predict, what returns in the next lap, what lasts, and "
+        "outbursts.</caption>"
     )
     return f"<table>{note}{head}{rows}</table>"
 

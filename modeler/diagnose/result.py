@@ -9,6 +9,12 @@ import numpy as np
 
 from modeler.diagnose.search import Search
 
+FELT = 0.005
+"""Of the torque's rms: what is systematic below is not worth a word."""
+
+LEFT = 0.15
+"""Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
 Key = tuple[str, str | None]
 """Effect and joint; the joint of an effect of the whole robot is None."""
 
@@ -27,9 +33,9 @@ class Finding:
         units: of the parameters.
         ties: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
-        closure: share of what is systematic on its joints that it explains itself; None where it
-            is no column.
-        refines: True if it refines an effect of the same kind named before on the same joint.
+        closure: share of what is systematic on its joints that it explains itself; None for
+            contacts and play, which are no columns.
+        refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
     """
 
@@ -74,7 +80,8 @@ class JointState:
         unit: of the torque.
         rms_before, rms_after: of the residual on the training logs.
         explained: share of the torque's variance that the model explains.
-        systematic: share of it that is left and could be explained: predictable or repeatable.
+        systematic: share of it that is left and is no noise: predictable, repeatable, lasting, or
+            in outbursts.
         noise: the rest.
     """
 
@@ -86,6 +93,12 @@ class JointState:
     explained: float
     systematic: float
     noise: float
+
+    @property
+    def unexplained(self) -> bool:
+        """True if what is left of physics is worth a word."""
+        left = self.systematic + self.noise
+        return self.systematic > max(FELT**2, LEFT * left)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -101,7 +114,7 @@ class Diagnosis:
         robot: name.
         verdict: missing | closest description | nothing significant | unexplained | cannot tell.
         effects: named, best first.
-        refinements: of effects named before on the same joint.
+        refinements: of laws that the model has, or of effects named before.
         rivals: of the first effect: effect, joint, gain.
         blind_spots: what these data cannot show, by effect and joint.
         joints: by name; those with rows.

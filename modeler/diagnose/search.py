@@ -1,5 +1,6 @@
 """The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
 
+import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -15,11 +16,12 @@ from modeler.diagnose.judge import (
     decide,
     judge,
 )
+from modeler.diagnose.levers import constant_force
 from modeler.diagnose.polish import best_polished
-from modeler.diagnose.propose import proposals
+from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.rows import Columns
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
-from modeler.effects import RIPPLES
+from modeler.effects import RIPPLES, effect_named
 
 _T = TypeVar("_T")
 
@@ -28,6 +30,9 @@ MOST = 8
 
 STARTS = 4
 """Grid values from which an effect with two shapes is refined: its fit has several summits."""
+
+NEAR = 0.95
+"""Share of the best fall with which another fixed shape of an effect is refined too."""
 
 CLOSE = 0.7
 """Rivals with this share of the best gain are refined before the best is chosen."""
@@ -38,18 +43,21 @@ class Step:
     """One effect that was put in.
 
     Attributes:
-        pick: refined.
-        judged: its numbers when it was chosen.
+        judged: the effect, and its numbers when it was chosen.
         rivals: the others then, best first.
         before: the state it was chosen in.
         ties: rivals that the data do not tell from it.
     """
 
-    pick: Candidate
     judged: Judged
     rivals: tuple[Judged, ...]
     before: State
     ties: tuple[Judged, ...] = ()
+
+    @property
+    def pick(self) -> Candidate:
+        """The effect on its joint, with its shapes."""
+        return self.judged.candidate
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +110,8 @@ def search(
     survey = surveyed(state, without) if most else None
     judgement = survey.judged() if survey is not None else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
-        best = judgement.best
+        leading = judgement.best
+        best = _named(state, leading, vetoed, without)
         later = extended(state, best.candidate)
         if veto is not None and veto(state, later, best):
             vetoed.append(best.candidate)
@@ -110,14 +119,29 @@ def search(
             continue
         survey = surveyed(later, without)
         after = survey.judged(vetoed)
-        rivals = judgement.others(best)
-        ties = tuple(alternatives(best, rivals, after))
-        steps.append(Step(best.candidate, best, rivals, state, ties))
+        rivals = judgement.others(leading)
+        steps.append(Step(best, rivals, state, tuple(alternatives(best, rivals, after))))
         state, judgement = later, after
         if progress is not None:
             progress(len(steps) / (most + 1))
     kept, state = _backward(state, steps)
     return Search(start, tuple(kept), state, judgement, tuple(vetoed), tuple(without))
+
+
+def _named(
+    state: State, best: Judged, vetoed: Sequence[Candidate], without: Sequence[str]
+) -> Judged:
+    """The best effect, or its twin of another law where that explains the same with less."""
+    if best.candidate.effect.id != "counterbalance":
+        return best
+    other = effect_named("constant_force_spring", state.data.known.catalogue)
+    joint = best.candidate.joint
+    if other is None or ruled_out(other.id, joint, without):
+        return best
+    pull = constant_force(state, best.candidate, other)
+    if pull is None or _among(pull, vetoed):
+        return best
+    return judge(state, [pull], [columns_of(state.rows, pull, state.cache)]).ranked[0]
 
 
 def _started(data: Data, beta: np.ndarray) -> State:
@@ -167,7 +191,7 @@ class Survey:
         if not leading:
             return decide(state, list(left.best))
         for item in leading:
-            better = best_polished(state, self._starts(item.candidate))
+            better = best_polished(state, left.starts(item.candidate))
             if better is not item.candidate:
                 place = next(i for i, c in enumerate(found) if c is item.candidate)
                 found[place], columns[place] = better, columns_of(state.rows, better, {})
@@ -176,19 +200,33 @@ class Survey:
         again = [i for i, c in enumerate(found) if c.key in keys or id(c) in best]
         return judge(state, _picked(found, again), _picked(columns, again))
 
-    def _starts(self, first: Candidate) -> list[Candidate]:
-        """Shapes of one effect from which refining starts, the best first."""
-        if sum(shape.smooth for shape in first.form.shapes) < 2:
+    def starts(self, first: Candidate) -> list[Candidate]:
+        """Shapes of one effect from which refining starts, the best first.
+
+        With one shape to refine, the best for each value of the others, if it comes near; with
+        more, the best few.
+        """
+        refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
+        if len(first.form.shapes) < 2 or not refined:
             return [first]
         own = [i for i, c in enumerate(self.found) if c.key == first.key]
         total = self.state.ranked(_picked(self.columns, own))[1].drop.sum(axis=0)
-        order = [self.found[own[k]] for k in np.argsort(-total)]
-        return [first, *(c for c in order if c is not first)][:STARTS]
+        least = NEAR * float(total.max()) if len(refined) == 1 else -np.inf
+        places = [own[k] for k in np.argsort(-total) if total[k] >= least]
+        order = [first, *(c for c in (self.found[i] for i in places) if c is not first)]
+        if len(refined) > 1:
+            return order[:STARTS]
+        best: dict[tuple[float, ...], Candidate] = {}
+        for c in order:
+            best.setdefault(tuple(v for n, v in c.shapes.items() if n != refined[0]), c)
+        return list(best.values())
 
 
-def surveyed(state: State, without: Sequence[str] = (), only: str | None = None) -> Survey:
-    """All candidates in a state, or those of one effect."""
-    found = proposals(state, only, without)
+def surveyed(
+    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
+) -> Survey:
+    """All candidates in a state, or those of one effect, or of one joint."""
+    found = [c for c in proposals(state, only, without) if joint in (None, c.joint)]
     columns = [columns_of(state.rows, c, state.cache) for c in found]
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
@@ -220,18 +258,25 @@ def extended(state: State, pick: Candidate) -> State:
 
 
 def _backward(state: State, steps: Sequence[Step]) -> tuple[list[Step], State]:
-    """Drops effects that the others made unnecessary, the weakest first."""
+    """Drops effects that the others made unnecessary, the weakest first.
+
+    What the others gain is judged again then, beside those that are left.
+    """
     kept = list(steps)
     while len(kept) > 1:
-        gains = []
-        for step in kept:
-            others = [s.pick for s in kept if s is not step]
-            less = state_of(state.data, others, state.beta, state.cache)
-            columns = [columns_of(less.rows, step.pick, state.cache)]
-            gains.append(judge(less, [step.pick], columns).ranked[0])
-        weakest = int(np.argmin([g.gain for g in gains]))
-        if gains[weakest].significant:
+        judged = [_beside(state, kept, step) for step in kept]
+        weakest = int(np.argmin([j.gain for j in judged]))
+        if judged[weakest].significant:
             break
         del kept[weakest]
         state = state_of(state.data, [s.pick for s in kept], state.beta, state.cache)
+    if len(kept) < len(steps):
+        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
     return kept, state
+
+
+def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
+    """One of the effects, judged in the model with the others."""
+    others = [s.pick for s in kept if s is not step]
+    less = state_of(state.data, others, state.beta, state.cache)
+    return judge(less, [step.pick], [columns_of(less.rows, step.pick, state.cache)]).ranked[0]

@@ -2,8 +2,7 @@
 
 import dataclasses
 
-import numpy as np
-
+from modeler.diagnose.noise import knocking
 from modeler.diagnose.result import Diagnosis, Finding
 from modeler.diagnose.search import Step
 from modeler.effects import effect_named
@@ -26,7 +25,7 @@ def blind_spots(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """
     found = {}
     for name, joint in diagnosis.blind_spots:
-        effect = effect_named(name, diagnosis.search.start.data.catalogue)
+        effect = effect_named(name, diagnosis.search.start.data.known.catalogue)
         assert effect is not None
         if joint is not None and joint in diagnosis.unmoved:
             found[f"any effect of joint {joint}"] = "no row of it can be used; move it"
@@ -59,11 +58,12 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
     lines += [_refinement(f, diagnosis) for f in diagnosis.refinements]
     judged = {} if diagnosis.contradicted else diagnosis.joints
     for name, joint in judged.items():
-        left = joint.systematic + joint.noise
-        if left > 0.0 and np.sqrt(joint.systematic) > 0.005 and joint.systematic > 0.3 * left:
+        if joint.unexplained:
+            left = joint.systematic + joint.noise
             lines.append(
                 f"joint {name}: {percent(joint.systematic / left)} of the remaining error "
                 "variance is systematic and not explained by the catalogue"
+                f"{_outbursts(diagnosis, name)}"
             )
     lines += [f"data: {line}" for line in diagnosis.data]
     if not diagnosis.held_out:
@@ -72,6 +72,18 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
             "that depend on the path; give other motion with --holdout"
         )
     return dataclasses.replace(diagnosis, sentences=tuple(lines))
+
+
+def _outbursts(diagnosis: Diagnosis, name: str) -> str:
+    state = diagnosis.search.end
+    names = [joint.name for joint in state.data.compiled.spec.joints]
+    share = knocking(state, names.index(name))
+    if share == 0.0:
+        return ""
+    return (
+        f"; {percent(share)} of its energy comes in brief outbursts: play, a loose part, or a log "
+        "that begins before the motion has settled"
+    )
 
 
 def _headline(diagnosis: Diagnosis) -> str:
@@ -89,22 +101,28 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.contradicted:
         return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
+        lost = [name for name, joint in diagnosis.joints.items() if joint.error_after > 1.0]
+        if lost:
+            return (
+                f"cannot tell: what is fitted to the logs says nothing of the held-out motion of "
+                f"joint {', '.join(lost)}; record longer motions, at many speeds and poses"
+            )
         return "cannot tell: too few rows; record longer motions of all joints"
     if diagnosis.refinements:
-        return "nothing is missing; a law that the model has can be refined"
+        return "nothing to add: a law that the model has can be refined"
     return "nothing to add: no effect of the catalogue would lower the error by more than 3 %"
 
 
 def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
     line = f"refinement on {where(finding.joint)}: {finding.effect}, gain {percent(finding.gain)}"
-    effect = effect_named(finding.effect, diagnosis.search.start.data.catalogue)
+    effect = effect_named(finding.effect, diagnosis.search.start.data.known.catalogue)
     assert effect is not None
-    below = effect.negative and finding.parameters[f"{effect.columns[0].prefix}{finding.joint}"] < 0
-    return f"{line}: {effect.negative}" if below else line
+    first = next(iter(finding.parameters.values()), 0.0)
+    return f"{line}: {effect.negative}" if effect.mends(first) else line
 
 
 def _named(finding: Finding, diagnosis: Diagnosis) -> str:
-    effect = effect_named(finding.effect, diagnosis.search.start.data.catalogue)
+    effect = effect_named(finding.effect, diagnosis.search.start.data.known.catalogue)
     assert effect is not None
     return f"{effect.title} ({finding.effect}), {where(finding.joint)}"
 

@@ -16,9 +16,6 @@ from modeler.observation.signals import signals_of
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
-DAMPING = 0.1
-"""Damping ratio of the resonance through which an elastic joint sees its load."""
-
 _STEP = 1e-5  # rad or m, of central differences
 
 
@@ -123,19 +120,22 @@ class Signals:
         return self.segment.time[:: self.every] - self.reference.time
 
     def temperature(self, joint: str) -> np.ndarray | None:
-        """(n,) K above the reference; None without such a column."""
+        """(n,) K above the reference; None where the training logs have no such column.
+
+        0 where only another log lacks it: nobody knows better.
+        """
         if joint not in self.reference.temperature:
             return None
         for name in (f"temperature{joint}", "temperature"):
             if name in self.segment.extra:
                 return self.segment.extra[name][:: self.every] - self.reference.temperature[joint]
-        return None
+        return np.zeros(len(self.q))
 
-    def state(self, memory: Memory, j: int, value: float) -> np.ndarray:
-        """(n,) inner state z on joint j; its shape parameter has that value."""
+    def state(self, memory: Memory, j: int, shapes: Mapping[str, float]) -> np.ndarray:
+        """(n,) inner state z on joint j, for shape parameters by name."""
         if memory.kind == "slip":
-            return bristle(self.q[:, j], value)
-        return resonance(self.load[:, j], self.step, value)
+            return bristle(self.q[:, j], shapes[memory.shape])
+        return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])
 
     @cached_property
     def slopes(self) -> list[list[np.ndarray]]:
@@ -182,18 +182,18 @@ class Signals:
         return torque
 
 
-def resonance(load: np.ndarray, step: float, frequency: float) -> np.ndarray:
+def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
-    numerator, denominator = _oscillator(step, frequency)
+    numerator, denominator = _oscillator(step, frequency, damping)
     first = load[0]
     return first + lfilter(numerator, denominator, load - first)
 
 
 @lru_cache(maxsize=64)
-def _oscillator(step: float, frequency: float) -> tuple[np.ndarray, np.ndarray]:
+def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points."""
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
     numerator, denominator, _ = cont2discrete(
-        ([w**2], [1.0, 2.0 * DAMPING * w, w**2]), step, method="foh"
+        ([w**2], [1.0, 2.0 * damping * w, w**2]), step, method="foh"
     )
     return np.ravel(numerator), denominator

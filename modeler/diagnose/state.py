@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.diagnose.blocks import Blocks, blocks_of
-from modeler.diagnose.candidates import Candidate, JointScale, scales_of
+from modeler.diagnose.candidates import Candidate, JointScale, Known, scales_of
 from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
 from modeler.diagnose.rank import Ranking, rank
 from modeler.diagnose.rows import Columns, Rows, rows_of
 from modeler.diagnose.signals import Reference
 from modeler.diagnose.tilt import frame_slopes, tilt_weights
-from modeler.effects import CATALOGUE, Acts, Effect
+from modeler.effects import Acts
 from modeler.observation import Observation
 
 if TYPE_CHECKING:
@@ -31,13 +31,13 @@ class Data:
         observation: of the training logs, in the band of the analysis.
         kept: (c,) base parameters where the robot has changed since their fit: those of the
             links are not fitted again, friction and offsets are; None: all are fitted.
-        catalogue: the effects that may be missing.
+        known: the effects that may be missing, and how motors are coupled.
     """
 
     compiled: "CompiledModel"
     observation: Observation
     kept: np.ndarray | None = None
-    catalogue: Sequence[Effect] = CATALOGUE
+    known: Known = field(default_factory=Known)
 
     @cached_property
     def blocks(self) -> Blocks:

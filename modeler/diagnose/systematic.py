@@ -5,7 +5,7 @@ import numpy as np
 from modeler.compare.predictable import Moved
 from modeler.compare.predictable import predictable as predictable_share
 from modeler.diagnose.curves import curve_sets
-from modeler.diagnose.noise import knocking, lasting
+from modeler.diagnose.noise import agreement, knocking, lasting, returning, runs
 from modeler.diagnose.state import State
 from modeler.observation.bristle import bristle
 
@@ -41,21 +41,9 @@ def predictable(state: State, j: int) -> float:
 
 def repeatable(state: State, j: int) -> float | None:
     """Share of the residual's variance that returns in the next lap; None without laps."""
-    blocks = state.data.blocks
-    rows, residual = state.rows, state.residual[j]
-    products, squares = 0.0, 0.0
-    for run, period in enumerate(blocks.period):
-        own = rows.run[j] == run
-        if period == 0.0 or own.sum() < 20:
-            continue
-        t, r = rows.time[j][own], residual[own]
-        later = t + period
-        step = float(np.median(np.diff(t)))
-        place = np.clip(np.searchsorted(t, later), 1, len(t) - 1)
-        inside = (later <= t[-1]) & (t[place] - t[place - 1] < 2.0 * step)
-        share = (later - t[place - 1]) / np.maximum(t[place] - t[place - 1], 1e-12)
-        again = r[place - 1] + share * (r[place] - r[place - 1])
-        first, second = r[inside], again[inside]
-        products += float(first @ second)
-        squares += 0.5 * float(first @ first + second @ second)
-    return max(0.0, products / squares) if squares > 0.0 else None
+    sums = [
+        agreement(t, r, period)
+        for (t, r), period in zip(runs(state, j), state.data.blocks.period, strict=True)
+        if period > 0.0 and len(t) >= 20
+    ]
+    return returning(*np.sum(sums, axis=0)) if sums else None

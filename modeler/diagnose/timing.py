@@ -9,6 +9,7 @@ from modeler.diagnose.motion import band
 from modeler.diagnose.rows import Columns, Rows
 from modeler.diagnose.signals import Signals
 from modeler.diagnose.state import State
+from modeler.effects import Acts
 from modeler.observation.motion import low_pass
 
 SURE = 4.0
@@ -19,7 +20,7 @@ CONVENTION = 0.6
 
 
 def confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool:
-    """True if instrumental variables find the effect too, with the same sign.
+    """True if the smooth motion speaks for the effect too, and it is no convention of the logger.
 
     Noise of the encoder runs through the controller into the torque: least squares then see delays
     and elasticity that are not there. Instruments are the same columns built from a motion without
@@ -30,13 +31,31 @@ def confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool:
         candidate: with its shapes.
         values: of its parameters by least squares.
     """
-    if candidate.effect.id == "time_delay":
-        step = float(np.median([s.segment.step for s in state.rows.signals]))
-        if abs(float(values[0])) < CONVENTION * step:
-            return False
     found, error = instrumental(state, candidate)
+    return _supported(found, error, values) and not _conventional(state, candidate, found)
+
+
+def logger_shift(state: State, candidate: Candidate, values: np.ndarray) -> float:
+    """s of a delay of about half a sample: which of two samples a torque belongs to; else 0.
+
+    Args:
+        state: without the candidate.
+        candidate: a delay.
+        values: of its parameter by least squares.
+    """
+    found, error = instrumental(state, candidate)
+    believed = _supported(found, error, values) and _conventional(state, candidate, found)
+    return float(found[0]) if believed else 0.0
+
+
+def _supported(found: np.ndarray, error: np.ndarray, values: np.ndarray) -> bool:
     same = bool(np.sum(found * values) > 0.0)
     return same and bool(np.max(np.abs(found) / np.maximum(error, 1e-300)) > SURE)
+
+
+def _conventional(state: State, candidate: Candidate, found: np.ndarray) -> bool:
+    step = float(np.median([s.segment.step for s in state.rows.signals]))
+    return candidate.effect.acts is Acts.TORQUE and abs(float(found[0])) < CONVENTION * step
 
 
 def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.ndarray]:

@@ -14,7 +14,7 @@ _MOUNT = Shape(
 _MOMENT = Shape(
     "m", "number", (1.0,), (0.0, 0.0), "0 where the link's first moment has the part without lever"
 )
-_REST = Shape("q0", "travel", (-1.0, -0.4, 0.0, 0.4, 1.0), (-2.0, 2.0), "rest position")
+_REST = Shape("q0", "place", (-1.0, -0.4, 0.0, 0.4, 1.0), (-2.0, 2.0), "rest position")
 _HARDENING = Shape("h", "bend", (0.0, 0.1, 0.4), (0.0, 3.0), "how much stiffer, per square travel")
 _LEVER_FORCE = "sin(q - q0)/sqrt(1 + b**2 - 2*b*cos(q - q0))"
 
@@ -53,6 +53,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="load",
         same_as=("constant_force_spring",),
+        turns=True,
         signature="residual against position: smooth, usually on the second joint, at every speed",
         look_alikes="first moment of the link: the part sin(q-q0) is its column; gas springs; use "
         "the whole range of the joint",
@@ -68,6 +69,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="load",
         same_as=("counterbalance",),
+        turns=True,
         signature="residual against position: smooth, at every speed; drifts with temperature",
         look_alikes="a helical counterbalance, whose other part is the link's first moment; "
         "compare a cold and a warm run",

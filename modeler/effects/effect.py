@@ -1,6 +1,7 @@
 """What an effect is: everything that any stage needs to know of it."""
 
 import enum
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -35,10 +36,22 @@ class Acts(enum.Enum):
 
 
 Scale = Literal[
-    "speed", "travel", "bend", "load", "number", "angle", "seconds", "hertz", "waves", "own"
+    "speed",
+    "travel",
+    "place",
+    "bend",
+    "load",
+    "turn",
+    "number",
+    "angle",
+    "seconds",
+    "hertz",
+    "waves",
+    "own",
 ]
 """Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
-travel (for a prismatic joint, thirds of its range of motion), or one over their square; plain
+travel (for a prismatic joint, thirds of its range of motion), the same from the middle of the
+motion, or one over their square; one per rad (for a prismatic joint, a turn per stroke); plain
 numbers, radians, seconds, hertz; waves per turn, found in the order spectrum where the grid has
 none; what a robot file gives for an effect of its own, SI."""
 
@@ -75,10 +88,12 @@ class Memory:
         kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
             load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f.
         shape: name of the shape parameter that sets it (d or f).
+        damping: of a resonance, name of the shape parameter that is zeta.
     """
 
     kind: Literal["slip", "resonance"]
     shape: str
+    damping: str = ""
 
 
 @dataclass(frozen=True)
@@ -93,6 +108,7 @@ class EffectColumn:
         kind: rotor_inertia | friction | offset | other: how base parameters are counted.
         block: its energy function, for grouping.
         nonnegative: physics allows no negative value.
+        largest: magnitude beyond which it is another effect, SI.
     """
 
     prefix: str
@@ -102,6 +118,7 @@ class EffectColumn:
     kind: str
     block: EnergyBlock
     nonnegative: bool
+    largest: float = math.inf
 
 
 VARIABLES = {
@@ -160,6 +177,7 @@ class Effect:
             robot file: leftovers of one family on one joint refine each other.
         negative: what a value below zero means, where that is no missing effect but mends the form
             of one in the model; empty elsewhere.
+        turns: True if only a joint that turns can have it.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         look_alikes: what it is mistaken for, and which motion tells them apart.
@@ -180,6 +198,7 @@ class Effect:
     range: str
     source: str
     same_as: tuple[str, ...] = ()
+    turns: bool = False
     timing: bool = False
     negative: str = ""
 
@@ -187,6 +206,10 @@ class Effect:
     def columns(self) -> tuple[EffectColumn, ...]:
         """Of its usual form."""
         return self.forms[0].columns
+
+    def mends(self, value: float) -> bool:
+        """True if that value of its first parameter mends the form of a law in the model."""
+        return self.negative != "" and value < 0.0
 
     @property
     def written(self) -> bool:

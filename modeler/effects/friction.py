@@ -9,7 +9,7 @@ _STRIBECK_SPEED = Shape(
 _STRIBECK_POWER = Shape("d", "number", (1.0, 2.0), (0.0, 0.0), "how sharply it fades")
 _POWER = Shape("p", "number", (0.33, 0.5, 0.7, 1.5, 2.0, 3.0), (0.2, 4.0), "power of the speed")
 _SHARE = Shape(
-    "w", "number", (0.0, 1.0), (0.0, 0.0), "0: load of gravity alone; 1: of gravity and inertia"
+    "w", "number", (0.0, 1.0), (0.0, 1.0), "0: load of gravity alone; 1: of gravity and inertia"
 )
 _SLIP = Shape(
     "d",
@@ -97,7 +97,9 @@ FRICTION: tuple[Effect, ...] = (
             form(
                 column("Fpc", "cos(k*q)*sign(v)", "torque"),
                 column("Fps", "sin(k*q)*sign(v)", "torque"),
-                shapes=(Shape("k", "number", (1.0,), (0.0, 0.0), "waves per turn (rad) or 1/m"),),
+                shapes=(
+                    Shape("k", "turn", (1.0,), (0.0, 0.0), "waves per turn, or 2 pi per stroke"),
+                ),
             ),
         ),
         acts=Acts.JOINT,

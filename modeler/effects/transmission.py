@@ -10,6 +10,8 @@ _FREQUENCY = Shape(
     (1.5, 60.0),
     "natural frequency, motor locked",
 )
+_MISREAD = 0.2  # rad or m: what an encoder that still controls its joint may be off
+_DAMPING = Shape("zeta", "number", (0.2,), (0.01, 0.8), "damping ratio of the resonance")
 _GAP = Shape("t0", "load", (0.03, 0.1), (0.0, 0.0), "load over which the gap closes")
 _ORDER = Shape(
     "m", "waves", (), (0.0, 0.0), "waves per turn of the joint (rad), or waves per 2 pi m"
@@ -25,8 +27,8 @@ TRANSMISSION: tuple[Effect, ...] = (
         forms=(
             form(
                 column("Cj", "-z", "compliance", "other", nonnegative=True),
-                shapes=(_FREQUENCY,),
-                memory=Memory("resonance", "f"),
+                shapes=(_FREQUENCY, _DAMPING),
+                memory=Memory("resonance", "f", "zeta"),
             ),
         ),
         acts=Acts.POSITION,
@@ -96,8 +98,8 @@ TRANSMISSION: tuple[Effect, ...] = (
         equation="links at q + Ec cos(k q) + Es sin(k q), k = 1, or the gear ratio",
         forms=(
             form(
-                column("Ec", "cos(k*q)", "angle", "other"),
-                column("Es", "sin(k*q)", "angle", "other"),
+                column("Ec", "cos(k*q)", "angle", "other", largest=_MISREAD),
+                column("Es", "sin(k*q)", "angle", "other", largest=_MISREAD),
                 shapes=(
                     Shape("k", "waves", (1.0,), (0.0, 0.0), "waves per turn: 1, or the gear ratio"),
                 ),
@@ -107,6 +109,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         family="measurement",
         signature="waves per turn that grow with the square of the speed, and with gravity",
         look_alikes="first moment of the link; move fast at many poses",
+        turns=True,
         range="below 1 mrad to some mrad",
         source="Hanselman 1990",
     ),
@@ -115,7 +118,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         aliases=("calibration_offset",),
         title="the zero of the encoder is off",
         equation="links at q - dq",
-        forms=(form(column("dq", "-1", "angle", "other")),),
+        forms=(form(column("dq", "-1", "angle", "other", largest=_MISREAD)),),
         acts=Acts.POSITION,
         family="measurement",
         signature="residuals shaped like the derivative of gravity, on joints beyond it too",

@@ -1,5 +1,7 @@
 """Short forms for writing the catalogue."""
 
+import math
+
 from modeler.core.expression import parse
 from modeler.effects.effect import EffectColumn, EnergyBlock, Form, Memory, Shape
 
@@ -18,13 +20,15 @@ _PER = {
 
 
 def column(
-    prefix: str, equation: str, per: str, kind: str = "friction", nonnegative: bool = False
-) -> EffectColumn:
+    prefix: str, equation: str, per: str, kind: str = "friction", nonnegative: bool = False,
+    largest: float = math.inf,
+) -> EffectColumn:  # fmt: skip
     """A column that never groups with another; `per` says what its parameter multiplies."""
     revolute, prismatic = _PER[per]
     return EffectColumn(
-        prefix, parse(equation), revolute, prismatic, kind, EnergyBlock.OWN, nonnegative
-    )
+        prefix, parse(equation), revolute, prismatic, kind, EnergyBlock.OWN, nonnegative,
+        largest,
+    )  # fmt: skip
 
 
 def form(

@@ -13,11 +13,12 @@ from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError
 from modeler.derivation import derive, generate
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.candidates import Candidate, Known
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import surveyed
 from modeler.diagnose.state import Data, State, state_of
+from modeler.diagnose.timing import instrumental
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance
 from modeler.improve.ask import asked
@@ -52,16 +53,20 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
-    effect = asked(model, name, joint, catalogue)
+    robot = robot_from_text(model.robot_text, "robot of the model")
+    effect = asked(model, name, joint, robot.catalogue)
     rows = rows_of(compiled, logs, model.processing)
     observation = analysed(compiled, logs.fitted, model.processing, prepared=rows.prepared[0])
     kept = kept_parameters(model, compiled, logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
-    state = state_of(Data(compiled, observation, kept, catalogue), (), model.beta)
+    data = Data(compiled, observation, kept, Known(robot.catalogue, robot.coupling))
+    state = state_of(data, (), model.beta)
     best = _best(state, effect, joint)
-    return _added(model, rows, state, best.candidate, best.values)
+    values = best.values
+    if effect.acts is Acts.TORQUE:  # least squares make delays too small
+        values = instrumental(state, best.candidate)[0]
+    return _added(model, rows, state, best.candidate, values)
 
 
 def add_findings(
@@ -98,8 +103,7 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    judgement = surveyed(state, only=effect.id).judged()
-    found = [j for j in judgement.ranked if joint is None or j.candidate.joint == joint]
+    found = surveyed(state, only=effect.id, joint=joint).judged().ranked
     if not found:
         raise DataError(
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "

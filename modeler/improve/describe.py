@@ -104,8 +104,7 @@ def _tilted(text: str, values: np.ndarray, reference: Reference) -> np.ndarray:
 
 def _coupled(text: str, pick: Candidate, reference: Reference) -> str:
     """The file with the motor's coupling, if it has none for that joint."""
-    robot = robot_from_text(text, "robot of the model")
-    if pick.joint in robot.coupling:
+    if "c" not in pick.shapes:
         return text
     joints = reference.compiled.spec.joints
     here, before = joints[pick.index].name, joints[pick.index - 1].name

@@ -143,7 +143,28 @@ def _extra(table: Table, spec: ModuleSpec, notes: list[str]) -> dict[str, np.nda
     text = [name for name in others if not table.is_numeric(name)]
     if text:
         notes.append(f"{', '.join(text)} not numeric, left out")
-    return {name: table.numbers(name) for name in others if name not in text}
+    found = {name: table.numbers(name) for name in others if name not in text}
+    return found | _temperatures(table, found, notes)
+
+
+def _temperatures(
+    table: Table, extra: dict[str, np.ndarray], notes: list[str]
+) -> dict[str, np.ndarray]:
+    """Temperatures, which are slow: between logged values they are taken from a straight line."""
+    found = {}
+    for name, values in extra.items():
+        logged = np.isfinite(values)
+        if not name.startswith("temperature") or logged.all():
+            continue
+        if not logged.any():
+            raise DataError(f"{table.path}: {name} has no values; record it, or drop the column")
+        time = table.numbers("time")
+        found[name] = np.interp(time, time[logged], values[logged])
+        notes.append(
+            f"{name} has no value in {int((~logged).sum())} of {len(values)} rows: taken between "
+            "the others"
+        )
+    return found
 
 
 def _missing(table: Table, spec: ModuleSpec) -> dict[str, int]:

@@ -16,6 +16,11 @@ MOTION = 1e-3
 QUIET = 0.01
 """Energy in the gap over that of the motion, at most."""
 
+HEARD = 0.01
+"""Energy of the ringing over that of the motion, at least."""
+
+_EDGES = LEAST / GAP * 1.25 ** np.arange(26)  # Hz where the motion may end
+
 
 @dataclass(frozen=True)
 class Ringing:
@@ -35,8 +40,8 @@ class Ringing:
         """For the report."""
         return (
             f"joint {name} rings at {self.frequency:.3g} Hz, with {100.0 * self.share:.2g} % of "
-            "its velocity's energy, far above its motion; the filters leave that out, but friction "
-            "looks smoother than it is: look at the controller's gains"
+            "its velocity's energy, far above its motion; the cut-offs are chosen without it, and "
+            "friction looks smoother than it is: look at the controller's gains"
         )
 
 
@@ -52,12 +57,12 @@ def ringing(frequency: np.ndarray, energy: np.ndarray, joint: int) -> tuple[Ring
     """
     whole = len(frequency)
     total = np.concatenate([[0.0], np.cumsum(energy)])
-    for edge in LEAST * 1.25 ** np.arange(-6, 20):
+    for edge in _EDGES:
         low, high = np.searchsorted(frequency, [edge, GAP * edge])
-        if high >= whole or GAP * edge < LEAST:
+        if high >= whole:
             continue
         motion, between, above = total[low], total[high] - total[low], total[-1] - total[high]
-        if motion > MOTION * above and between < QUIET * motion and above > QUIET * motion:
+        if motion > MOTION * above and between < QUIET * motion and above > HEARD * motion:
             top = high + int(np.argmax(energy[high:]))
             share = float(above / total[-1])
             return Ringing(joint, float(frequency[top]), share), int(high)

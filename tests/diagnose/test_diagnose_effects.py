@@ -87,7 +87,7 @@ def test_friction_that_vibration_smooths_mends_the_law_and_hides_nothing(case: C
     alone = found(case, smoothed)
     assert alone.effects == ()
     assert alone.verdict == "nothing significant"
-    assert alone.sentences[0] == "nothing is missing; a law that the model has can be refined"
+    assert alone.sentences[0] == "nothing to add: a law that the model has can be refined"
     assert [(f.effect, f.joint) for f in alone.refinements] == [("stribeck", "2")]
     assert alone.refinements[0].parameters["Fst2"] < 0.0
     assert any("has not yet built up near standstill" in line for line in alone.sentences)
@@ -179,17 +179,15 @@ def test_a_brake_that_drags_now_and_then_is_no_noise(case: Case) -> None:
     assert diagnosis.joints["2"].systematic > 0.5 * diagnosis.joints["2"].noise
 
 
-def test_knocks_that_follow_nothing_are_play_at_most(case: Case) -> None:
+def test_knocks_that_follow_nothing_are_told_and_not_named(case: Case) -> None:
     def knocks(log: Log) -> np.ndarray:
         random = np.random.default_rng(len(log.time)).normal(size=len(log.time))
         return on_joint(log, 0, 60.0 * random * (np.abs(np.sin(0.8 * log.time)) > 0.99))
 
     diagnosis = found(case, knocks)
-    first = diagnosis.effects[0]
-    assert (first.effect, first.joint) == ("backlash", "1")
-    assert diagnosis.verdict == "closest description"
-    assert "do not follow the sign of the load" in diagnosis.sentences[0]
-    assert found(case, knocks, without=("backlash",)).verdict == "unexplained"
+    assert diagnosis.effects == ()
+    assert diagnosis.verdict == "unexplained"
+    assert any("comes in brief outbursts" in line for line in diagnosis.sentences)
 
 
 def test_of_two_springs_on_levers_the_other_is_tried_where_one_is_ruled_out(case: Case) -> None:

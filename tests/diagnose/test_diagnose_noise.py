@@ -13,7 +13,12 @@ TIME = np.arange(3200) * STEP  # 40 s in two logs
 
 def state(residual: np.ndarray) -> SimpleNamespace:
     run = (TIME >= 20.0).astype(int)
+    processing = SimpleNamespace(parallel_cutoff=30.0)
+    observation = SimpleNamespace(
+        logs=("first", "second"), report=SimpleNamespace(processing=processing)
+    )
     return SimpleNamespace(
+        data=SimpleNamespace(observation=observation),
         residual=(residual,),
         rows=SimpleNamespace(run=[run], time=[TIME]),
         base=SimpleNamespace(block=[(TIME / 0.5).astype(int)]),
@@ -49,6 +54,15 @@ def test_a_loose_part_knocks_and_does_not_last() -> None:
     knocks = 20.0 * noise(4) * (np.abs(np.sin(0.7 * TIME)) > 0.995)
     assert knocking(state(noise() + knocks), 0) > 0.85
     assert lasting(state(noise() + knocks), 0) < 0.2
+
+
+def test_what_returns_is_a_share_of_the_variance() -> None:
+    """A residual that grows, and rows far apart: between 0 and 1, and not blind."""
+    assert lasting(state(np.exp(0.1 * TIME)), 0) == pytest.approx(1.0, abs=0.05)
+    wide = state(np.ones(len(TIME)))
+    wide.rows.time, wide.rows.run = [TIME[::20]], [wide.rows.run[0][::20]]
+    wide.residual = (np.ones(len(TIME[::20])),)
+    assert lasting(wide, 0) == pytest.approx(1.0)
 
 
 def test_too_few_rows_say_nothing() -> None:
