@@ -8,7 +8,7 @@ import numpy as np
 from modeler.diagnose.state import State
 
 _CELL = 0.1  # s
-_LENGTHS = range(2, 41)  # cells of a window; one of the longest is no push
+_LENGTHS = range(2, 31)  # cells of a window; one of the longest is no push
 _APART = 2.0  # s between a push and what counts as elsewhere: the torque turns as the robot moves
 _STANDS_OUT = 4.0  # energy over the largest elsewhere; 1 to 2 without a push, whatever is hidden
 _ALSO = 2.0  # energy of what adjoins a push and is part of it, over the largest elsewhere

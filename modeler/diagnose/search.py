@@ -35,7 +35,12 @@ NEAR = 0.95
 """Share of the best fall with which another fixed shape of an effect is refined too."""
 
 CLOSE = 0.7
-"""Rivals with this share of the best gain are refined before the best is chosen."""
+"""Rivals with this share of the best fall are refined before the best is chosen: up to `MANY`."""
+
+MANY = 5
+
+WORTH = 0.02
+"""Gain below which nothing is refined."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +74,7 @@ class Search:
         steps: effects put in, in order; those that later ones made unnecessary are left out.
         end: the model with them.
         last: the judgement that ended it.
-        vetoed: effects that would have raised the error on held-out logs.
+        vetoed: effects that would have raised the error on held-out logs, when they led.
         without: what the user ruled out.
     """
 
@@ -107,25 +112,29 @@ def search(
     state = start = _started(data, beta)
     steps: list[Step] = []
     vetoed: list[Candidate] = []
+    refused: list[Candidate] = []  # in the present state
     survey = surveyed(state, without) if most else None
-    judgement = survey.judged() if survey is not None else Judgement((), None)
+    judgement = survey.judged() if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
         leading = judgement.best
-        best = _named(state, leading, vetoed, without)
+        best = _named(state, leading, refused, without)
         later = extended(state, best.candidate)
         if veto is not None and veto(state, later, best):
-            vetoed.append(best.candidate)
-            judgement = survey.judged(vetoed)
+            judgement = survey.judged(refused := [*refused, best.candidate])
             continue
+        vetoed, refused = [*vetoed, *refused], []
         survey = surveyed(later, without)
-        after = survey.judged(vetoed)
-        rivals = judgement.others(leading)
-        steps.append(Step(best, rivals, state, tuple(alternatives(best, rivals, after))))
+        after = survey.judged()
+        steps.append(_step(state, best, judgement.others(leading), after))
         state, judgement = later, after
         if progress is not None:
             progress(len(steps) / (most + 1))
     kept, state = _backward(state, steps)
-    return Search(start, tuple(kept), state, judgement, tuple(vetoed), tuple(without))
+    return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
+
+
+def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
+    return Step(best, rivals, state, tuple(alternatives(best, rivals, after)))
 
 
 def _named(
@@ -185,8 +194,8 @@ class Survey:
         left = self.but(vetoed)
         state, found, columns = self.state, list(left.found), list(left.columns)
         leading = [
-            j for j in left.best[:5]
-            if j.possible and j.gain > CLOSE * left.best[0].gain and j.gain > 0.02
+            j for j in left.best[:MANY]
+            if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
         ]  # fmt: skip
         if not leading:
             return decide(state, list(left.best))

@@ -15,7 +15,7 @@ from modeler.observation.motion import low_pass
 SURE = 4.0
 """Least ratio of the instrumental estimate to its standard error."""
 
-CONVENTION = 0.6
+CONVENTION = 0.55
 """Delays below this share of a sample are a convention of the logger, not an effect."""
 
 

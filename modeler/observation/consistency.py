@@ -132,7 +132,7 @@ def consistency(
         windows = [_windows(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
         for j, joint in enumerate(log.joints):
             step = _resolution(getattr(log, lower)[:, j])
-            noises = [_noise(getattr(piece, lower)[:, j]) for piece in pieces]
+            noises = [white_noise(getattr(piece, lower)[:, j]) for piece in pieces]
             noise = max(step, float(np.median(noises)))
             if refuse:
                 _refuse_wrong(log, (column, lower), j, windows, noise)
@@ -286,7 +286,7 @@ def _size(values: np.ndarray) -> np.ndarray:
     return np.sqrt(np.sum(values**4, axis=0) / np.where(total > 0.0, total, 1.0))
 
 
-def _noise(values: np.ndarray) -> float:
+def white_noise(values: np.ndarray) -> float:
     """Standard deviation of white noise on a smooth signal, from its third differences."""
     return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / np.sqrt(20.0)
 

@@ -10,6 +10,7 @@ from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.band import choose_cutoffs, what_rings
 from modeler.observation.consistency import Consistency, consistency
+from modeler.observation.derivatives import quieter, without_velocities
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.processing import Processing
@@ -69,6 +70,10 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         _checked(log, own, chosen) if use else None
         for log, own, use in zip(logs, found, logged, strict=True)
     ]
+    read = [piece for own, use in zip(found, logged, strict=True) if use for piece in own]
+    if processing.derivatives == "auto" and quieter(read, chosen.position_cutoff or 0.0):
+        found = [without_velocities(own) for own in found]
+        logged, checks = [False] * len(logs), [None] * len(logs)
     if not chosen.keep_contradicted:
         found = [_believed(own, check) for own, check in zip(found, checks, strict=True)]
     segments: list[Segment] = []
@@ -91,7 +96,9 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         segments=tuple(segments),
         pieces=tuple(found),
         splits=tuple(report for _, report in split_logs),
-        derivatives=tuple(_source(log, use) for log, use in zip(logs, logged, strict=True)),
+        derivatives=tuple(
+            _source(log, use, processing.derivatives) for log, use in zip(logs, logged, strict=True)
+        ),
         dropped=tuple(dropped),
         checks=tuple(checks),
         rings=tuple(_rings(spec, own) for own in found),
@@ -169,9 +176,11 @@ def _check_size(log: Log, spec: ModuleSpec) -> None:
             )
 
 
-def _source(log: Log, logged: bool) -> str:
+def _source(log: Log, logged: bool, asked: str) -> str:
     if not logged:
-        return "qd and qdd by differentiating q"
+        noisy = log.qd is not None and log.qdd is None and asked == "auto"
+        why = ", whose noise is less than that of the logged qd" if noisy else ""
+        return f"qd and qdd by differentiating q{why}"
     return "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
 
 
