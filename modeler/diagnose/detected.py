@@ -8,10 +8,21 @@ import numpy as np
 from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.contact import Window
 from modeler.diagnose.errors import over
+from modeler.diagnose.judge import GATE, RARE, SURE, Judged
+from modeler.diagnose.noise import knocking
 from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Finding, finite
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import State
+
+KNOCKS = 0.85
+"""Share of a residual's energy in outbursts from which on something knocks."""
+
+FAINT = 4.0
+"""Ratio of the bursts from which on there is play where its column explains something too."""
+
+AGAIN = 5.0
+"""Held-out error over that of the rest of the training logs from which on it came again."""
 
 WEAK = 0.5
 """Gain of a column below which play that is heard without it comes first."""
@@ -40,6 +51,8 @@ def detected(
     contact = [_contact(found, window, errors[-1])] if window is not None else []
     alone = all(f.refines for f in findings)
     play = _play(found, found.end, errors[-1], BURST if alone else LOUD)
+    if alone and not play:
+        play = _faint(found, errors[-1])
     if play:
         return [*findings, *contact, *play]
     first = _play(found, found.start, errors[-1], LOUD)
@@ -63,8 +76,17 @@ def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
         f"explain, {window.ratio:.0f} times the energy of any other window; these rows are left "
         "out of everything else",
-        None, False,
+        None, False, _again(found.end, errors),
     )  # fmt: skip
+
+
+def _again(state: State, errors: np.ndarray) -> str:
+    """What speaks against a push: held-out motion that is not explained either."""
+    names = [joint.name for joint in state.data.compiled.spec.joints]
+    for name, y, r, error in zip(names, state.rows.y, state.residual, errors, strict=True):
+        if y.size and error > AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300):
+            return f"something unexplained acts on joint {name} in the held-out motion too"
+    return ""
 
 
 def _asked(found: Search) -> list[int]:
@@ -81,16 +103,41 @@ def _play(found: Search, state: State, errors: np.ndarray, least: float) -> list
     bursting = [j for j, ratio in ratios.items() if ratio > least]
     if not bursting:
         return []
-    described = {
-        item.candidate.index: item.share
-        for item in found.last.ranked if item.candidate.effect.id == _PLAY
-    }  # fmt: skip
+    described = {k: judged.share for k, judged in _columns(found).items()}
     j = max(bursting, key=lambda k: (described.get(k, 0.0), ratios[k]))
-    text = (
-        f"{ratios[j]:.0f} times the residual energy within 0.1 s after the load changes sign, "
-        "while the joint moves on"
+    return [_backlash(found, errors, [j, *bursting], 1.0 - 1.0 / ratios[j], _bursts(ratios[j]))]
+
+
+def _bursts(ratio: float) -> str:
+    return (
+        f"{ratio:.0f} times the residual energy of other moments within 0.1 s after the load "
+        "changes sign, while the joint moves on"
     )
-    return [_backlash(found, errors, [j, *bursting], 1.0 - 1.0 / ratios[j], text)]
+
+
+def _columns(found: Search) -> dict[int, Judged]:
+    """What the column of play explains, by joint."""
+    return {
+        judged.candidate.index: judged
+        for judged in found.last.ranked if judged.candidate.effect.id == _PLAY
+    }  # fmt: skip
+
+
+def _faint(found: Search, errors: np.ndarray) -> list[Finding]:
+    """Play whose bursts noise covers, or that knocks without rule: its column tells it then."""
+    seen = {
+        j: judged for j, judged in _columns(found).items()
+        if j in _asked(found) and judged.gain > GATE and judged.sure > RARE
+    }  # fmt: skip
+    for j, judged in sorted(seen.items(), key=lambda entry: -entry[1].share):
+        ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
+        if ratio > FAINT and judged.sure > SURE:
+            return [_backlash(found, errors, [j], judged.gain, _bursts(ratio))]
+        if share > KNOCKS:
+            text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
+            doubt = "its outbursts do not follow the sign of the load"
+            return [_backlash(found, errors, [j], judged.gain, text, doubt)]
+    return []
 
 
 def _backlash(
@@ -99,6 +146,7 @@ def _backlash(
     bursting: Sequence[int],
     gain: float,
     text: str,
+    objection: str = "",
 ) -> Finding:
     """Play on the first of some joints; any of the others may be the one.
 
@@ -110,5 +158,5 @@ def _backlash(
     left = finite(errors[first])
     return Finding(
         _PLAY, names[first], gain, left, left, {}, {}, {}, others,
-        f"joint {names[first]}: {text}", None, False,
+        f"joint {names[first]}: {text}", None, False, objection,
     )  # fmt: skip

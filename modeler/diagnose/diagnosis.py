@@ -77,10 +77,9 @@ def _searched(
     data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
     progress: Callable[[float], None] | None,
 ) -> Search:  # fmt: skip
-    veto = vetoing(other) if other is not None else None
-    found = search(data, beta, without, most, veto, progress)
-    if progress is not None:
-        progress(1.0)
+    told = progress or (lambda share: None)
+    found = search(data, beta, without, most, vetoing(other) if other is not None else None, told)
+    told(1.0)
     return found
 
 

@@ -83,6 +83,11 @@ class Judged:
         return candidate.local and "torque" not in candidate.form.names and self.gain < 1.0
 
     @property
+    def mends(self) -> bool:
+        """True if its sign says that it mends the form of a law in the model."""
+        return self.candidate.effect.mends(float(self.values[0]))
+
+    @property
     def significant(self) -> bool:
         """True if it is worth a name."""
         surely = self.sure > SURE or (self.gain > STRONG and self.sure > RARE)
@@ -154,21 +159,16 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         other for other in tied(best, judged)
         if other.significant and (timing or not other.candidate.effect.timing)
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
-        and (_mends(best) or 1.0 - other.share < MORE * (1.0 - best.share))
+        and (best.mends or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
     order = sorted(
-        [best, *near], key=lambda j: (_mends(j), _numbers(j.candidate), -float(j.drop.sum()))
+        [best, *near], key=lambda j: (j.mends, _numbers(j.candidate), -float(j.drop.sum()))
     )
     return next(
         j
         for j in order
         if j is best or not j.candidate.effect.timing or confirmed(state, j.candidate, j.values)
     )
-
-
-def _mends(judged: Judged) -> bool:
-    """True if its sign says that it mends the form of a law in the model."""
-    return judged.candidate.effect.mends(float(judged.values[0]))
 
 
 def _numbers(candidate: Candidate) -> float:

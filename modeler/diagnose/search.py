@@ -39,6 +39,9 @@ CLOSE = 0.7
 
 MANY = 5
 
+BETTER = 0.5
+"""What a vetoed effect may leave, over what it left then, to be asked for again."""
+
 WORTH = 0.02
 """Gain below which nothing is refined."""
 
@@ -82,7 +85,7 @@ class Search:
     steps: tuple[Step, ...]
     end: State
     last: Judgement
-    vetoed: tuple[Candidate, ...] = ()
+    vetoed: tuple[Judged, ...] = ()
     without: tuple[str, ...] = ()
 
 
@@ -97,7 +100,7 @@ def search(
     without: Sequence[str] = (),
     most: int = MOST,
     veto: Veto | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> Search:
     """Effects that the model lacks, one after the other.
 
@@ -111,8 +114,8 @@ def search(
     """
     state = start = _started(data, beta)
     steps: list[Step] = []
-    vetoed: list[Candidate] = []
-    refused: list[Candidate] = []  # in the present state
+    vetoed: list[Judged] = []
+    refused: list[Judged] = []  # in the present state
     survey = surveyed(state, without) if most else None
     judgement = survey.judged() if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
@@ -120,15 +123,15 @@ def search(
         best = _named(state, leading, refused, without)
         later = extended(state, best.candidate)
         if veto is not None and veto(state, later, best):
-            judgement = survey.judged(refused := [*refused, best.candidate])
+            refused.append(best)
+            judgement = survey.judged(refused)
             continue
-        vetoed, refused = [*vetoed, *refused], []
         survey = surveyed(later, without)
-        after = survey.judged()
+        vetoed, refused = [*vetoed, *refused], survey.still(refused)
+        after = survey.judged(refused)
         steps.append(_step(state, best, judgement.others(leading), after))
         state, judgement = later, after
-        if progress is not None:
-            progress(len(steps) / (most + 1))
+        progress(len(steps) / (most + 1))
     kept, state = _backward(state, steps)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
 
@@ -137,9 +140,7 @@ def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgeme
     return Step(best, rivals, state, tuple(alternatives(best, rivals, after)))
 
 
-def _named(
-    state: State, best: Judged, vetoed: Sequence[Candidate], without: Sequence[str]
-) -> Judged:
+def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
     """The best effect, or its twin of another law where that explains the same with less."""
     if best.candidate.effect.id != "counterbalance":
         return best
@@ -175,7 +176,15 @@ class Survey:
     columns: Sequence[Columns]
     best: Sequence[Judged]
 
-    def but(self, vetoed: Sequence[Candidate]) -> "Survey":
+    def still(self, refused: Sequence[Judged]) -> list[Judged]:
+        """Vetoed effects that have not become far better by the effect put in since."""
+        gains = {judged.candidate.key: judged.gain for judged in self.best}
+        return [
+            j for j in refused
+            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
+        ]  # fmt: skip
+
+    def but(self, vetoed: Sequence[Judged]) -> "Survey":
         """The same without what was vetoed."""
         left = [i for i, c in enumerate(self.found) if not _among(c, vetoed)]
         if len(left) == len(self.found):
@@ -189,7 +198,7 @@ class Survey:
             best += best_shapes(self.state, _picked(self.found, again), columns)
         return Survey(self.state, *kept, sorted(best, key=lambda j: -float(j.drop.sum())))
 
-    def judged(self, vetoed: Sequence[Candidate] = ()) -> Judgement:
+    def judged(self, vetoed: Sequence[Judged] = ()) -> Judgement:
         """All but what was vetoed; the leading ones refined."""
         left = self.but(vetoed)
         state, found, columns = self.state, list(left.found), list(left.columns)
@@ -246,12 +255,13 @@ def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
     return [items[i] for i in places]
 
 
-def _among(candidate: Candidate, vetoed: Sequence[Candidate]) -> bool:
+def _among(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
     """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
+    others = [judged.candidate for judged in vetoed]
     if not _ripples(candidate):
-        return any(c.key == candidate.key for c in vetoed if not _ripples(c))
+        return any(c.key == candidate.key for c in others if not _ripples(c))
     order = candidate.shapes["m"]
-    orders = [c.shapes["m"] for c in vetoed if _ripples(c)]
+    orders = [c.shapes["m"] for c in others if _ripples(c)]
     return any(abs(order - m) < 0.1 * m for m in orders)
 
 

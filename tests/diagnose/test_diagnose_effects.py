@@ -145,7 +145,7 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     model, train, _ = case.hidden(spring)
     diagnosis = diagnose(model, case.compiled, [train], [case.holdout])
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
-    assert ("spring", "3") in {pick.key for pick in diagnosis.search.vetoed}
+    assert ("spring", "3") in {judged.candidate.key for judged in diagnosis.search.vetoed}
 
 
 def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> None:
