@@ -68,7 +68,7 @@ def _add_processing(parser: argparse.ArgumentParser) -> None:
         "--derivatives",
         choices=("auto", "log", "position"),
         default="auto",
-        help="logged velocities, or positions differentiated",
+        help="logged velocities, or positions differentiated; auto: the quieter",
     )
     add_number(
         group, "--low-speed", "SHARE", float,

@@ -57,3 +57,14 @@ def test_a_spring_balances_only_a_joint_that_gravity_turns(name):
 
 def test_other_effects_are_not_asked():
     assert objection(state(), pick("spring"), {"Ks1": 1.0}) == ""
+
+
+def test_no_body_has_a_negative_mass():
+    assert objection(state(), pick("payload"), {"mass": 1.2}) == ""
+    assert "no body has a mass of -4 kg" in objection(state(), pick("payload"), {"mass": -4.0})
+
+
+def test_a_gain_that_is_far_off_is_a_matter_of_sign_or_unit():
+    assert objection(state(), pick("drive_gain"), {"eps1": 0.2}) == ""
+    assert "-1 times" in objection(state(), pick("drive_gain"), {"eps1": 2.0})
+    assert "check sign and unit" in objection(state(), pick("drive_gain"), {"eps1": 1.0})

@@ -88,6 +88,17 @@ def test_missing_values_stay_in_their_rows_and_are_counted(tmp_path, spec):
         assert log.rows == 50 and np.isnan(log.q[3:6, 0]).all() and np.isnan(log.tau[10, 1])
 
 
+def test_temperatures_between_logged_values_lie_on_a_line(tmp_path, spec):
+    table = columns() | {"temperature1": np.linspace(20.0, 30.0, 50), "current9": np.ones(50)}
+    table["temperature1"][np.arange(50) % 10 != 0] = np.nan
+    log = read_log(write(tmp_path / "run.csv", table), spec)
+    assert np.allclose(log.extra["temperature1"][:41], np.linspace(20.0, 30.0, 50)[:41])
+    assert any("temperature1 has no value in 45 of 50 rows" in note for note in log.notes)
+    table["temperature1"][:] = np.nan
+    with pytest.raises(DataError, match="temperature1 has no values; record it, or drop"):
+        read_log(write(tmp_path / "none.parquet", table), spec)
+
+
 def test_partly_logged_velocities_are_not_used_and_it_is_said(tmp_path, spec):
     table = columns() | {"qd1": np.ones(50), "qc1": np.ones(50), "qc2": np.ones(50)}
     log = read_log(write(tmp_path / "a.csv", table), spec)

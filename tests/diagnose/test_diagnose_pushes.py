@@ -1,0 +1,139 @@
+"""Pushes, delays of loggers, temperatures with gaps, declared couplings: on simulated runs."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.diagnose import Known, diagnose
+from modeler.diagnose.candidates import candidates, scales_of
+from modeler.effects import effect_named
+from modeler.observation import Log
+from tests.diagnose.conftest import Case, motion, on_joint
+
+
+def pushed(*windows: tuple[float, float], size: float = 1.0):
+    def torque(log: Log) -> np.ndarray:
+        inside = [(log.time > start) & (log.time < end) for start, end in windows]
+        return np.outer(size * np.any(inside, axis=0), [1.0, -1.5, 0.5])
+
+    return torque
+
+
+def once(torque, case: Case):
+    """Only the training run has it."""
+    model, train, _ = case.hidden(torque)
+    return diagnose(model, case.compiled, [train], [case.holdout])
+
+
+def test_a_push_as_small_as_the_noise_is_found_by_its_duration(case: Case) -> None:
+    noise = 0.01 * np.sqrt(np.mean(case.train.tau**2, axis=0))
+    size = 2.0 * float(noise[2]) / 0.5
+    first = once(pushed((12.0, 13.2), size=size), case).effects[0]
+    assert first.effect == "external_force"
+    assert first.parameters["t0"] == pytest.approx(12.0, abs=0.3)
+    assert first.parameters["t1"] == pytest.approx(13.2, abs=0.3)
+
+
+def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case) -> None:
+    def torque(log: Log) -> np.ndarray:
+        turning = np.where(log.time < 12.8, 1.0, -1.0)[:, None]
+        return pushed((12.0, 13.6), size=4.0)(log) * turning
+
+    first = once(torque, case).effects[0]
+    assert first.effect == "external_force"
+    assert first.parameters["t0"] == pytest.approx(12.0, abs=0.3)
+    assert first.parameters["t1"] == pytest.approx(13.6, abs=0.3)
+
+
+def test_what_acts_again_is_no_push(case: Case) -> None:
+    again = pushed((6.0, 7.0), (12.0, 13.0), (18.0, 19.0), size=4.0)
+    assert "external_force" not in {f.effect for f in once(again, case).effects}
+
+
+def test_what_the_held_out_motion_shows_too_is_a_description_at_most(case: Case) -> None:
+    model, train, holdout = case.hidden(pushed((12.0, 13.0), size=6.0))
+    diagnosis = diagnose(model, case.compiled, [train], [holdout])
+    assert diagnosis.effects[0].effect == "external_force"
+    assert diagnosis.verdict == "closest description"
+    assert "in the held-out motion too" in diagnosis.sentences[0]
+
+
+def lever(log: Log, helical: bool) -> np.ndarray:
+    """A spring between b = 0.2 m on link 2 and h = 0.4 m above its axis."""
+    q, _ = motion(log)
+    b, h = 0.2, 0.4
+    length = np.sqrt(b**2 + h**2 - 2.0 * b * h * np.cos(q[:, 1] - 0.6))
+    slope = b * h * np.sin(q[:, 1] - 0.6) / length
+    return on_joint(log, 1, (900.0 * (length - 0.15) if helical else 150.0) * slope)
+
+
+@pytest.mark.parametrize("helical", [True, False])
+def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical: bool) -> None:
+    model, train, holdout = case.hidden(lambda log: lever(log, helical))
+    first = diagnose(model, case.compiled, [train], [holdout]).effects[0]
+    names = ("counterbalance", "constant_force_spring")
+    named, other = names if helical else names[::-1]
+    assert (first.effect, first.joint) == (named, "2")
+    assert (other, "2") in first.ties
+
+
+@pytest.mark.parametrize("ruled_out", ["counterbalance@2", "counterbalance", "balancer@2"])
+def test_what_is_ruled_out_on_a_joint_is_neither_named_nor_tied(case: Case, ruled_out: str) -> None:
+    model, train, holdout = case.hidden(lambda log: lever(log, helical=False))
+    first = diagnose(model, case.compiled, [train], [holdout], without=(ruled_out,)).effects[0]
+    assert (first.effect, first.joint) == ("constant_force_spring", "2")
+    assert ("counterbalance", "2") not in first.ties
+
+
+def slower(log: Log, every: int, late: float) -> Log:
+    """Every so many rows, with torques that come late by so many s."""
+    tau = np.column_stack([np.interp(log.time - late, log.time, t) for t in log.tau.T])
+    rows = {"time": log.time, "q": log.q, "tau": tau, "commanded": log.commanded}
+    kept = {name: values[::every] for name, values in rows.items() if values is not None}
+    return dataclasses.replace(log, qd=None, qdd=None, extra={}, **kept)
+
+
+@pytest.mark.parametrize(("late", "named"), [(0.0045, False), (0.0075, True)])
+def test_half_a_sample_is_a_convention_and_more_is_a_delay(
+    case: Case, late: float, named: bool
+) -> None:
+    """Of 10 ms; a delay is given as instruments see it, which noise does not make smaller."""
+    every = round(0.01 / float(np.median(np.diff(case.train.time))))
+    train, holdout = (slower(log, every, late) for log in (case.train, case.holdout))
+    diagnosis = diagnose(case.fitted(train), case.compiled, [train], [holdout])
+    moved = [line for line in diagnosis.data if "a convention of the logger" in line]
+    if named:
+        assert diagnosis.effects[0].effect == "time_delay"
+        assert abs(diagnosis.effects[0].parameters["dt"]) == pytest.approx(late, rel=0.1)
+        assert not moved
+    else:
+        assert diagnosis.effects == () and len(moved) == 1
+
+
+def heated(log: Log) -> Log:
+    warm = 20.0 * (1.0 - np.exp(-log.time / 8.0))
+    _, v = motion(log)
+    tau = log.tau + on_joint(log, 1, -0.2 * warm * np.tanh(v[:, 1] / 0.002))
+    return dataclasses.replace(log, tau=tau, extra={**log.extra, "temperature2": 25.0 + warm})
+
+
+def test_a_held_out_log_without_temperature_is_told_and_used(case: Case) -> None:
+    train, holdout = heated(case.train), heated(case.holdout)
+    blind = dataclasses.replace(holdout, extra={})
+    model = case.fitted(train)
+    whole = diagnose(model, case.compiled, [train], [holdout])
+    assert (whole.effects[0].effect, whole.verdict) == ("temperature_friction", "missing")
+    diagnosis = diagnose(model, case.compiled, [train], [blind])
+    assert any("has no temperature of joint 2" in line for line in diagnosis.data)
+    assert diagnosis.joints["2"].error_after > whole.joints["2"].error_after
+
+
+def test_a_declared_coupling_is_the_one_that_is_tried(case: Case) -> None:
+    spec = case.compiled.spec
+    motors = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
+    effect = effect_named("coupled_friction")
+    known = Known([effect], {"3": {"2": 0.5, "3": 1.0}})
+    found = candidates(spec, scales_of(spec, motors, motors, motors), {}, set(), known)
+    assert [(c.joint, c.turn) for c in found if c.joint == "3"] == [("3", {1: 0.5, 2: 1.0})]
+    assert {c.shapes["c"] for c in found if c.joint == "2"} == {1.0, -1.0}
