@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.diagnose import Known, diagnose, write_additions
 from modeler.fit import IdentifiedModel, load_model, save_model
-from modeler.improve import Logs, add_effect, add_findings, notes, undone
+from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
@@ -53,7 +53,12 @@ def run_add(args: argparse.Namespace) -> Json:
         check_apart(logs.fitted, logs.held_out)
         better = _better(model, compiled, args, logs)
     written = _written(args, better)
-    for line in (*waterfall(better), *notes(better), *(f"written: {place}" for place in written)):
+    for line in (
+        *waterfall(better),
+        *added(better),
+        *notes(better),
+        *(f"written: {place}" for place in written),
+    ):
         say(line)
     return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
 

@@ -22,7 +22,7 @@ from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import systematic_share
 from modeler.diagnose.timing import instrumental
-from modeler.diagnose.values import values_of
+from modeler.diagnose.values import shape_units, values_of
 from modeler.effects import RIPPLES, Acts
 from modeler.fit import IdentifiedModel
 
@@ -157,7 +157,7 @@ def _finding(
         error_after=end,
         parameters=parameters,
         sigmas=named.deviation,
-        units=named.unit,
+        units=named.unit | shape_units(found.end, pick),
         ties=ties,
         evidence=evidence(step, start, end),
         closure=closed,

@@ -72,7 +72,7 @@ def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
     return Finding(
         CONTACT, None, 1.0 - 1.0 / window.ratio, left, left,
         {"t0": window.start, "t1": window.end} | dict(zip(names, map(float, force), strict=True)),
-        {}, dict.fromkeys(names, "N"), (),
+        {}, {"t0": "s", "t1": "s"} | dict.fromkeys(names, "N"), (),
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
         f"explain, {window.ratio:.0f} times the energy of any other window; these rows are left "
         "out of everything else",

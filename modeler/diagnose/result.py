@@ -30,7 +30,7 @@ class Finding:
         error_before, error_after: relative error of its joints without and with it, held out.
         parameters: its parameters and shapes by name, SI.
         sigmas: standard deviations of the parameters.
-        units: of the parameters.
+        units: of the parameters and shapes.
         ties: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
         closure: share of what is systematic on its joints that it explains itself; None for

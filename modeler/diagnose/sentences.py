@@ -131,12 +131,19 @@ def _effect_line(finding: Finding) -> str:
     if not finding.parameters:  # seen by a detector: neither value nor column
         return finding.evidence
     values = ", ".join(
-        f"{name} = {value:.4g}{unit(finding, name)}" for name, value in finding.parameters.items()
+        f"{name} = {value:.4g}{_spread(finding, name)}{unit(finding, name)}"
+        for name, value in finding.parameters.items()
     )
     ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
     tail = f"; these data do not tell it from {ties}" if ties else ""
     change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"
     return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
+
+
+def _spread(finding: Finding, name: str) -> str:
+    """The standard deviation behind a value, where there is one."""
+    sigma = finding.sigmas.get(name, 0.0)
+    return f" +- {sigma:.2g}" if sigma > 0.0 else ""
 
 
 def unit(finding: Finding, name: str) -> str:

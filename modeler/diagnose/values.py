@@ -50,12 +50,22 @@ def _units(state: State, pick: Candidate) -> dict[str, str]:
         return {
             "mass" if name == "M" else name: p.unit for name, p in zip(names, felt, strict=True)
         }
-    joints = state.data.compiled.spec.joints
-    linear = any(joint.name == pick.joint and joint.unit == "m" for joint in joints)
+    linear = _linear(state, pick)
     return {
         name: column.unit_prismatic if linear else column.unit_revolute
         for name, column in zip(pick.parameter_names(), pick.form.columns, strict=True)
     }
+
+
+def _linear(state: State, pick: Candidate) -> bool:
+    """True on a prismatic joint."""
+    joints = state.data.compiled.spec.joints
+    return any(joint.name == pick.joint and joint.unit == "m" for joint in joints)
+
+
+def shape_units(state: State, pick: Candidate) -> dict[str, str]:
+    """Units of the shapes, by name."""
+    return {shape.name: shape.unit(_linear(state, pick)) for shape in pick.form.shapes}
 
 
 def _tilt(state: State, values: np.ndarray, deviations: np.ndarray) -> Values:

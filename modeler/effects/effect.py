@@ -2,6 +2,7 @@
 
 import enum
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -56,6 +57,20 @@ numbers, radians, seconds, hertz; waves per turn, found in the order spectrum wh
 none; what a robot file gives for an effect of its own, SI."""
 
 
+_SHAPE_UNITS: Mapping[Scale, tuple[str, str]] = {
+    "speed": ("rad/s", "m/s"),
+    "travel": ("rad", "m"),
+    "place": ("rad", "m"),
+    "bend": ("1/rad^2", "1/m^2"),
+    "load": ("N m", "N"),
+    "turn": ("1", "1/m"),
+    "angle": ("rad", "rad"),
+    "seconds": ("s", "s"),
+    "hertz": ("Hz", "Hz"),
+    "waves": ("1", "1/m"),
+}
+
+
 @dataclass(frozen=True)
 class Shape:
     """A parameter that enters a column nonlinearly; found on a grid, then refined.
@@ -78,6 +93,10 @@ class Shape:
     def smooth(self) -> bool:
         """True if values between those of the grid make sense."""
         return self.limits[0] < self.limits[1]
+
+    def unit(self, linear: bool) -> str:
+        """On a prismatic joint or on one that turns; "1" for a number, or if nobody knows."""
+        return _SHAPE_UNITS.get(self.scale, ("1", "1"))[linear]
 
 
 @dataclass(frozen=True)

@@ -169,6 +169,15 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
     write_atomically(Path(path), json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
+def _check_values(fit: FitResult, path: Path) -> None:
+    for p in fit.parameters:
+        if not isinstance(p.value, (int, float)) or not np.isfinite(p.value):
+            raise ManifestError(
+                f"{path}: the value of {p.name} is {p.value!r}; expected a finite number; fit the "
+                "model again"
+            )
+
+
 def load_model(path: str | Path) -> IdentifiedModel:
     """Read a model file.
 
@@ -200,6 +209,7 @@ def load_model(path: str | Path) -> IdentifiedModel:
             f"{path}: the values are not those of the {len(expected)} base parameters of its "
             "manifest; fit the model again"
         )
+    _check_values(fit, path)
     return IdentifiedModel(
         robot_text=_entry(raw, "robot_text", str, path),
         spec=spec,

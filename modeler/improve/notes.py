@@ -8,6 +8,34 @@ from modeler.robot import robot_from_text
 _FALLS = 0.99  # of the error before: anything above is no fall
 
 
+def added(model: IdentifiedModel) -> list[str]:
+    """Parameters that the step added last put into the model, with their units and shapes."""
+    if len(model.history) < 2:
+        return []
+    last = model.history[-1]
+    own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (last.effect, last.joint)}
+    base = {b.name for b in model.spec.base if b.column_of in own}
+    lines = [
+        f"{p.name} = {p.value:.5g} +- {p.sigma or 0.0:.2g} {p.unit}"
+        for p in model.fit.parameters if p.name in base
+    ]  # fmt: skip
+    if lines and last.shapes:
+        units = _units(model, last)
+        texts = [f"{k} = {v:.4g}{units.get(k, '')}" for k, v in last.shapes.items()]
+        lines.append("with " + ", ".join(texts))
+    return lines
+
+
+def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
+    """What stands behind the values of the shapes."""
+    effect = effect_named(step.effect, robot_from_text(model.robot_text, "robot").catalogue)
+    assert effect is not None
+    linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
+    shapes = [shape for form in effect.forms for shape in form.shapes]
+    units = {shape.name: shape.unit(linear) for shape in shapes}
+    return {name: f" {unit}" for name, unit in units.items() if unit != "1"}
+
+
 def notes(model: IdentifiedModel) -> list[str]:
     """Sentences on the step that was added last; empty where all is as asked."""
     if len(model.history) < 2:

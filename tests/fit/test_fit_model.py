@@ -233,6 +233,14 @@ DAMAGE = {
         "the fit is damaged .*low_speed is 7.0",
     ),
     "value": (lambda r: damaged(r, "fit", "relative_error", value="x"), "the fit is damaged"),
+    "text": (
+        lambda r: damaged(r, "fit", "parameters", 0, "value", value="x"),
+        "is 'x'; expected a finite number",
+    ),
+    "no number": (
+        lambda r: damaged(r, "fit", "parameters", 0, "value", value=float("nan")),
+        "is nan; expected a finite number",
+    ),
     "short": (lambda r: damaged(r, "fit", "parameters", 0), "values are not those of the"),
 }
 
