@@ -198,7 +198,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
         "scale": None if item.scale is None else dataclasses.asdict(item.scale),
         "orders": None
         if item.orders is None
-        else [dataclasses.asdict(line) for line in lines(item)],
+        else [dataclasses.asdict(line) for line in lines(item.orders, item.joint.unit)],
     }
 
 

@@ -165,10 +165,11 @@ def _order_panel(item: JointComparison) -> Panel:
     if item.orders is None:
         x, y, floor = nothing, nothing, nothing
     else:
-        x, y, floor = waves(item)[0], item.orders.amplitude, item.orders.floor
+        x, _ = waves(item.orders, item.joint.unit)
+        y, floor = item.orders.amplitude, item.orders.floor
         kept = thin_curves((y,))
         x, y, floor = x[kept], y[kept], floor[kept]
-        found = lines(item)
+        found = lines(item.orders, item.joint.unit)
         if found:
             title += f": {found[0].waves:.4g} waves per {per}"
     return Panel(

@@ -1,15 +1,11 @@
 """The order spectrum of a joint's residual, seen before any filter takes the ripple away."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.compare.orders import OrderSpectrum, order_spectrum
 from modeler.compare.prediction import Prediction, full_rate
-
-if TYPE_CHECKING:
-    from modeler.compare.comparison import JointComparison
 
 
 @dataclass(frozen=True)
@@ -34,19 +30,23 @@ def ripple(prediction: Prediction, joint: int) -> OrderSpectrum | None:
     )
 
 
-def waves(item: "JointComparison") -> tuple[np.ndarray, str]:
-    """Orders of the spectrum as a user counts them, and per what."""
-    assert item.orders is not None
-    if item.joint.unit == "rad":
-        return item.orders.order, "turn"
-    return item.orders.order / (2.0 * np.pi), "m"
+def waves(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
+    """Orders of a spectrum as a user counts them, and per what.
+
+    Args:
+        orders: the spectrum.
+        unit: of the joint's position, rad or m.
+    """
+    if unit == "rad":
+        return orders.order, "turn"
+    return orders.order / (2.0 * np.pi), "m"
 
 
-def lines(item: "JointComparison") -> tuple[Line, ...]:
-    """What stands out in the order spectrum, the strongest first."""
-    if item.orders is None:
+def lines(orders: OrderSpectrum | None, unit: str) -> tuple[Line, ...]:
+    """What stands out in an order spectrum, the strongest first; see `waves`."""
+    if orders is None:
         return ()
-    found, (counted, _) = item.orders, waves(item)
+    found, (counted, _) = orders, waves(orders, unit)
     places = [int(np.argmin(np.abs(found.order - order))) for order in found.peaks]
     return tuple(
         Line(

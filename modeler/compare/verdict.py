@@ -207,9 +207,9 @@ def _other_joint(item: JointComparison) -> str | None:
 def _ripple(item: JointComparison) -> str | None:
     if item.orders is None:
         return None
-    orders, per = waves(item)
+    orders, per = waves(item.orders, item.joint.unit)
     # the slowest waves of the spectrum are patterns over position, named elsewhere
-    fast = [line for line in lines(item) if line.waves > 2.0 * orders[0]]
+    fast = [line for line in lines(item.orders, item.joint.unit) if line.waves > 2.0 * orders[0]]
     strong = [line for line in fast if line.share >= NOTICEABLE]
     if not strong:
         return None

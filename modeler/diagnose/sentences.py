@@ -134,6 +134,8 @@ def _effect_line(finding: Finding) -> str:
         f"{name} = {value:.4g}{_spread(finding, name)}{unit(finding, name)}"
         for name, value in finding.parameters.items()
     )
+    if finding.closure is None:  # it has a value, but no column whose error would fall
+        return f"{where(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
     tail = f"; these data do not tell it from {ties}" if ties else ""
     change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"

@@ -4,20 +4,40 @@ import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from modeler.core.errors import DerivationError
 from modeler.effects import ENCODERS, Acts
 from modeler.symbolic.columns import StandardColumn
 from modeler.symbolic.derivative import derivatives
+from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
-from modeler.symbolic.signals import signals_read
-
-if TYPE_CHECKING:
-    from modeler.symbolic.model import SymbolicModel
+from modeler.symbolic.signals import Signal, signals_read
 
 
-def effect_entries(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
+class Dynamics(Protocol):
+    """What columns of effects read of a model."""
+
+    @property
+    def graph(self) -> Graph:
+        """Of its expressions."""
+
+    @property
+    def geometry(self) -> Geometry:
+        """Of its robot."""
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """What effects read besides the motion."""
+
+    def inputs(self, kind: str) -> list[Expr]:
+        """The symbols of "q", "qd" or "qdd"."""
+
+    def reference_torque(self, kind: str) -> list[Expr]:
+        """Torques at the parameters of `[reference]`."""
+
+
+def effect_entries(model: Dynamics, column: StandardColumn) -> dict[int, Expr]:
     """{free variable: torque along it per unit of the column's parameter}."""
     assert column.column is not None and column.shaft is not None
     if column.acts is Acts.POSITION:
@@ -26,7 +46,7 @@ def effect_entries(model: "SymbolicModel", column: StandardColumn) -> dict[int, 
     return {k: torque * coefficient for k, coefficient in column.shaft.items()}
 
 
-def _equation(model: "SymbolicModel", column: StandardColumn) -> Expr:
+def _equation(model: Dynamics, column: StandardColumn) -> Expr:
     """The equation of the column on its shaft."""
     graph = model.graph
     assert column.column is not None and column.shaft is not None
@@ -58,7 +78,7 @@ def functions_of(graph: Graph) -> Mapping[str, Callable[[Expr], Expr]]:
     return {name: partial(graph.call, name) for name in names}
 
 
-def along(model: "SymbolicModel", shaft: Mapping[int, Fraction], kind: str) -> Expr:
+def along(model: Dynamics, shaft: Mapping[int, Fraction], kind: str) -> Expr:
     """Position, speed or acceleration of a shaft."""
     total = model.graph.constant(0)
     for k, coefficient in shaft.items():
@@ -74,7 +94,7 @@ def _on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) 
     return total
 
 
-def _moved(model: "SymbolicModel", column: StandardColumn) -> dict[int, Expr]:
+def _moved(model: Dynamics, column: StandardColumn) -> dict[int, Expr]:
     """Torque of the links at the reference, differentiated along a small change of position.
 
     The change is the column's equation, dq(q); speeds and accelerations change by its time
