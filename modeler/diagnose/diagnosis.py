@@ -9,6 +9,7 @@ from threadpoolctl import threadpool_limits
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
+from modeler.diagnose.bursts import LOUD, burst_ratio
 from modeler.diagnose.candidates import Known
 from modeler.diagnose.channels import Fault, faults
 from modeler.diagnose.contact import Window, contact_window
@@ -16,7 +17,7 @@ from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.search import MOST, Search, search
-from modeler.diagnose.state import Data, state_of
+from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
@@ -141,9 +142,16 @@ def kept_parameters(
     return model.beta if given > CHANGED * fitted else None
 
 
+def _rattles(state: State) -> bool:
+    """True if a gear has so much play that one of its knocks looks like a push."""
+    return any(burst_ratio(state, j) > LOUD for j in range(state.rows.joints))
+
+
 def _push(data: Data, found: Search) -> Window | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
-    window = contact_window(found.end) if found.last.ranked else None
+    if not found.last.ranked or _rattles(found.end):
+        return None
+    window = contact_window(found.end)
     more = window
     while window is not None and more is not None:
         rest = dataclasses.replace(data, observation=_masked(data.observation, window))

@@ -35,6 +35,8 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
     """
     if pick.effect.id in BALANCERS:
         return _nothing_to_balance(state, pick)
+    if pick.effect.id == "spring":
+        return _no_spring(state, pick)
     if pick.effect.acts is Acts.LINK:
         return _no_body(parameters)
     if pick.effect.id == "drive_gain":
@@ -42,6 +44,15 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
     if pick.effect.id == "elasticity":
         return _other_oscillator(state, pick, parameters)
     return ""
+
+
+def _no_spring(state: State, pick: Candidate) -> str:
+    """Far from its rest a spring is a constant torque, unless the model has one already."""
+    having = {(p.effect, p.joint) for p in state.data.compiled.spec.standard}
+    scale = state.scales[pick.index]
+    if ("offset", pick.joint) in having or abs(pick.shapes["q0"] - scale.middle) < scale.range:
+        return ""
+    return f"its rest lies far from all that joint {pick.joint} moves over: a constant torque"
 
 
 def _no_body(parameters: Mapping[str, float]) -> str:

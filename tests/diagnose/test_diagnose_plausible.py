@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.candidates import Candidate, JointScale
 from modeler.diagnose.plausible import objection
 from modeler.effects import effect_named
 
@@ -56,7 +56,19 @@ def test_a_spring_balances_only_a_joint_that_gravity_turns(name):
 
 
 def test_other_effects_are_not_asked():
-    assert objection(state(), pick("spring"), {"Ks1": 1.0}) == ""
+    assert objection(state(), pick("offset"), {"Off1": 1.0}) == ""
+
+
+@pytest.mark.parametrize(
+    ("rest", "having", "doubted"), [(0.5, [], False), (2.5, [], True), (2.5, ["offset"], False)]
+)
+def test_a_spring_that_is_never_near_its_rest_is_a_constant_torque(rest, having, doubted):
+    made = state()
+    made.data.compiled.spec.standard = [SimpleNamespace(effect=e, joint="1") for e in having]
+    made.scales = [JointScale(speed=1.0, range=1.5, load=1.0, angular=True, middle=0.0)]
+    effect = effect_named("spring")
+    spring = Candidate(effect, effect.forms[0], "1", 0, {"q0": rest, "h": 0.0})
+    assert ("a constant torque" in objection(made, spring, {"Ks1": 1.0})) is doubted
 
 
 def test_no_body_has_a_negative_mass():
