@@ -43,7 +43,7 @@ def polished(state: State, candidate: Candidate) -> Candidate:
     if len(smooth) == 1:
         found = minimize_scalar(
             lambda x: lost(np.array([x])),
-            bounds=(start[0] - reach[0], start[0] + reach[0]),
+            bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
             method="bounded",
             options={"maxiter": _STEPS},
         )
