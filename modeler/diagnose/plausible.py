@@ -50,9 +50,11 @@ def _no_spring(state: State, pick: Candidate) -> str:
     """Far from its rest a spring is a constant torque, unless the model has one already."""
     having = {(p.effect, p.joint) for p in state.data.compiled.spec.standard}
     scale = state.scales[pick.index]
-    if ("offset", pick.joint) in having or abs(pick.shapes["q0"] - scale.middle) < scale.range:
+    if ("offset", pick.joint) in having or abs(
+        pick.shapes["q0"] - scale.middle
+    ) < 0.5 * scale.range:
         return ""
-    return f"its rest lies far from all that joint {pick.joint} moves over: a constant torque"
+    return f"its rest lies outside of all that joint {pick.joint} moves over: a constant torque"
 
 
 def _no_body(parameters: Mapping[str, float]) -> str:
