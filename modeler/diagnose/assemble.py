@@ -103,7 +103,7 @@ def _findings(
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
         findings.append(_finding(found, step, touched, errors[k : k + 2], closed))
-    return detected(found, window, errors, findings)
+    return detected(found, window, errors[-1], findings)
 
 
 def _chain(found: Search) -> list[State]:
@@ -141,10 +141,10 @@ def _finding(
 ) -> Finding:
     judged, pick = step.judged, step.pick
     place = next(i for i, s in enumerate(found.steps) if s is step)
-    values = found.end.values[place]
+    values, deviations = found.end.values[place], judged.deviations * _left(found, step, touched)
     if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
-        values = instrumental(step.before, pick)[0]
-    named = values_of(found.end, pick, values, judged.deviations)
+        values, deviations = instrumental(step.before, pick)
+    named = values_of(found.end, pick, values, deviations)
     parameters = named.value | dict(pick.shapes)
     start, end = (finite(over(found.end, touched, error)) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
@@ -164,6 +164,13 @@ def _finding(
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
     )
+
+
+def _left(found: Search, step: Step, touched: Sequence[int]) -> float:
+    """Rms of the residual that stays on some joints over that before the effect."""
+    sigma = step.before.base.sigma
+    rest = [found.end.residual[j] / sigma[j] for j in touched]
+    return float(np.sqrt(np.mean(np.concatenate(rest) ** 2)))
 
 
 def _same(judged: Judged, found: Search) -> list[Key]:

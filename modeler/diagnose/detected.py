@@ -34,7 +34,7 @@ CONTACT = "external_force"
 def detected(
     found: Search,
     window: Window | None,
-    errors: Sequence[np.ndarray],
+    errors: np.ndarray,
     findings: Sequence[Finding],
 ) -> list[Finding]:
     """The findings with contact and play among them.
@@ -45,17 +45,17 @@ def detected(
     Args:
         found: of the training logs.
         window: of a contact that was masked.
-        errors: (J,) by number of effects put in.
+        errors: (J,) relative, with all effects put in.
         findings: that are columns.
     """
-    contact = [_contact(found, window, errors[-1])] if window is not None else []
+    contact = [_contact(found, window, errors)] if window is not None else []
     alone = all(f.refines for f in findings)
-    play = _play(found, found.end, errors[-1], BURST if alone else LOUD)
+    play = _play(found, found.end, errors, BURST if alone else LOUD)
     if alone and not play:
-        play = _faint(found, errors[-1])
+        play = _faint(found, errors)
     if play:
         return [*findings, *contact, *play]
-    first = _play(found, found.start, errors[-1], LOUD)
+    first = _play(found, found.start, errors, LOUD)
     if not first or contact:
         return [*findings, *contact]
     own = [f for f in findings if f.joint == first[0].joint]

@@ -9,33 +9,27 @@ from modeler.diagnose.judge import Judged
 from modeler.diagnose.state import Data, State, columns_of
 
 
-def held_out_errors(state: State, data: Data, later: float = 0.0) -> np.ndarray:
-    """(J,) ||measured - predicted|| / ||measured|| on other logs, parameters of the state."""
-    return relative(*held_out_squares(state, data, later))
-
-
 def relative(left: np.ndarray, size: np.ndarray) -> np.ndarray:
     """Relative errors from mean squares of residual and torque; 0 without torque."""
     return np.sqrt(left / np.where(size > 0.0, size, np.inf))
 
 
-def held_out_squares(state: State, data: Data, later: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def held_out_squares(state: State, data: Data) -> tuple[np.ndarray, np.ndarray]:
     """(J,) mean squared residual on other logs, parameters of the state; and mean squared torque.
 
     Args:
         state: fitted.
         data: held-out logs, in the same band.
-        later: s, added to their clock.
     """
     squares, size = np.zeros(data.rows.joints), np.zeros(data.rows.joints)
-    for j, left in enumerate(_held_out_residuals(state, data, later)):
+    for j, left in enumerate(_held_out_residuals(state, data)):
         if left.size:
             squares[j], size[j] = np.mean(left**2), np.mean(data.rows.y[j] ** 2)
     return squares, size
 
 
-def _held_out_residuals(state: State, data: Data, later: float) -> list[np.ndarray]:
-    """(rows_j,) by joint, N m or N."""
+def _held_out_residuals(state: State, data: Data, later: float = 0.0) -> list[np.ndarray]:
+    """(rows_j,) by joint, N m or N; with so many s added to the clock."""
     reference = dataclasses.replace(state.reference, time=state.reference.time - later)
     rows = data.rows.about(reference)
     cache: dict = {}

@@ -52,7 +52,7 @@ class Judged:
         share: the same of all joints.
         drop: (blocks,) fall there of the squared residual, weighted.
         values: of its parameters, SI.
-        deviations: their standard deviations, SI.
+        deviations: their standard deviations for residuals of the size that the state has, SI.
         sure: fall over its standard error.
         felt: rms of what it explains over the rms torque of its joints.
         visible: share that the model does not hide.
@@ -192,12 +192,6 @@ def _possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> boo
     return True
 
 
-def _deviations(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> np.ndarray:
-    """Standard deviations of the parameters for what the effect leaves, SI."""
-    explained = float(ranking.drop[:, i].sum()) / max(_at_stake(candidate, ranking), 1e-300)
-    return ranking.deviation[_own(pool, i)] * np.sqrt(min(1.0, max(0.0, 1.0 - explained)))
-
-
 def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> Judged:
     drop = ranking.drop[:, i]
     own = _own(pool, i)
@@ -207,7 +201,7 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i:
         float(drop.sum()) / max(float(ranking.before.sum()), 1e-300),
         drop,
         ranking.value[own],
-        _deviations(candidate, ranking, pool, i),
+        ranking.deviation[own],
         float(ranking.sure[i]),
         float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
         float(ranking.visible[i]),
