@@ -5,13 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.compare.laps import lap
-from modeler.diagnose.rank import FOLDS
 from modeler.observation import Observation
 
 BLOCK = 0.5
 """s; longer where logs are long: statistics over blocks need no more than `MOST`."""
 
 MOST = 120
+
+
+FOLDS = 8
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,20 +47,9 @@ def _held_out_residuals(state: State, data: Data, later: float = 0.0) -> list[np
 
 def crossed_errors(state: State) -> np.ndarray:
     """(J,) the same by cross-validation over the folds of the training logs."""
-    base, fold = state.base, state.data.blocks.fold
-    left = np.zeros(len(base.y))
-    total, right = base.G.sum(axis=0), base.u.sum(axis=0)
-    for f in np.unique(fold):
-        held = np.flatnonzero(fold == f)
-        G = total - base.G[held].sum(axis=0)
-        u = right - base.u[held].sum(axis=0)
-        beta = np.linalg.solve(G + 1e-9 * np.eye(len(G)), u) if len(G) else np.zeros(0)
-        for j, (columns, y) in enumerate(zip(base.columns, base.y, strict=True)):
-            rows = np.isin(base.block[j], held)
-            left[j] += float(np.sum((y[rows] - columns[rows] @ beta) ** 2))
     size = np.array([float(np.sum((y / s) ** 2)) for y, s in
-                     zip(state.rows.y, base.sigma, strict=True)])  # fmt: skip
-    return np.sqrt(left / np.where(size > 0.0, size, 1.0))
+                     zip(state.rows.y, state.base.sigma, strict=True)])  # fmt: skip
+    return np.sqrt(state.base.crossed.left / np.where(size > 0.0, size, 1.0))
 
 
 def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -28,7 +29,7 @@ class Base:
         turn: (c, r): columns = W turn / sigma.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
         block: (rows_j,) by joint, number of the block of time.
-        blocks: how many.
+        fold: (blocks,) number of the fold of each block.
         G, u: (blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y.
     """
 
@@ -37,9 +38,55 @@ class Base:
     turn: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
-    blocks: int
+    fold: np.ndarray
     G: np.ndarray
     u: np.ndarray
+
+    @property
+    def blocks(self) -> int:
+        """How many blocks of time there are."""
+        return len(self.fold)
+
+    @cached_property
+    def crossed(self) -> "Crossed":
+        """Fits of the base to all folds but one."""
+        place = np.unique(self.fold, return_inverse=True)[1]
+        count = int(place.max()) + 1
+        inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
+        left = np.zeros(len(self.y))
+        for j, (columns, y, block) in enumerate(zip(self.columns, self.y, self.block, strict=True)):
+            for b, rows in pieces(block):
+                left[j] += float(np.sum((y[rows] - columns[rows] @ beta[place[b]]) ** 2))
+        return Crossed(place, inverse, beta, left)
+
+
+@dataclass(frozen=True, eq=False)
+class Crossed:
+    """Fits of the base to all folds but one, F of them.
+
+    Attributes:
+        place: (blocks,) index of the fit that a block is held out of.
+        inverse: (F, r, r) of the Gram matrices.
+        beta: (F, r) parameters.
+        left: (J,) squared residual on rows that were held out.
+    """
+
+    place: np.ndarray
+    inverse: np.ndarray
+    beta: np.ndarray
+    left: np.ndarray
+
+
+def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
+    """(F, ...) sums of values (blocks, ...) over all folds but one."""
+    own = np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    return own.sum(axis=0) - own
+
+
+def solved(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(F, r, r) and (F, r) inverses of Gram matrices of the base, and parameters."""
+    inverse = np.linalg.inv(G + RIDGE * np.eye(G.shape[1])) if G.shape[1] else np.zeros_like(G)
+    return inverse, np.einsum("frs,fs->fr", inverse, u)
 
 
 def base_of(
@@ -47,7 +94,7 @@ def base_of(
     y: Sequence[np.ndarray],
     sigma: np.ndarray,
     block: Sequence[np.ndarray],
-    blocks: int,
+    fold: np.ndarray,
 ) -> Base:
     """The weighted base.
 
@@ -56,7 +103,7 @@ def base_of(
         y: (rows_j,) by joint.
         sigma: (J,) of each joint.
         block: (rows_j,) by joint.
-        blocks: how many there are.
+        fold: (blocks,) of each block.
     """
     scaled = [w / s for w, s in zip(W, sigma, strict=True)]
     gram = sum(w.T @ w for w in scaled)
@@ -68,12 +115,12 @@ def base_of(
     columns = tuple(w @ turn for w in scaled)
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     r = turn.shape[1]
-    G, u = np.zeros((blocks, r, r)), np.zeros((blocks, r))
+    G, u = np.zeros((len(fold), r, r)), np.zeros((len(fold), r))
     for w, t, own in zip(columns, target, block, strict=True):
         for b, rows in pieces(own):
             G[b] += w[rows].T @ w[rows]
             u[b] += w[rows].T @ t[rows]
-    return Base(columns, target, turn, sigma, tuple(block), blocks, G, u)
+    return Base(columns, target, turn, sigma, tuple(block), fold, G, u)
 
 
 def pieces(block: np.ndarray) -> list[tuple[int, slice]]:

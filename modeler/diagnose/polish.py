@@ -112,4 +112,4 @@ def _explained(state: State, candidate: Candidate) -> float:
     if not visible(columns):
         return 0.0
     pool = pool_of(state.base, [columns])
-    return float(fall(state.base, pool, state.data.blocks.fold).sum())
+    return float(fall(state.base, pool).sum())

@@ -1,13 +1,10 @@
 """Ranking: how much of the residual each candidate explains on motion it was not fitted to."""
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.gram import RIDGE, VISIBLE, Base, Pool
-
-FOLDS = 8
+from modeler.diagnose.gram import VISIBLE, Base, Pool, but_one, solved
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +29,7 @@ class Ranking:
     visible: np.ndarray
 
 
-def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
+def rank(base: Base, pool: Pool) -> Ranking:
     """Blocked cross-validation of every candidate beside the base.
 
     Candidates are projected off the base: what the base can imitate is not theirs. For each fold,
@@ -42,121 +39,105 @@ def rank(base: Base, pool: Pool, fold: np.ndarray) -> Ranking:
     Args:
         base: current model.
         pool: candidates.
-        fold: (blocks,) number of the fold of each block.
     """
-    drop = np.zeros((base.blocks, pool.count))
-    before = np.zeros(len(base.y))
-    every = _solve(pool, *(gram.sum(axis=0) for gram in _grams(base, pool)))
-    score = np.zeros(pool.count)
-    for f, held, own, solved in _folds(base, pool, fold):
-        before += _residual_energy(base, solved.beta, fold == f)
-        cross, square = _in_blocks(pool, own, solved)
-        drop[held] = 2.0 * cross - square
-        cross, square = _in_blocks(pool, own, every)
-        score += np.sum((cross - square) ** 2, axis=0)
-    sure = every.fitted / np.sqrt(np.maximum(score, 1e-300))
+    every = _whole(base, pool)
+    cross, square = _in_blocks(base, pool, every, np.zeros(base.blocks, dtype=int))
+    score = np.sum((cross - square) ** 2, axis=0)
+    gamma, deviation = every.gamma[0], every.deviation[0]
     return Ranking(
-        drop,
-        before,
-        sure,
-        every.gamma / pool.scale,
-        every.deviation / pool.scale,
-        every.visible,
+        fall(base, pool),
+        base.crossed.left,
+        every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
+        gamma / pool.scale,
+        deviation / pool.scale,
+        every.visible[0],
     )
 
 
-def fall(base: Base, pool: Pool, fold: np.ndarray) -> np.ndarray:
+def fall(base: Base, pool: Pool) -> np.ndarray:
     """(blocks, N) fall of the squared residual in blocks that were held out: `Ranking.drop`."""
-    drop = np.zeros((base.blocks, pool.count))
-    for _, held, own, solved in _folds(base, pool, fold):
-        cross, square = _in_blocks(pool, own, solved)
-        drop[held] = 2.0 * cross - square
-    return drop
+    crossed = base.crossed
+    at = (crossed.place, len(crossed.beta))
+    grams = (but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D))
+    held_out = _solve(pool, crossed.inverse, crossed.beta, *grams)
+    cross, square = _in_blocks(base, pool, held_out, crossed.place)
+    return 2.0 * cross - square
 
 
-def _grams(base: Base, pool: Pool) -> tuple[np.ndarray, ...]:
-    return base.G, base.u, pool.T, pool.w, pool.D
-
-
-def _folds(
-    base: Base, pool: Pool, fold: np.ndarray
-) -> Iterator[tuple[int, np.ndarray, list[np.ndarray], "_Solved"]]:
-    """Of every fold: its number, its blocks, their Gram matrices, and what all others say."""
-    grams = _grams(base, pool)
-    total = [gram.sum(axis=0) for gram in grams]
-    for f in np.unique(fold):
-        held = np.flatnonzero(fold == f)
-        own = [gram[held] for gram in grams]
-        others = [a - b.sum(axis=0) for a, b in zip(total, own, strict=True)]
-        yield int(f), held, own, _solve(pool, *others)
+def _whole(base: Base, pool: Pool) -> "_Solved":
+    """Fitted to all rows."""
+    G, u, T, w, D = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
+    return _solve(pool, *solved(G, u), u, T, w, D)
 
 
 @dataclass(frozen=True, eq=False)
 class _Solved:
-    beta: np.ndarray  # (r,) of the base alone
-    A: np.ndarray  # (r, K) candidates' columns in the base
-    gamma: np.ndarray  # (K,) candidates' parameters
-    deviation: np.ndarray  # (K,)
-    visible: np.ndarray  # (N,)
-    fitted: np.ndarray  # (N,)
+    beta: np.ndarray  # (F, r) of the base alone
+    A: np.ndarray  # (F, r, K) candidates' columns in the base
+    gamma: np.ndarray  # (F, K) candidates' parameters
+    deviation: np.ndarray  # (F, K)
+    visible: np.ndarray  # (F, N)
+    fitted: np.ndarray  # (F, N)
 
 
 def _solve(
-    pool: Pool, G: np.ndarray, u: np.ndarray, T: np.ndarray, w: np.ndarray, D: np.ndarray
+    pool: Pool,
+    inverse: np.ndarray,
+    beta: np.ndarray,
+    u: np.ndarray,
+    T: np.ndarray,
+    w: np.ndarray,
+    D: np.ndarray,
 ) -> _Solved:
-    inverse = np.linalg.inv(G + RIDGE * np.eye(len(G))) if len(G) else np.zeros((0, 0))
-    beta, A = inverse @ u, inverse @ T
+    """F fits of every candidate beside the base, from their Gram matrices (F, ...)."""
+    A = inverse @ T
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    M = D - np.einsum("ri,ri->i", T[:, i], A[:, k])
-    h = w - A.T @ u
-    gamma, deviation = np.zeros(len(h)), np.zeros(len(h))
-    visible, fitted = np.zeros(pool.count), np.zeros(pool.count)
+    M = D - np.einsum("fri,fri->fi", T[:, :, i], A[:, :, k])
+    h = w - np.einsum("frk,fr->fk", A, u)
+    gamma, deviation = np.zeros(h.shape), np.zeros(h.shape)
+    visible, fitted = np.zeros((len(h), pool.count)), np.zeros((len(h), pool.count))
     sizes = np.bincount(pool.owner, minlength=pool.count)
     start = np.concatenate([[0], np.cumsum(sizes**2)])
     for size in np.unique(sizes):
         own = np.flatnonzero(sizes == size)
         places = pool.first[own][:, None] + np.arange(size)
         square = start[own][:, None] + np.arange(size**2)
-        matrix = M[square].reshape(-1, size, size)
-        values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.transpose(0, 2, 1)))
+        matrix = M[:, square].reshape(len(h), -1, size, size)
+        values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.swapaxes(2, 3)))
         seen = values > VISIBLE**2
         inverted = np.where(seen, 1.0 / np.where(seen, values, 1.0), 0.0)
-        turned = np.einsum("nij,ni->nj", vectors, h[places])
-        gamma[places] = np.einsum("nij,nj->ni", vectors, inverted * turned)
-        deviation[places] = np.sqrt(np.einsum("nij,nj->ni", vectors**2, inverted))
-        visible[own] = np.sqrt(np.maximum(values[:, -1], 0.0))
-        fitted[own] = np.sum(inverted * turned**2, axis=1)
+        turned = np.einsum("fnij,fni->fnj", vectors, h[:, places])
+        gamma[:, places] = np.einsum("fnij,fnj->fni", vectors, inverted * turned)
+        deviation[:, places] = np.sqrt(np.einsum("fnij,fnj->fni", vectors**2, inverted))
+        visible[:, own] = np.sqrt(np.maximum(values[..., -1], 0.0))
+        fitted[:, own] = np.sum(inverted * turned**2, axis=2)
     return _Solved(beta, A, gamma, deviation, visible, fitted)
 
 
-def _residual_energy(base: Base, beta: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """(J,) squared residual of the base alone in the blocks that are held out (blocks,)."""
-    found = np.zeros(len(base.y))
-    for j, (columns, y, block) in enumerate(zip(base.columns, base.y, base.block, strict=True)):
-        rows = held[block]
-        found[j] = np.sum((y[rows] - columns[rows] @ beta) ** 2)
-    return found
-
-
 def _in_blocks(
-    pool: Pool, grams: Sequence[np.ndarray], at: _Solved
+    base: Base, pool: Pool, at: _Solved, place: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(b, N) e^T r and e^T e in some blocks: r the residual of the base, e what is added.
+    """(blocks, N) e^T r and e^T e: r the residual of the base, e what is added.
 
     Args:
+        base: current model.
         pool: all candidates.
-        grams: G, u, T, w, D of these blocks.
-        at: parameters.
+        at: parameters of F fits.
+        place: (blocks,) which fit counts in each block.
     """
-    G, u, T, w, D = grams
-    a = _by_owner(pool, at.A * at.gamma)
+    cross, square = np.zeros((2, base.blocks, pool.count))
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    products = _sums(D * (at.gamma[i] * at.gamma[k]), _pair_starts(pool))
-    left = u - G @ at.beta
-    cross = _by_owner(pool, (w - at.beta @ T) * at.gamma) - left @ a
-    own = _by_owner(pool, np.einsum("rk,brk->bk", a[:, pool.owner], T) * at.gamma)
-    inner = np.einsum("rn,brn->bn", a, G @ a) - 2.0 * own
-    return cross, products + inner
+    starts = _pair_starts(pool)
+    for f, (beta, gamma) in enumerate(zip(at.beta, at.gamma, strict=True)):
+        here = place == f
+        G, T = base.G[here], pool.T[here]
+        a = _by_owner(pool, at.A[f] * gamma)
+        products = _sums(pool.D[here] * (gamma[i] * gamma[k]), starts)
+        left = base.u[here] - G @ beta
+        cross[here] = _by_owner(pool, (pool.w[here] - beta @ T) * gamma) - left @ a
+        own = _by_owner(pool, np.einsum("rk,brk->bk", a[:, pool.owner], T) * gamma)
+        square[here] = products + np.einsum("rn,brn->bn", a, G @ a) - 2.0 * own
+    return cross, square
 
 
 def _by_owner(pool: Pool, values: np.ndarray) -> np.ndarray:

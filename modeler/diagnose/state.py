@@ -119,7 +119,7 @@ class State:
             self.data.blocks.number[self.data.observation.used[:, j]]
             for j in range(self.rows.joints)
         ]
-        return base_of(self.W, self.y, sigma, numbers, len(self.data.blocks.fold))
+        return base_of(self.W, self.y, sigma, numbers, self.data.blocks.fold)
 
     @cached_property
     def solution(self) -> np.ndarray:
@@ -166,7 +166,7 @@ class State:
     def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
         """Candidates by their columns."""
         pool = pool_of(self.base, every)
-        return pool, rank(self.base, pool, self.data.blocks.fold)
+        return pool, rank(self.base, pool)
 
 
 def state_of(

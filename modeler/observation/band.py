@@ -23,13 +23,21 @@ LEAST_PARALLEL = 5.0  # Hz
 _FLOOR = 10.0  # of exponentially distributed periodogram values, 0.1 % exceed 10 medians
 
 
-def motion_band(piece: Piece) -> float:
+Spectrum = tuple[np.ndarray, np.ndarray]
+"""Frequencies (n,), Hz, and energies (n, J) of the velocities there."""
+
+
+def motion_band(piece: Piece, spectrum: Spectrum) -> float:
     """Frequency below which 99 % of the velocity's energy lies, Hz; the fastest joint counts.
 
     What rings far above the motion is left out. The window's own width 2/T is taken off in
     quadrature, or a piece of half a second would look fast. 0 if nothing moves.
+
+    Args:
+        piece: of a log.
+        spectrum: its velocity energy.
     """
-    frequency, energy = velocity_energy(piece)
+    frequency, energy = spectrum
     bands = [0.0]
     for j in range(energy.shape[1]):
         own = energy[: ringing(frequency, energy[:, j], j)[1], j]
@@ -39,16 +47,16 @@ def motion_band(piece: Piece) -> float:
     return float(np.sqrt(max(0.0, max(bands) ** 2 - window**2)))
 
 
-def what_rings(pieces: Sequence[Piece]) -> list[Ringing]:
-    """Joints that ring in the longest of some pieces."""
-    if not pieces:
+def what_rings(spectra: Sequence[Spectrum]) -> list[Ringing]:
+    """Joints that ring in the longest of some pieces, by their velocity energies."""
+    if not spectra:
         return []
-    frequency, energy = velocity_energy(max(pieces, key=lambda piece: len(piece.time)))
+    frequency, energy = max(spectra, key=lambda spectrum: len(spectrum[0]))
     found = [ringing(frequency, energy[:, j], j)[0] for j in range(energy.shape[1])]
     return [ring for ring in found if ring is not None]
 
 
-def velocity_energy(piece: Piece) -> tuple[np.ndarray, np.ndarray]:
+def velocity_energy(piece: Piece) -> Spectrum:
     """Frequencies (n,), Hz, and energy (n, J) of the velocities there, above the noise.
 
     From the periodogram P(f) of each position (Hann window, trend removed): energy of the velocity
@@ -66,7 +74,7 @@ def velocity_energy(piece: Piece) -> tuple[np.ndarray, np.ndarray]:
 
 
 def choose_cutoffs(
-    processing: Processing, pieces: Sequence[Piece]
+    processing: Processing, pieces: Sequence[Piece], spectra: Sequence[Spectrum]
 ) -> tuple[Processing, tuple[str, ...]]:
     """The processing with both cut-offs chosen, and a sentence for each choice.
 
@@ -74,9 +82,14 @@ def choose_cutoffs(
     0.4 of the sampling rate; a filter too close to the motion looks like a flexible joint. Parallel
     filter: 4 times the motion band, at least 5 Hz, at most half the position filter. The EMPS
     benchmark, whose authors chose 100 Hz and 16 Hz by hand, comes out at 90 Hz and 14 Hz.
+
+    Args:
+        processing: what is given is kept.
+        pieces: of all logs.
+        spectra: their velocity energies.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    bands = np.array([motion_band(piece) for piece in pieces])
+    bands = np.array([motion_band(*pair) for pair in zip(pieces, spectra, strict=True)])
     band = weighted_median(bands, lengths)
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
     slowest = 1.0 / max(piece.step for piece in pieces)

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
-from modeler.observation.band import choose_cutoffs, what_rings
+from modeler.observation.band import Spectrum, choose_cutoffs, velocity_energy, what_rings
 from modeler.observation.consistency import Consistency, consistency
 from modeler.observation.derivatives import quieter, without_velocities
 from modeler.observation.log import Log
@@ -64,7 +64,8 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
             "than 4 rows; record without interruptions"
         )
     _check_cutoff(logs, pieces, processing)
-    chosen, choices = choose_cutoffs(processing, pieces)
+    spectra = [velocity_energy(piece) for piece in pieces]
+    chosen, choices = choose_cutoffs(processing, pieces, spectra)
     found = [own for own, _ in split_logs]
     checks = [
         _checked(log, own, chosen) if use else None
@@ -101,12 +102,15 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         ),
         dropped=tuple(dropped),
         checks=tuple(checks),
-        rings=tuple(_rings(spec, own) for own in found),
+        rings=tuple(
+            _rings(spec, [s for p, s in zip(pieces, spectra, strict=True) if p.run == run])
+            for run in range(len(logs))
+        ),
     )
 
 
-def _rings(spec: ModuleSpec, pieces: Sequence[Piece]) -> tuple[str, ...]:
-    return tuple(ring.sentence(spec.joints[ring.joint].name) for ring in what_rings(pieces))
+def _rings(spec: ModuleSpec, spectra: Sequence[Spectrum]) -> tuple[str, ...]:
+    return tuple(ring.sentence(spec.joints[ring.joint].name) for ring in what_rings(spectra))
 
 
 def _checked(log: Log, pieces: Sequence[Piece], chosen: Processing) -> Consistency:

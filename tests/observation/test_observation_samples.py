@@ -7,7 +7,7 @@ import pytest
 
 from modeler.core.errors import DataError
 from modeler.observation import Log, Processing, processing_from_json
-from modeler.observation.band import choose_cutoffs, motion_band, what_rings
+from modeler.observation.band import choose_cutoffs, motion_band, velocity_energy, what_rings
 from modeler.observation.motion import segment_of
 from modeler.observation.saturation import saturated
 from modeler.observation.segments import split
@@ -135,13 +135,21 @@ def test_saturated_samples_count_only_on_request():
     assert kept.valid.sum() - left.valid.sum() == (piece.clipped[:, 0] & left.whole).sum()
 
 
+def band_of(piece):
+    return motion_band(piece, velocity_energy(piece))
+
+
+def cutoffs_of(processing, piece):
+    return choose_cutoffs(processing, [piece], [velocity_energy(piece)])
+
+
 @pytest.mark.parametrize("noise", [0.0, 1e-5, 1e-3])
 def test_the_motion_band_is_that_of_the_fastest_joint_and_noise_does_not_move_it(noise):
     time = np.arange(20000) * 1e-3
     q = np.column_stack([np.sin(2 * np.pi * 0.3 * time), 0.2 * np.sin(2 * np.pi * 3.0 * time)])
     q = q + np.random.default_rng(2).normal(0.0, noise, q.shape)
     log = Log("a", ("1", "2"), time, q, q)
-    assert motion_band(split(log, 0, False)[0][0]) == pytest.approx(3.0, abs=0.15)
+    assert band_of(split(log, 0, False)[0][0]) == pytest.approx(3.0, abs=0.15)
 
 
 def ringing_log(share, hertz, of=0.3):
@@ -156,30 +164,30 @@ def ringing_log(share, hertz, of=0.3):
 @pytest.mark.parametrize("share", [0.02, 0.17, 0.97])
 def test_what_rings_far_above_the_motion_is_no_motion(share):
     piece = split(ringing_log(share, 93.0), 0, False)[0][0]
-    (found,) = what_rings([piece])
+    (found,) = what_rings([velocity_energy(piece)])
     assert found.joint == 1
     assert found.frequency == pytest.approx(93.0, abs=0.1)
     assert found.share == pytest.approx(share, rel=0.02)
     assert "joint elbow rings at 93 Hz" in found.sentence("elbow")
-    assert motion_band(piece) == pytest.approx(3.0, abs=0.15)
+    assert band_of(piece) == pytest.approx(3.0, abs=0.15)
 
 
 @pytest.mark.parametrize(("share", "hertz"), [(0.001, 93.0), (0.5, 20.0)])
 def test_little_energy_or_a_frequency_near_the_motion_is_no_ringing(share, hertz):
-    assert what_rings([split(ringing_log(share, hertz), 0, False)[0][0]]) == []
+    assert what_rings([velocity_energy(split(ringing_log(share, hertz), 0, False)[0][0])]) == []
 
 
 def test_a_robot_that_only_shakes_moves():
     time = np.arange(20000) * 1e-3
     piece = split(log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None]), 0, False)[0][0]
-    assert what_rings([piece]) == []
-    assert motion_band(piece) == pytest.approx(60.0, abs=0.5)
+    assert what_rings([velocity_energy(piece)]) == []
+    assert band_of(piece) == pytest.approx(60.0, abs=0.5)
 
 
 def test_a_log_that_stands_still_has_no_band():
     time = np.arange(1000) * 1e-3
     still = log_of(time, np.full((1000, 1), 0.4))
-    assert motion_band(split(still, 0, False)[0][0]) == 0.0
+    assert band_of(split(still, 0, False)[0][0]) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -189,20 +197,18 @@ def test_a_log_that_stands_still_has_no_band():
 def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     time = np.arange(20 * rate) / rate
     piece = split(log_of(time, np.sin(2 * np.pi * hertz * time)[:, None]), 0, False)[0][0]
-    chosen, said = choose_cutoffs(Processing(), [piece])
+    chosen, said = cutoffs_of(Processing(), piece)
     assert chosen.position_cutoff == pytest.approx(position, rel=0.05)
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
     assert any("position filter" in s for s in said) and any("parallel filter" in s for s in said)
     given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
-    assert choose_cutoffs(given, [piece])[0] == given
+    assert cutoffs_of(given, piece)[0] == given
 
 
 def test_a_rate_too_low_for_the_motion_is_said():
     time = np.arange(400) / 20.0
     piece = split(log_of(time, np.sin(2 * np.pi * 3.0 * time)[:, None]), 0, False)[0][0]
-    assert any(
-        "less than 5 x the motion band" in s for s in choose_cutoffs(Processing(), [piece])[1]
-    )
+    assert any("less than 5 x the motion band" in s for s in cutoffs_of(Processing(), piece)[1])
 
 
 def test_processing_survives_json_and_refuses_nonsense():
