@@ -11,7 +11,7 @@ BURST = 11.0
 """Energy within that time over that elsewhere from which on play is named."""
 
 LOUD = 30.0
-"""The same where other effects are named: what they leave may burst too."""
+"""The same where columns are named that take the bursts away."""
 
 EVENTS = 5
 """Least number of sign changes of the load."""

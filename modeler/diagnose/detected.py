@@ -21,13 +21,19 @@ KNOCKS = 0.85
 FAINT = 4.0
 """Ratio of the bursts from which on there is play where its column explains something too."""
 
+BESIDE = 5.0
+"""The same beside other effects, which may leave bursts of their own."""
+
 AGAIN = 5.0
 """Held-out error over that of the rest of the training logs from which on it came again."""
+
+_LEAST = 1e-3  # share that counts for a column of play that explains nothing
 
 WEAK = 0.5
 """Gain of a column below which play that is heard without it comes first."""
 
 _PLAY = "backlash"
+_RINGS = "elasticity"
 CONTACT = "external_force"
 
 
@@ -39,8 +45,9 @@ def detected(
 ) -> list[Finding]:
     """The findings with contact and play among them.
 
-    Play goes ahead of columns that explain little on its joint: while a gear floats in its gap,
-    elasticity describes some of it.
+    Its knocks ring like a spring: where there is play, elasticity that explains little is no effect
+    of its own. Play that is heard only before columns on its joint were put in goes ahead of those
+    that explain little.
 
     Args:
         found: of the training logs.
@@ -50,11 +57,12 @@ def detected(
     """
     contact = [_contact(found, window, errors)] if window is not None else []
     alone = all(f.refines for f in findings)
-    play = _play(found, found.end, errors, BURST if alone else LOUD)
-    if alone and not play:
-        play = _faint(found, errors)
+    rings = any(f.effect == _RINGS for f in findings)
+    play = _play(found, found.end, errors, BURST) or _faint(
+        found, errors, FAINT if alone else BESIDE, knocks=not rings
+    )
     if play:
-        return [*findings, *contact, *play]
+        return [*(_knocked(f) for f in findings), *contact, *play]
     first = _play(found, found.start, errors, LOUD)
     if not first or contact:
         return [*findings, *contact]
@@ -63,6 +71,12 @@ def detected(
         return list(findings)
     rest = [dataclasses.replace(f, refines=True) if f in own else f for f in findings]
     return [*first, *rest] if own or alone else [*rest, *first]
+
+
+def _knocked(finding: Finding) -> Finding:
+    """The finding beside play in a gear."""
+    weak = finding.effect == _RINGS and finding.gain < WEAK
+    return dataclasses.replace(finding, refines=True) if weak else finding
 
 
 def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
@@ -98,13 +112,13 @@ def _asked(found: Search) -> list[int]:
 
 
 def _play(found: Search, state: State, errors: np.ndarray, least: float) -> list[Finding]:
-    """Play in a gear, on the joint whose bursts its column describes best."""
+    """Play in a gear, on the joint that bursts most and whose column describes most."""
     ratios = {j: burst_ratio(state, j) for j in _asked(found)}
     bursting = [j for j, ratio in ratios.items() if ratio > least]
     if not bursting:
         return []
-    described = {k: judged.share for k, judged in _columns(found).items()}
-    j = max(bursting, key=lambda k: (described.get(k, 0.0), ratios[k]))
+    shares = {k: judged.share for k, judged in _columns(found).items()}
+    j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), _LEAST))
     return [_backlash(found, errors, [j, *bursting], 1.0 - 1.0 / ratios[j], _bursts(ratios[j]))]
 
 
@@ -123,17 +137,24 @@ def _columns(found: Search) -> dict[int, Judged]:
     }  # fmt: skip
 
 
-def _faint(found: Search, errors: np.ndarray) -> list[Finding]:
-    """Play whose bursts noise covers, or that knocks without rule: its column tells it then."""
+def _faint(found: Search, errors: np.ndarray, least: float, knocks: bool) -> list[Finding]:
+    """Play whose bursts noise covers, or that knocks without rule: its column tells it then.
+
+    Args:
+        found: of the training logs.
+        errors: (J,) relative.
+        least: ratio of the bursts.
+        knocks: False where something else may knock.
+    """
     seen = {
         j: judged for j, judged in _columns(found).items()
         if j in _asked(found) and judged.gain > GATE and judged.sure > RARE
     }  # fmt: skip
     for j, judged in sorted(seen.items(), key=lambda entry: -entry[1].share):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
-        if ratio > FAINT and judged.sure > SURE:
+        if ratio > least and judged.sure > SURE:
             return [_backlash(found, errors, [j], judged.gain, _bursts(ratio))]
-        if share > KNOCKS:
+        if knocks and share > KNOCKS:
             text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
             return [_backlash(found, errors, [j], judged.gain, text, doubt)]

@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
-from modeler.diagnose.bursts import LOUD, burst_ratio
+from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.candidates import Known
 from modeler.diagnose.channels import Fault, faults
 from modeler.diagnose.contact import Window, contact_window
@@ -144,7 +144,7 @@ def kept_parameters(
 
 def _rattles(state: State) -> bool:
     """True if a gear has so much play that one of its knocks looks like a push."""
-    return any(burst_ratio(state, j) > LOUD for j in range(state.rows.joints))
+    return any(burst_ratio(state, j) > BURST for j in range(state.rows.joints))
 
 
 def _push(data: Data, found: Search) -> Window | None:
