@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.diagnose.state import State
 
-CLOSED = 0.9
+CLOSED = 0.95
 """Share of what is systematic that an effect must explain to be stated as the cause."""
 
 ALIKE = 1.2
