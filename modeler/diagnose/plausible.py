@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.state import State
+from modeler.diagnose.state import State, columns_of
 from modeler.effects import Acts
 
 LOOSE = 5.0
@@ -26,7 +26,8 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
 
     A joint of stiffness K rings, with its motor held, at f = sqrt(K/J)/(2 pi), J the inertia that
     the model has on its axis: something else that rings (a sloshing load, a soft base) has another
-    J (Spong 1987). And where no gravity turns a joint, nothing balances it.
+    J (Spong 1987). And where no gravity turns a joint, nothing balances it; nor is a lever seen
+    where a straight line describes its torque as well.
 
     Args:
         state: with the effect.
@@ -34,7 +35,7 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
         parameters: its parameters and shapes by name, SI.
     """
     if pick.effect.id in BALANCERS:
-        return _nothing_to_balance(state, pick)
+        return _nothing_to_balance(state, pick) or _no_lever(state, pick, parameters)
     if pick.effect.id == "spring":
         return _no_spring(state, pick)
     if pick.effect.acts is Acts.LINK:
@@ -77,6 +78,19 @@ def _nothing_to_balance(state: State, pick: Candidate) -> str:
     if np.mean(weight**2) > WEIGHTLESS**2 * np.mean(torque**2):
         return ""
     return f"gravity does not turn joint {pick.joint}, so no spring balances it"
+
+
+def _no_lever(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """What the residual covers of its torque beside a straight line over the stroke is not seen."""
+    j = pick.index
+    column = columns_of(state.rows, pick, state.cache)[j]
+    assert column is not None, "it acts on its own joint"
+    torque = column @ [parameters[name] for name in pick.parameter_names()]
+    line = np.vander(state.rows.filtered(j, [s.q[:, j] for s in state.rows.signals]), 2)
+    bent = torque - line @ np.linalg.lstsq(line, torque, rcond=None)[0]
+    if np.mean(bent**2) > np.mean(state.residual[j] ** 2):
+        return ""
+    return "over this stroke its torque is a straight line in q: another spring gives it too"
 
 
 def _other_oscillator(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:

@@ -49,10 +49,29 @@ def test_ten_times_the_inertia_is_not_this_joint(unit, named):
     assert objection(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
 
 
-@pytest.mark.parametrize("name", ["counterbalance", "constant_force_spring"])
-def test_a_spring_balances_only_a_joint_that_gravity_turns(name):
-    assert objection(state(weight=0.5), pick(name), {}) == ""
-    assert "gravity does not turn joint 1" in objection(state(weight=0.01), pick(name), {})
+def levered(curve, weight=0.5, noise=0.1):
+    """A state whose candidate has that torque over q from -1 to 1 rad."""
+    made = state(weight=weight)
+    q = np.linspace(-1.0, 1.0, 100)
+    made.rows.signals[0].q = q[:, None]
+    made.rows.filtered = lambda j, values: np.concatenate(values)
+    made.rows.columns = lambda candidate: (curve(q)[:, None],)
+    made.residual = [noise * np.cos(50.0 * q)]
+    made.cache = {}
+    return made
+
+
+@pytest.mark.parametrize(("weight", "doubted"), [(0.5, False), (0.01, True)])
+def test_a_spring_balances_only_a_joint_that_gravity_turns(weight, doubted):
+    said = objection(levered(np.square, weight), pick("constant_force_spring"), {"Kgl1": 1.0})
+    assert ("gravity does not turn joint 1" in said) is doubted
+
+
+@pytest.mark.parametrize(("bent", "doubted"), [(0.5, False), (0.02, True)])
+def test_a_lever_that_a_straight_line_describes_is_doubted(bent, doubted):
+    made = levered(lambda q: 3.0 + q + bent * q**2)
+    said = objection(made, pick("constant_force_spring"), {"Kgl1": 1.0})
+    assert ("a straight line in q" in said) is doubted
 
 
 def test_other_effects_are_not_asked():

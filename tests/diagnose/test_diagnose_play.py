@@ -1,0 +1,141 @@
+"""Play in a gear: when it is named, on which joint, and what is said beside it."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from modeler.diagnose import detected as module
+from modeler.diagnose import diagnose, diagnosis
+from modeler.diagnose.detected import detected
+from tests.diagnose.conftest import Case, motion, on_joint
+
+ERRORS = np.full(3, 0.05)
+
+
+class Found(SimpleNamespace):
+    """A search over three joints: ratios of bursts before and after it, knocks, columns of play."""
+
+
+def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
+    """Args: by joint; columns: (gain, share, ratio to its standard error) of play, by joint."""
+    joints = [SimpleNamespace(name=str(j), actuated=True) for j in (1, 2, 3)]
+    data = SimpleNamespace(compiled=SimpleNamespace(spec=SimpleNamespace(joints=joints)))
+    states = [SimpleNamespace(data=data, ratios=ratios) for ratios in (start, end)]
+    monkeypatch.setattr(module, "burst_ratio", lambda state, j: state.ratios[j])
+    monkeypatch.setattr(module, "knocking", lambda state, j: knocks[j])
+    effect = SimpleNamespace(id="backlash")
+    ranked = [
+        SimpleNamespace(
+            candidate=SimpleNamespace(effect=effect, index=j), gain=gain, share=share, sure=sure
+        )
+        for j, (gain, share, sure) in (columns or {}).items()
+    ]
+    last = SimpleNamespace(ranked=ranked)
+    return Found(start=states[0], end=states[1], last=last, without=())
+
+
+def column(effect, joint, gain, refines=False):
+    return module.Finding(
+        effect, joint, gain, 0.1, 0.05, {}, {}, {}, (), "", 1.0, refines
+    )  # fmt: skip
+
+
+def said(found, findings=()):
+    every = detected(found, None, ERRORS, list(findings))
+    return [(f.effect, f.joint) for f in every if not f.refines]
+
+
+QUIET = (1.0, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("others", [(), (column("spring", "3", 0.9),)])
+def test_bursts_name_play_alone_and_beside_others(monkeypatch, others):
+    loud = (1.0, 12.0, 1.0)
+    found = searched(monkeypatch, loud, loud)
+    assert said(found, others) == [*((f.effect, f.joint) for f in others), ("backlash", "2")]
+    assert said(searched(monkeypatch, QUIET, (1.0, 10.0, 1.0)), others) == [
+        (f.effect, f.joint) for f in others
+    ]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "column_of_play", "beside", "alone"),
+    [
+        (4.5, (0.1, 0.1, 8.0), False, True),
+        (5.5, (0.1, 0.1, 8.0), True, True),
+        (5.5, (0.01, 0.01, 8.0), False, False),
+        (5.5, (0.1, 0.1, 4.0), False, False),
+    ],
+)
+def test_faint_bursts_count_where_the_column_of_play_explains_something(
+    monkeypatch, ratio, column_of_play, beside, alone
+):
+    found = searched(monkeypatch, QUIET, (1.0, ratio, 1.0), columns={1: column_of_play})
+    assert (("backlash", "2") in said(found)) is alone
+    assert (("backlash", "2") in said(found, [column("spring", "3", 0.9)])) is beside
+
+
+def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
+    knocks, columns = (0.0, 0.9, 0.0), {1: (0.1, 0.1, 4.0)}
+    found = searched(monkeypatch, QUIET, QUIET, knocks, columns)
+    (play,) = detected(found, None, ERRORS, [])
+    assert (play.effect, play.joint) == ("backlash", "2")
+    assert "do not follow the sign of the load" in play.objection
+    assert "90 % of the residual's energy" in play.evidence
+    rings = column("elasticity", "3", 0.9)
+    assert said(found, [rings]) == [("elasticity", "3")], "what rings knocks too"
+
+
+def test_the_joint_bursts_most_and_its_column_describes_most(monkeypatch):
+    loud = (14.0, 52.0, 30.0)
+    columns = {0: (0.5, 0.25, 9.0), 1: (0.4, 0.22, 9.0), 2: (0.1, 0.0, 9.0)}
+    (play,) = detected(searched(monkeypatch, loud, loud, columns=columns), None, ERRORS, [])
+    assert play.joint == "2"
+    assert play.ties == (("backlash", "1"), ("backlash", "3"))
+
+
+@pytest.mark.parametrize(("gain", "named"), [(0.2, False), (0.9, True)])
+def test_what_the_knocks_ring_is_no_elasticity_of_its_own(monkeypatch, gain, named):
+    loud = (1.0, 40.0, 1.0)
+    found = searched(monkeypatch, loud, loud)
+    assert (("elasticity", "3") in said(found, [column("elasticity", "3", gain)])) is named
+
+
+@pytest.mark.parametrize(("gain", "first"), [(0.2, "backlash"), (0.9, "presliding")])
+def test_play_that_a_weak_column_hides_goes_ahead_of_it(monkeypatch, gain, first):
+    found = searched(monkeypatch, (1.0, 40.0, 1.0), QUIET)
+    assert said(found, [column("presliding", "2", gain)]) == [(first, "2")]
+
+
+def test_a_gear_that_rattles_is_no_push(monkeypatch):
+    window = SimpleNamespace(with_part=lambda later: None)
+    state = SimpleNamespace(rows=SimpleNamespace(joints=1), picks=(), beta=None)
+    found = SimpleNamespace(end=state, last=SimpleNamespace(ranked=(1,)))
+    monkeypatch.setattr(diagnosis, "contact_window", lambda state: window)
+    monkeypatch.setattr(diagnosis, "_masked", lambda observation, window: observation)
+    monkeypatch.setattr(diagnosis, "state_of", lambda *a: state)
+    monkeypatch.setattr(diagnosis.dataclasses, "replace", lambda data, **changes: data)
+    data = SimpleNamespace(observation=None)
+    for ratio, push in ((12.0, None), (5.0, window)):
+        monkeypatch.setattr(diagnosis, "burst_ratio", lambda state, j, ratio=ratio: ratio)
+        assert diagnosis._push(data, found) is push
+
+
+def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case) -> None:
+    """Joint 1 turns about the vertical: its load is inertia, and changes sign at top speed."""
+    signs = np.random.default_rng(3).choice([-1.0, 1.0], 1000)
+
+    def torque(log):
+        q, v = motion(log)
+        load = np.gradient(v[:, 0], log.time)
+        turns = np.flatnonzero(np.diff(np.sign(load)) != 0)
+        knocks = np.zeros(len(q))
+        for turn, sign in zip(turns, signs[: len(turns)], strict=True):
+            since = log.time[turn:] - log.time[turn]
+            knocks[turn:] += 2.0 * sign * np.exp(-since / 0.03)
+        return on_joint(log, 0, knocks) + on_joint(log, 2, 1.5 * q[:, 2])
+
+    model, train, holdout = case.hidden(torque)
+    found = diagnose(model, case.compiled, [train], [holdout])
+    assert {(f.effect, f.joint) for f in found.effects} == {("backlash", "1"), ("spring", "3")}
