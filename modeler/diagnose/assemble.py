@@ -64,7 +64,7 @@ def assembled(
     data = found.start.data
     diagnosis = Diagnosis(
         robot=model.spec.robot,
-        verdict="cannot tell" if contradicted else _verdict(effects, joints, found),
+        verdict="cannot tell" if contradicted else verdict(effects, joints, found),
         effects=effects,
         refinements=tuple(f for f in findings if f.refines),
         rivals=_rivals(found),
@@ -241,7 +241,14 @@ def _joints(
     return states
 
 
-def _verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Search) -> str:
+def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Search) -> str:
+    """One of the five answers.
+
+    Args:
+        effects: that are named, best first.
+        joints: by name.
+        found: of the training logs.
+    """
     if effects:
         first = effects[0]
         closed = first.closure is None or first.closure >= CLOSED

@@ -120,7 +120,7 @@ def best_shapes(
     best: dict[tuple[str, str | None], int] = {}
     total = ranking.drop.sum(axis=0)
     order = [
-        (_possible(candidate, ranking, pool, i), float(total[i]))
+        (possible(candidate, ranking, pool, i), float(total[i]))
         for i, candidate in enumerate(found)
     ]
     for i, candidate in enumerate(found):
@@ -183,7 +183,8 @@ def _own(pool: Pool, i: int) -> np.ndarray:
     return np.flatnonzero(pool.owner == i)
 
 
-def _possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> bool:
+def possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> bool:
+    """False for a sign or a size of the i-th candidate's parameters that physics forbids."""
     own = _own(pool, i)
     for place, column in zip(own, candidate.form.columns, strict=False):
         value = float(ranking.value[place])
@@ -205,7 +206,7 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i:
         float(ranking.sure[i]),
         float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
         float(ranking.visible[i]),
-        _possible(candidate, ranking, pool, i),
+        possible(candidate, ranking, pool, i),
     )
 
 

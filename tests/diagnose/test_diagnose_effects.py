@@ -46,7 +46,7 @@ def motor_ripple(log: Log) -> np.ndarray:
 
 
 NAMED: dict[str, tuple[Callable[[Log], np.ndarray], str | None, dict[str, float]]] = {
-    "stribeck": (stribeck, "2", {}),
+    "stribeck": (stribeck, "2", {"Fst2": 4.0, "vs": 0.1, "d": 2.0}),
     "asymmetric_viscous": (asymmetric_viscous, "3", {"Fva3": 0.6}),
     "position_friction": (position_friction, "1", {"Fpc1": 1.351, "Fps1": 2.104}),
     "spring": (spring, "3", {}),

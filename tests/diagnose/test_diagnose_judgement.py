@@ -1,0 +1,78 @@
+"""What a diagnosis may not say: effects a joint cannot have, sizes, errors beyond all measure."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from modeler.diagnose import Known
+from modeler.diagnose.assemble import verdict
+from modeler.diagnose.candidates import Candidate, candidates, scales_of
+from modeler.diagnose.judge import possible
+from modeler.diagnose.search import Survey
+from modeler.effects import effect_named
+from tests.diagnose.conftest import Case
+
+TURNING = ("counterbalance", "constant_force_spring", "encoder_eccentricity")
+
+
+def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
+    spec = case.compiled.spec
+    slides = [dataclasses.replace(j, unit="m") if j.name == "2" else j for j in spec.joints]
+    spec = dataclasses.replace(spec, joints=tuple(slides))
+    motion = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
+    scales = scales_of(spec, motion, motion, motion)
+    found = {c.key for c in candidates(spec, scales, {}, set(), Known())}
+    for name in TURNING:
+        effect = effect_named(name)
+        assert effect is not None and effect.turns
+        assert (name, "2") not in found
+    assert ("counterbalance", "1") in found and ("encoder_eccentricity", "3") in found
+    assert ("spring", "2") in found
+
+
+@pytest.mark.parametrize(
+    ("effect", "value", "may_be"),
+    [
+        ("encoder_offset", 0.19, True),
+        ("encoder_offset", 0.21, False),
+        ("encoder_offset", -0.21, False),
+        ("rotor_inertia", 30.0, True),
+        ("rotor_inertia", -0.1, False),
+        ("offset", -30.0, True),
+    ],
+)
+def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be: bool) -> None:
+    found = effect_named(effect)
+    assert found is not None
+    pool, ranking = SimpleNamespace(owner=np.array([0])), SimpleNamespace(value=np.array([value]))
+    candidate = Candidate(found, found.forms[0], "1", 0)
+    assert possible(candidate, ranking, pool, 0) is may_be  # type: ignore[arg-type]
+
+
+def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
+    candidate = SimpleNamespace(key=(effect, "1"))
+    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends)
+
+
+@pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
+def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
+    before: float, now: float, again: bool
+) -> None:
+    survey = Survey(None, (), (), (judged("spring", now),))  # type: ignore[arg-type]
+    refused = [judged("spring", before), judged("stribeck", 0.2, mends=True)]
+    kept = survey.still(refused)  # type: ignore[arg-type]
+    assert (refused[0] not in kept) is again
+    assert refused[1] in kept, "what only mends a law stays refused"
+
+
+@pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])
+def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
+    error: float, said: str
+) -> None:
+    time = np.linspace(0.0, 30.0, 3000)
+    observation = SimpleNamespace(time=time, run=np.zeros(3000), logs=("a",))
+    start = SimpleNamespace(y=[np.zeros(3000)], data=SimpleNamespace(observation=observation))
+    joints = {"1": SimpleNamespace(error_after=error, unexplained=False)}
+    assert verdict((), joints, SimpleNamespace(start=start)) == said  # type: ignore[arg-type]
