@@ -24,6 +24,9 @@ FAINT = 4.0
 BESIDE = 5.0
 """The same beside other effects, which may leave bursts of their own."""
 
+HINT = 0.02
+"""Least gain of the column of play that counts beside faint bursts."""
+
 AGAIN = 5.0
 """Held-out error over that of the rest of the training logs from which on it came again."""
 
@@ -148,13 +151,13 @@ def _faint(found: Search, errors: np.ndarray, least: float, knocks: bool) -> lis
     """
     seen = {
         j: judged for j, judged in _columns(found).items()
-        if j in _asked(found) and judged.gain > GATE and judged.sure > RARE
+        if j in _asked(found) and judged.gain > HINT and judged.sure > RARE
     }  # fmt: skip
     for j, judged in sorted(seen.items(), key=lambda entry: -entry[1].share):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
         if ratio > least and judged.sure > SURE:
             return [_backlash(found, errors, [j], judged.gain, _bursts(ratio))]
-        if knocks and share > KNOCKS:
+        if knocks and share > KNOCKS and judged.gain > GATE:
             text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
             return [_backlash(found, errors, [j], judged.gain, text, doubt)]

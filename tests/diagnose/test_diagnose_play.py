@@ -64,7 +64,7 @@ def test_bursts_name_play_alone_and_beside_others(monkeypatch, others):
     [
         (4.5, (0.1, 0.1, 8.0), False, True),
         (5.5, (0.1, 0.1, 8.0), True, True),
-        (5.5, (0.01, 0.01, 8.0), False, False),
+        (5.5, (0.015, 0.01, 8.0), False, False),
         (5.5, (0.1, 0.1, 4.0), False, False),
     ],
 )
