@@ -3,9 +3,20 @@
 import dataclasses
 
 from modeler.diagnose.noise import knocking
-from modeler.diagnose.result import Diagnosis, Finding
+from modeler.diagnose.result import Diagnosis, Finding, Key
 from modeler.diagnose.search import Step
 from modeler.effects import effect_named
+
+TOLD = 0.15
+"""Gain from which on an effect is mentioned that was refused."""
+
+MOST_REFUSED = 3
+
+_ONLY_HERE = "of these logs' error, but the error of the held-out motion does not fall with it"
+_ONLY_NOISE = (
+    "of the error, but not once encoder noise is smoothed out of the motion: errors of timing look "
+    "alike"
+)
 
 
 def percent(share: float) -> str:
@@ -57,6 +68,7 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
     lines = [_headline(diagnosis), *(_effect_line(f) for f in diagnosis.effects)]
     lines += [_refinement(f, diagnosis) for f in diagnosis.refinements]
     judged = {} if diagnosis.contradicted else diagnosis.joints
+    lines += _refused(diagnosis) if judged else []
     for name, joint in judged.items():
         if joint.unexplained:
             left = joint.systematic + joint.noise
@@ -72,6 +84,21 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
             "that depend on the path; give other motion with --holdout"
         )
     return dataclasses.replace(diagnosis, sentences=tuple(lines))
+
+
+def _refused(diagnosis: Diagnosis) -> list[str]:
+    """What explains much of these logs and is not named all the same, the best first."""
+    found = diagnosis.search
+    timing = [judged for judged in found.last.ranked if not judged.confirmed]
+    named = {step.pick.key for step in found.steps}
+    lines: dict[Key, tuple[float, str]] = {}
+    for refused, why in ((found.vetoed, _ONLY_HERE), (timing, _ONLY_NOISE)):
+        for judged in refused:
+            key = judged.candidate.key
+            if key not in named and judged.gain > lines.get(key, (TOLD, ""))[0]:
+                text = f"not named: {judged.candidate.effect.title} ({key[0]}), {where(key[1])}, "
+                lines[key] = judged.gain, f"{text}explains {percent(judged.gain)} {why}"
+    return [line for _, line in sorted(lines.values(), reverse=True)[:MOST_REFUSED]]
 
 
 def _outbursts(diagnosis: Diagnosis, name: str) -> str:
@@ -110,7 +137,7 @@ def _headline(diagnosis: Diagnosis) -> str:
         return "cannot tell: too few rows; record longer motions of all joints"
     if diagnosis.refinements:
         return "nothing to add: a law that the model has can be refined"
-    return "nothing to add: no effect of the catalogue would lower the error by more than 3 %"
+    return "nothing to add: no effect of the catalogue surely lowers the error by more than 3 %"
 
 
 def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
