@@ -1,5 +1,6 @@
 """Everything that ranking needs of the rows, as small matrices by block of time."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +15,9 @@ RIDGE = 1e-10
 
 _FEW = 4
 """Columns up to which their products are summed at once, and not block by block."""
+
+_MANY = 20
+"""Blocks from which on that is faster."""
 
 VISIBLE = 0.005
 """A direction of candidate columns that the base hides beyond this share is not seen."""
@@ -46,6 +50,16 @@ class Base:
     def blocks(self) -> int:
         """How many blocks of time there are."""
         return len(self.fold)
+
+    @cached_property
+    def folded(self) -> "Base":
+        """The same with whole folds as blocks: enough where only sums over all blocks count."""
+        place, count = self.crossed.place, len(self.crossed.beta)
+        G, u = (
+            np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (self.G, self.u)
+        )
+        block = tuple(place[own] for own in self.block)
+        return dataclasses.replace(self, block=block, fold=np.arange(count), G=G, u=u)
 
     @cached_property
     def crossed(self) -> "Crossed":
@@ -200,7 +214,8 @@ def _add_joint(
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
     left, right = where[pairs[here, 0]], where[pairs[here, 1]]
-    if len(places) <= _FEW and np.all(np.diff(base.block[j]) >= 0):
+    small = len(places) <= _FEW and base.blocks >= _MANY
+    if small and np.all(np.diff(base.block[j]) >= 0):
         number, start = np.unique(base.block[j], return_index=True)
         products = base.columns[j].T[:, None] * columns
         T[np.ix_(number, np.arange(len(products)), places)] += _sums(products, start)
