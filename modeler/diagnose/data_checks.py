@@ -12,6 +12,7 @@ _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
 _ONE_SPEED = 1.3  # ratio of the 90 % and 10 % quantiles of the speed
 _SLOW = 0.01  # of a joint's torque that inertia makes
+_TREMBLES = 4.0  # times the measured torque: no torque that was measured, but noise of the motion
 
 
 def length(state: State) -> float:
@@ -34,7 +35,7 @@ def data_lines(state: State) -> tuple[str, ...]:
         lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
     for j in range(len(observation.joints)):
         lines += _motion(state, j)
-    return (*lines, *_slow(state))
+    return (*lines, *_slow(state), *_noisy(state))
 
 
 def log_lines(report: DataReport) -> list[str]:
@@ -115,3 +116,32 @@ def _slow(state: State) -> list[str]:
         f"joint{'s' if len(names) > 1 else ''} {', '.join(names)}: slow motion only, inertia makes "
         "less than 1 % of the torque: effects of speed and acceleration cannot be told; move faster"
     ]
+
+
+def _noisy(state: State) -> list[str]:
+    """Joints whose model trembles from row to row, and whose torque does not."""
+    found = {}
+    for j, joint in enumerate(state.data.observation.joints):
+        y = state.rows.y[j]
+        measured, model = (_trembling(state, j, x) for x in (y, y - state.residual[j]))
+        if model > _TREMBLES * measured > 0.0:
+            found[joint.name] = model / measured
+    if not found:
+        return []
+    cutoff = state.data.observation.report.processing.position_cutoff or 0.0
+    return [
+        f"joint{'s' if len(found) > 1 else ''} {', '.join(found)}: the model's torque trembles up "
+        f"to {max(found.values()):.0f} times as much as the measured one: noise of the positions; "
+        f"fit again with a --cutoff below {cutoff:g} Hz"
+    ]
+
+
+def _trembling(state: State, j: int, values: np.ndarray) -> float:
+    """Rms of the second differences of values (rows_j,) between neighbouring rows."""
+    time, segment = state.rows.time[j], state.rows.segment[j]
+    if len(time) < 3:
+        return 0.0
+    step = np.diff(time)
+    near = (step < 1.5 * np.median(step)) & (np.diff(segment) == 0)
+    bends = np.diff(values, 2)[near[1:] & near[:-1]]
+    return float(np.sqrt(np.mean(bends**2))) if bends.size else 0.0

@@ -1,11 +1,15 @@
 """What noise does not do, from residuals made by hand."""
 
+import dataclasses
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from modeler.diagnose import diagnose
 from modeler.diagnose.noise import knocking, lasting
+from modeler.observation import Log
+from tests.diagnose.conftest import Case
 
 STEP = 0.0125
 TIME = np.arange(3200) * STEP  # 40 s in two logs
@@ -70,3 +74,15 @@ def test_too_few_rows_say_nothing() -> None:
     few.residual = (noise()[:50],)
     few.base.block = [few.base.block[0][:50]]
     assert knocking(few, 0) == 0.0
+
+
+def test_noise_of_the_positions_is_told_with_what_helps(case: Case) -> None:
+    def shaking(log: Log) -> Log:
+        q = log.q + np.random.default_rng(6).normal(0.0, 5e-4, log.q.shape)
+        return dataclasses.replace(log, q=q, qd=None, qdd=None)
+
+    for log, told in ((shaking(case.train), 1), (case.train, 0)):
+        diagnosis = diagnose(case.fitted(log), case.compiled, [log], most=0)
+        lines = [line for line in diagnosis.data if "trembles" in line]
+        assert len(lines) == told
+        assert all("noise of the positions" in x and "--cutoff below" in x for x in lines)
