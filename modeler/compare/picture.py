@@ -8,6 +8,8 @@ import numpy as np
 # Okabe and Ito, "Color Universal Design" (2008): told apart by colour-blind readers.
 BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
 GREY, SLATE = "#9A9A9A", "#6F6F6F"
+COLORS = (BLUE, VERMILLION, "#009E73", ORANGE, "#CC79A7", "#56B4E9", BLACK)
+"""Seven that colour-blind people tell apart (Okabe and Ito), for curves of many joints."""
 
 
 @dataclass(frozen=True)

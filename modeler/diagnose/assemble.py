@@ -54,8 +54,7 @@ def assembled(
         faults: channels that contradict the model; if one is certain, nothing is named.
     """
     chain = _chain(found)
-    seen = [held_out_squares(s, other) for s in chain] if other else None
-    errors = [relative(*pair) for pair in seen] if seen else [crossed_errors(s) for s in chain]
+    seen, errors = _errors(chain, other)
     shares = [systematic_share(found.end, j) for j in range(len(errors[0]))]
     contradicted = any(fault.certain for fault in faults)
     findings = [] if contradicted else _findings(found, chain, window, errors, shares, seen)
@@ -77,9 +76,20 @@ def assembled(
         data=doubts(model, found, other, faults),
         changed=data.kept is not None,
         contradicted=contradicted,
+        window=window,
         search=found,
     )
     return sentences(diagnosis)
+
+
+def _errors(
+    chain: Sequence[State], other: Data | None
+) -> tuple[list[tuple[np.ndarray, np.ndarray]] | None, list[np.ndarray]]:
+    """Squares on held-out logs, if there are any, and relative errors (J,) of every state."""
+    if other is None:
+        return None, [crossed_errors(state) for state in chain]
+    seen = [held_out_squares(state, other) for state in chain]
+    return seen, [relative(*pair) for pair in seen]
 
 
 def _rivals(found: Search) -> tuple[tuple[str, str | None, float], ...]:

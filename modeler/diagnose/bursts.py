@@ -25,18 +25,28 @@ def burst_ratio(state: State, j: int) -> float:
     `EVENTS` times.
     """
     label, events = [], 0
-    for s in state.rows.signals:
-        load, v = s.load[:, j], s.v[:, j]
+    for s, turns in zip(state.rows.signals, load_turns(state, j), strict=True):
         span = max(1, round(AFTER / s.step))
-        flags = np.zeros(len(load))
-        for turn in np.flatnonzero(np.diff(np.sign(load)) != 0):
-            if np.abs(v[turn : turn + span]).min() > 0.02 * state.scales[j].speed:
-                events += 1
-                flags[turn : turn + span] = events
+        flags = np.zeros(len(s.q))
+        for turn in turns:
+            events += 1
+            flags[turn : turn + span] = events
         label.append(flags)
     if events < EVENTS:
         return 0.0
     return _ratio(state.residual[j] ** 2, _nearest(state, j, label), events)
+
+
+def load_turns(state: State, j: int) -> list[np.ndarray]:
+    """Samples, by stretch, where the load on joint j changes sign while the joint moves on."""
+    found = []
+    for s in state.rows.signals:
+        span, least = max(1, round(AFTER / s.step)), 0.02 * state.scales[j].speed
+        turns = np.flatnonzero(np.diff(np.sign(s.load[:, j])) != 0)
+        speed = np.abs(s.v[:, j])
+        moving = [turn for turn in turns if speed[turn : turn + span].min() > least]
+        found.append(np.array(moving, dtype=int))
+    return found
 
 
 def _nearest(state: State, j: int, label: list[np.ndarray]) -> np.ndarray:

@@ -7,6 +7,9 @@ import numpy as np
 
 from modeler.diagnose.state import State
 
+MARGIN = 0.5
+"""s before and after a push that are left out with it."""
+
 _CELL = 0.1  # s
 _LENGTHS = range(2, 31)  # cells of a window; one of the longest is no push
 _APART = 2.0  # s between a push and what counts as elsewhere: the torque turns as the robot moves

@@ -12,7 +12,7 @@ from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.candidates import Known
 from modeler.diagnose.channels import Fault, faults
-from modeler.diagnose.contact import Window, contact_window
+from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.result import Diagnosis
@@ -162,9 +162,9 @@ def _push(data: Data, found: Search) -> Window | None:
 
 
 def _masked(observation: Observation, window: Window) -> Observation:
-    """The observation without the rows of a window, and half a second around it."""
-    hit = (observation.run == window.log) & (observation.time > window.start - 0.5)
-    hit &= observation.time < window.end + 0.5
+    """The observation without the rows of a window, and a little around it."""
+    hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
+    hit &= observation.time < window.end + MARGIN
     used = observation.used & ~hit[:, None]
     parts, at = [], 0
     for part in observation.stretches:

@@ -42,10 +42,10 @@ def evidence_picture(found: Search, step: Step) -> Picture:
     unit = state.data.compiled.spec.joints[j].effort_unit
     times = " x direction of motion" if turned is not None else ""
     way = turned if turned is not None else np.ones(len(x))
-    before = _panel("without the effect", label, f"residual{times} [{unit}]", x, residual * way)
+    before = scatter("without the effect", label, f"residual{times} [{unit}]", x, residual * way)
     curve = _binned(x, hidden * way)
     drawn = Curve(pick.effect.id, curve[0], curve[1], Style(VERMILLION, 2.2))
-    after = _panel("with it", label, f"residual{times} [{unit}]", x, (residual - hidden) * way)
+    after = scatter("with it", label, f"residual{times} [{unit}]", x, (residual - hidden) * way)
     panels = [
         Panel(before.title, before.x_label, before.y_label, (*before.series, drawn), zero=True),
         after,
@@ -155,7 +155,8 @@ def _projected(state: State, j: int, fitted: np.ndarray) -> np.ndarray:
     return fitted - W @ (solved / np.where(length > 0.0, length, 1.0))
 
 
-def _panel(title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray) -> Panel:
+def scatter(title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray) -> Panel:
+    """Rows as dots, and the means of bins with two standard errors."""
     every = max(1, len(x) // _DOTS)
     centres, means, errors = _binned(x, y)
     return Panel(

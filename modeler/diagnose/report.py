@@ -10,6 +10,7 @@ import numpy as np
 from modeler.compare.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
 from modeler.compare.report import figure_html, page_assets
 from modeler.core.files import write_atomically
+from modeler.diagnose.event_pictures import play_picture, push_picture
 from modeler.diagnose.evidence import evidence_picture, rivals_picture
 from modeler.diagnose.result import Diagnosis, Finding
 from modeler.diagnose.sentences import blind_spots, percent, unit, where
@@ -116,6 +117,8 @@ def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
     effect = effect_named(first.effect, diagnosis.search.start.data.known.catalogue)
     assert effect is not None
     size = f"{percent(first.error_before)} \u2192 {percent(first.error_after)}"
+    if first.closure is None:  # no column, so that the error stays
+        size = percent(first.error_before)
     return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}"
 
 
@@ -124,7 +127,7 @@ def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     if diagnosis.effects:
         first = diagnosis.effects[0]
         ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in first.ties)
-        facts.append(("What the data do not tell apart", ties or "nothing: no rival comes near"))
+        facts.append(("What the data do not tell apart", ties or _runner_up(diagnosis)))
     left = [
         f"joint {name}: {percent(j.systematic / (j.systematic + j.noise))} systematic"
         for name, j in diagnosis.joints.items()
@@ -138,6 +141,13 @@ def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     return facts
 
 
+def _runner_up(diagnosis: Diagnosis) -> str:
+    if not diagnosis.rivals:
+        return "nothing"
+    effect, joint, gain = diagnosis.rivals[0]
+    return f"nothing; the runner-up is {effect} on {where(joint)}, {percent(max(0.0, gain))}"
+
+
 def _sections(diagnosis: Diagnosis) -> list[str]:
     found = [_section("Effects", _table(diagnosis)), _section("Joints", _joints(diagnosis))]
     for step in diagnosis.search.steps:
@@ -145,7 +155,23 @@ def _sections(diagnosis: Diagnosis) -> list[str]:
         if step is diagnosis.search.steps[0]:
             pictures += figure_html(rivals_picture(step))
         found.append(_section(_name(step.pick.effect.id, step.pick.joint), pictures))
+    found += _events(diagnosis)
     found.append(_section("What these logs cannot show", _blind(diagnosis)))
+    return found
+
+
+def _events(diagnosis: Diagnosis) -> list[str]:
+    """Play and pushes, which are no columns."""
+    end = diagnosis.search.end
+    names = [joint.name for joint in end.data.compiled.spec.joints]
+    found = []
+    for finding in diagnosis.effects:
+        if finding.effect == "backlash" and finding.joint is not None:
+            picture = play_picture(end, names.index(finding.joint))
+            found.append(_section(_name(finding.effect, finding.joint), figure_html(picture)))
+    if diagnosis.window is not None:
+        picture = push_picture(end, diagnosis.window)
+        found.append(_section("external_force", figure_html(picture)))
     return found
 
 

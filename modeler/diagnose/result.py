@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.diagnose.contact import Window
 from modeler.diagnose.search import Search
 
 FELT = 0.005
@@ -125,6 +126,7 @@ class Diagnosis:
         data: doubts about the logs themselves.
         changed: True if the base parameters were kept and the robot has changed since.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
+        window: when something pushed, if anything did.
         search: everything behind it.
     """
 
@@ -142,6 +144,7 @@ class Diagnosis:
     data: tuple[str, ...]
     changed: bool
     contradicted: bool
+    window: Window | None
     search: Search
 
     def to_json(self) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Play in a gear: when it is named, on which joint, and what is said beside it."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,8 @@ import pytest
 from modeler.diagnose import detected as module
 from modeler.diagnose import diagnose, diagnosis
 from modeler.diagnose.detected import detected
+from modeler.diagnose.event_pictures import play_picture
+from modeler.diagnose.report import write_diagnosis
 from tests.diagnose.conftest import Case, motion, on_joint
 
 ERRORS = np.full(3, 0.05)
@@ -122,7 +125,7 @@ def test_a_gear_that_rattles_is_no_push(monkeypatch):
         assert diagnosis._push(data, found) is push
 
 
-def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case) -> None:
+def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case, tmp_path: Path) -> None:
     """Joint 1 turns about the vertical: its load is inertia, and changes sign at top speed."""
     signs = np.random.default_rng(3).choice([-1.0, 1.0], 1000)
 
@@ -139,3 +142,10 @@ def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case) -> None:
     model, train, holdout = case.hidden(torque)
     found = diagnose(model, case.compiled, [train], [holdout])
     assert {(f.effect, f.joint) for f in found.effects} == {("backlash", "1"), ("spring", "3")}
+    picture = play_picture(found.search.end, 0)
+    ((panel,),) = picture.panels
+    means = panel.series[1]
+    near, far = (means.y[(np.abs(means.x) < 0.05) == inside].mean() for inside in (True, False))
+    assert near > 3.0 * far
+    page = write_diagnosis(tmp_path / "page.html", found).read_text()
+    assert "Play in the gear: joint 1" in page and "spring, joint 3" in page

@@ -1,12 +1,15 @@
 """Pushes, delays of loggers, temperatures with gaps, declared couplings: on simulated runs."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known, diagnose
+from modeler.diagnose import Diagnosis, Known, diagnose
 from modeler.diagnose.candidates import candidates, scales_of
+from modeler.diagnose.event_pictures import push_picture
+from modeler.diagnose.report import write_diagnosis
 from modeler.effects import effect_named
 from modeler.observation import Log
 from tests.diagnose.conftest import Case, motion, on_joint
@@ -35,15 +38,31 @@ def test_a_push_as_small_as_the_noise_is_found_by_its_duration(case: Case) -> No
     assert first.parameters["t1"] == pytest.approx(13.2, abs=0.3)
 
 
-def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case) -> None:
+def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: Path) -> None:
     def torque(log: Log) -> np.ndarray:
         turning = np.where(log.time < 12.8, 1.0, -1.0)[:, None]
         return pushed((12.0, 13.6), size=4.0)(log) * turning
 
-    first = once(torque, case).effects[0]
+    diagnosis = once(torque, case)
+    first = diagnosis.effects[0]
     assert first.effect == "external_force"
     assert first.parameters["t0"] == pytest.approx(12.0, abs=0.3)
     assert first.parameters["t1"] == pytest.approx(13.6, abs=0.3)
+    assert_drawn(diagnosis, tmp_path / "page.html")
+
+
+def assert_drawn(diagnosis: Diagnosis, page: Path) -> None:
+    """The push stands out in its picture, on the page."""
+    assert diagnosis.window is not None
+    ((panel,),) = push_picture(diagnosis.search.end, diagnosis.window).panels
+    assert panel.shade is not None
+    start, end = panel.shade
+    for curve in panel.series:
+        inside = (curve.x > start + 0.2) & (curve.x < end - 0.2)
+        outside = (curve.x < start - 0.2) | (curve.x > end + 0.2)
+        pushed, quiet = (np.nanmedian(np.abs(curve.y[x])) for x in (inside, outside))
+        assert pushed > 20.0 * quiet
+    assert "Something pushed" in write_diagnosis(page, diagnosis).read_text()
 
 
 def test_what_acts_again_is_no_push(case: Case) -> None:
