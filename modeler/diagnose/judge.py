@@ -88,6 +88,11 @@ class Judged:
         return self.candidate.effect.mends(float(self.values[0]))
 
     @property
+    def unlikely(self) -> bool:
+        """True if its sign is possible, but rare."""
+        return self.candidate.effect.rarely_negative and float(self.values[0]) < 0.0
+
+    @property
     def significant(self) -> bool:
         """True if it is worth a name."""
         surely = self.sure > SURE or (self.gain > STRONG and self.sure > RARE)
@@ -150,7 +155,7 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
-    What only mends a law in the model comes last.
+    What only mends a law in the model comes last, before it what has a rare sign.
 
     A timing-like effect may stand for another timing-like one only.
     """
@@ -162,7 +167,8 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         and (best.mends or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
     order = sorted(
-        [best, *near], key=lambda j: (j.mends, _numbers(j.candidate), -float(j.drop.sum()))
+        [best, *near],
+        key=lambda j: (j.mends, j.unlikely, _numbers(j.candidate), -float(j.drop.sum())),
     )
     return next(
         j

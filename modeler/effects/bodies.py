@@ -37,6 +37,7 @@ BODIES: tuple[Effect, ...] = (
         range="Ks >= 0 for a spring, either sign for cables; h >= 0: springs "
         "harden, and what softens like a sine hangs on a lever",
         source="Wang et al. 2019 (da Vinci arms)",
+        rarely_negative=True,
     ),
     Effect(
         id="counterbalance",

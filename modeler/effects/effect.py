@@ -197,6 +197,8 @@ class Effect:
         negative: what a value below zero means, where that is no missing effect but mends the form
             of one in the model; empty elsewhere.
         turns: True if only a joint that turns can have it.
+        rarely_negative: True if its first parameter seldom is: a rival that explains as much is
+            likelier then.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         look_alikes: what it is mistaken for, and which motion tells them apart.
@@ -218,6 +220,7 @@ class Effect:
     source: str
     same_as: tuple[str, ...] = ()
     turns: bool = False
+    rarely_negative: bool = False
     timing: bool = False
     negative: str = ""
 
