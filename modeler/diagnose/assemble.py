@@ -10,7 +10,7 @@ from modeler.diagnose.channels import Fault
 from modeler.diagnose.closure import CLOSED, closure
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
-from modeler.diagnose.detected import detected
+from modeler.diagnose.detected import CONTACT, detected
 from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
 from modeler.diagnose.judge import Judged
@@ -262,6 +262,8 @@ def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Se
     if effects:
         first = effects[0]
         closed = first.closure is None or first.closure >= CLOSED
+        if first.effect == CONTACT and any(state.unexplained for state in joints.values()):
+            closed = False  # something acts all the time: what stood out of it may be no push
         return "missing" if closed and not first.objection else "closest description"
     if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
         return "cannot tell"

@@ -94,3 +94,19 @@ def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named:
     both = [at("spring", stiffness), at("counterbalance", 1.0)]
     best = decide(None, both).best  # type: ignore[arg-type]
     assert best is not None and best.candidate.effect.id == named
+
+
+@pytest.mark.parametrize(
+    ("effect", "left", "said"),
+    [
+        ("external_force", False, "missing"),
+        ("external_force", True, "closest description"),
+        ("backlash", True, "missing"),
+    ],
+)
+def test_a_push_is_no_fact_while_something_acts_all_the_time(
+    effect: str, left: bool, said: str
+) -> None:
+    first = SimpleNamespace(effect=effect, closure=None, objection="")
+    joints = {"1": SimpleNamespace(error_after=0.1, unexplained=left)}
+    assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
