@@ -113,3 +113,16 @@ def test_odrive_the_orders_of_its_ripple() -> None:
     for order in (7.0, 14.0, 12.0, 28.0):
         assert any(abs(order - m) < 0.1 for m in orders), order
     assert found.joints["1"].error_after < 0.33
+
+
+def test_dvrk_the_spring_of_joint_4_and_friction_that_turns_gradually() -> None:
+    """An instrument on cables behind two parallelograms; the torque in a wide band is noisy."""
+    training, held_out = logs("dvrk_psm", "one"), logs("dvrk_psm", "two")
+    model = fitted("dvrk-psm", training)
+    found = diagnose(model, training, held_out)
+    named = {(f.effect, f.joint) for f in found.effects}
+    assert (found.effects[0].effect, found.effects[0].joint) == ("spring", "4")
+    assert {("presliding", joint) for joint in ("4", "5", "7")} <= named
+    after = {name: joint.error_after for name, joint in found.joints.items()}
+    assert after["4"] < 0.131 and after["5"] < 0.118 and after["6"] < 0.164
+    assert any("joints 1, 2: the model's torque trembles" in line for line in found.data)
