@@ -64,7 +64,7 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
 def ripple_candidates(
     state: State, allowed: Callable[[str, str | None], bool]
 ) -> list[Candidate]:  # fmt: skip
-    """Waves at the orders that stand out on each joint.
+    """Waves at the orders that stand out on each joint, and at the whole numbers next to them.
 
     Args:
         state: it.
@@ -79,6 +79,7 @@ def ripple_candidates(
             effect = effect_named(next((n for n in names if allowed(n, joint.name)), names[0]))
             runout = effect_named("encoder_eccentricity")
             assert effect is not None and runout is not None
-            found.append(Candidate(effect, effect.forms[0], joint.name, j, {"m": order}))
-            found.append(Candidate(runout, runout.forms[0], joint.name, j, {"k": order}))
+            for waves in dict.fromkeys((order, float(max(1, round(order))))):
+                found.append(Candidate(effect, effect.forms[0], joint.name, j, {"m": waves}))
+                found.append(Candidate(runout, runout.forms[0], joint.name, j, {"k": waves}))
     return found

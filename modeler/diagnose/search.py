@@ -114,18 +114,18 @@ def search(
     """
     state = start = _started(data, beta)
     steps: list[Step] = []
-    vetoed: list[Judged] = []
-    refused: list[Judged] = []  # in the present state
+    vetoed, refused = list[Judged](), list[Judged]()  # before, and in the present state
     survey = surveyed(state, without) if most else None
     judgement = survey.judged() if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
         leading = judgement.best
         best = _named(state, leading, refused, without)
-        later = extended(state, best.candidate)
-        if veto is not None and veto(state, later, best):
+        accepted = put_in(state, best, veto)
+        if accepted is None:
             refused.append(best)
             judgement = survey.judged(refused)
             continue
+        best, later = accepted
         survey = surveyed(later, without)
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
         after = survey.judged(refused)
@@ -138,6 +138,25 @@ def search(
 
 def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
     return Step(best, rivals, state, tuple(alternatives(best, rivals, after)))
+
+
+def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | None:
+    """The effect, or a ripple with its order counted, and the state with it; None if refused."""
+    for judged in (best, *_counted(state, best)):
+        later = extended(state, judged.candidate)
+        if veto is None or not veto(state, later, judged):
+            return judged, later
+    return None
+
+
+def _counted(state: State, best: Judged) -> list[Judged]:
+    """A ripple with the whole number of waves next to its order: teeth and poles are counted."""
+    candidate = best.candidate
+    if not _ripples(candidate) or candidate.shapes["m"] == round(candidate.shapes["m"]):
+        return []
+    whole = dataclasses.replace(candidate, shapes={"m": float(round(candidate.shapes["m"]))})
+    found = judge(state, [whole], [columns_of(state.rows, whole, state.cache)]).best
+    return [] if found is None else [found]
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known
+from modeler.diagnose import Known, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.candidates import Candidate, candidates, scales_of
 from modeler.diagnose.judge import Judged, decide, possible
@@ -110,3 +110,22 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
     first = SimpleNamespace(effect=effect, closure=None, objection="")
     joints = {"1": SimpleNamespace(error_after=0.1, unexplained=left)}
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("refuse", "order"), [((), 36.3), ((36.3,), 36.0), ((36.3, 36.0), None)])
+def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
+    monkeypatch: pytest.MonkeyPatch, refuse: tuple[float, ...], order: float | None
+) -> None:
+    effect = effect_named("joint_ripple")
+    assert effect is not None
+
+    def at(waves: float) -> SimpleNamespace:
+        return SimpleNamespace(candidate=Candidate(effect, effect.forms[0], "1", 0, {"m": waves}))
+
+    monkeypatch.setattr(search, "columns_of", lambda rows, candidate, cache: ())
+    monkeypatch.setattr(search, "extended", lambda state, candidate: candidate)
+    judged = lambda s, found, c: SimpleNamespace(best=at(found[0].shapes["m"]))  # noqa: E731
+    monkeypatch.setattr(search, "judge", judged)
+    state = SimpleNamespace(rows=None, cache={})
+    found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
+    assert (found[0].candidate.shapes["m"] if found else None) == order
