@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known, search
+from modeler.diagnose import Known, judge, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.candidates import Candidate, candidates, scales_of
 from modeler.diagnose.judge import Judged, decide, possible
@@ -129,3 +129,20 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     state = SimpleNamespace(rows=None, cache={})
     found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
     assert (found[0].candidate.shapes["m"] if found else None) == order
+
+
+@pytest.mark.parametrize(
+    ("felt", "doubt", "named"),
+    [(0.003, "too heavy", False), (0.01, "too heavy", True), (0.003, "", True)],
+)
+def test_a_small_elasticity_that_swings_what_the_joint_has_not_is_an_error_of_timing(
+    monkeypatch: pytest.MonkeyPatch, felt: float, doubt: str, named: bool
+) -> None:
+    effect = effect_named("elasticity")
+    assert effect is not None
+    candidate = Candidate(effect, effect.forms[0], "1", 0, {"f": 6.5, "zeta": 0.2})
+    one = np.ones(1)
+    item = Judged(candidate, 0.15, 0.1, np.ones(40), one, one, 11.0, felt, 0.5, possible=True)
+    monkeypatch.setattr(judge, "objection", lambda state, pick, values: doubt)
+    monkeypatch.setattr(judge, "confirmed", lambda *a: True)
+    assert (decide(None, [item]).best is not None) is named  # type: ignore[arg-type]
