@@ -35,7 +35,7 @@ _LEAST = 1e-3  # share that counts for a column of play that explains nothing
 WEAK = 0.5
 """Gain of a column below which play that is heard without it comes first."""
 
-_PLAY = "backlash"
+PLAY = "backlash"
 _RINGS = "elasticity"
 CONTACT = "external_force"
 
@@ -110,7 +110,7 @@ def _asked(found: Search) -> list[int]:
     """Joints whose gear may have play."""
     return [
         j for j, joint in enumerate(found.end.data.compiled.spec.joints)
-        if joint.actuated and not ruled_out(_PLAY, joint.name, found.without)
+        if joint.actuated and not ruled_out(PLAY, joint.name, found.without)
     ]  # fmt: skip
 
 
@@ -136,7 +136,7 @@ def _columns(found: Search) -> dict[int, Judged]:
     """What the column of play explains, by joint."""
     return {
         judged.candidate.index: judged
-        for judged in found.last.ranked if judged.candidate.effect.id == _PLAY
+        for judged in found.last.ranked if judged.candidate.effect.id == PLAY
     }  # fmt: skip
 
 
@@ -178,9 +178,9 @@ def _backlash(
     """
     names = [joint.name for joint in found.end.data.compiled.spec.joints]
     first = bursting[0]
-    others = tuple((_PLAY, names[k]) for k in bursting if k != first)
+    others = tuple((PLAY, names[k]) for k in bursting if k != first)
     left = finite(errors[first])
     return Finding(
-        _PLAY, names[first], gain, left, left, {}, {}, {}, others,
+        PLAY, names[first], gain, left, left, {}, {}, {}, others,
         f"joint {names[first]}: {text}", None, False, objection,
     )  # fmt: skip

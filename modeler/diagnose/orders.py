@@ -61,6 +61,11 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
     return total
 
 
+def counted(order: float) -> float:
+    """The whole number of waves next to an order: teeth and poles are counted."""
+    return float(max(1, round(order)))
+
+
 def ripple_candidates(
     state: State, allowed: Callable[[str, str | None], bool]
 ) -> list[Candidate]:  # fmt: skip
@@ -79,7 +84,7 @@ def ripple_candidates(
             effect = effect_named(next((n for n in names if allowed(n, joint.name)), names[0]))
             runout = effect_named("encoder_eccentricity")
             assert effect is not None and runout is not None
-            for waves in dict.fromkeys((order, float(max(1, round(order))))):
+            for waves in dict.fromkeys((order, counted(order))):
                 found.append(Candidate(effect, effect.forms[0], joint.name, j, {"m": waves}))
                 found.append(Candidate(runout, runout.forms[0], joint.name, j, {"k": waves}))
     return found

@@ -17,6 +17,7 @@ from modeler.diagnose.judge import (
     judge,
 )
 from modeler.diagnose.levers import constant_force
+from modeler.diagnose.orders import counted
 from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.rows import Columns
@@ -150,11 +151,11 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
 
 
 def _counted(state: State, best: Judged) -> list[Judged]:
-    """A ripple with the whole number of waves next to its order: teeth and poles are counted."""
+    """A ripple of which the order is no whole number, with the one next to it."""
     candidate = best.candidate
-    if not _ripples(candidate) or candidate.shapes["m"] == round(candidate.shapes["m"]):
+    if not _ripples(candidate) or candidate.shapes["m"] == counted(candidate.shapes["m"]):
         return []
-    whole = dataclasses.replace(candidate, shapes={"m": float(round(candidate.shapes["m"]))})
+    whole = dataclasses.replace(candidate, shapes={"m": counted(candidate.shapes["m"])})
     found = judge(state, [whole], [columns_of(state.rows, whole, state.cache)]).best
     return [] if found is None else [found]
 

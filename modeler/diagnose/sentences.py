@@ -13,9 +13,9 @@ TOLD = 0.15
 MOST_REFUSED = 3
 
 _ONLY_HERE = "of these logs' error, but the error of the held-out motion does not fall with it"
-_ONLY_NOISE = (
-    "of the error, but not once encoder noise is smoothed out of the motion: errors of timing look "
-    "alike"
+_ONLY_TIMING = (
+    "of the error, but so do errors of timing: it is not seen once encoder noise is smoothed out "
+    "of the motion, or its values are not those of this joint"
 )
 
 
@@ -68,7 +68,7 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
     lines = [_headline(diagnosis), *(_effect_line(f) for f in diagnosis.effects)]
     lines += [_refinement(f, diagnosis) for f in diagnosis.refinements]
     judged = {} if diagnosis.contradicted else diagnosis.joints
-    lines += _refused(diagnosis) if judged else []
+    lines += refused_lines(diagnosis) if judged else []
     for name, joint in judged.items():
         if joint.unexplained:
             left = joint.systematic + joint.noise
@@ -86,13 +86,13 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
     return dataclasses.replace(diagnosis, sentences=tuple(lines))
 
 
-def _refused(diagnosis: Diagnosis) -> list[str]:
+def refused_lines(diagnosis: Diagnosis) -> list[str]:
     """What explains much of these logs and is not named all the same, the best first."""
     found = diagnosis.search
     timing = [judged for judged in found.last.ranked if not judged.confirmed]
     named = {step.pick.key for step in found.steps}
     lines: dict[Key, tuple[float, str]] = {}
-    for refused, why in ((found.vetoed, _ONLY_HERE), (timing, _ONLY_NOISE)):
+    for refused, why in ((found.vetoed, _ONLY_HERE), (timing, _ONLY_TIMING)):
         for judged in refused:
             key = judged.candidate.key
             if key not in named and judged.gain > lines.get(key, (TOLD, ""))[0]:

@@ -11,6 +11,7 @@ from modeler.diagnose.assemble import verdict
 from modeler.diagnose.candidates import Candidate, candidates, scales_of
 from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.search import Survey
+from modeler.diagnose.sentences import refused_lines
 from modeler.effects import effect_named
 from tests.diagnose.conftest import Case
 
@@ -146,3 +147,19 @@ def test_a_small_elasticity_that_swings_what_the_joint_has_not_is_an_error_of_ti
     monkeypatch.setattr(judge, "objection", lambda state, pick, values: doubt)
     monkeypatch.setattr(judge, "confirmed", lambda *a: True)
     assert (decide(None, [item]).best is not None) is named  # type: ignore[arg-type]
+
+
+def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
+    def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
+        candidate = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
+        return SimpleNamespace(candidate=candidate, gain=gain, confirmed=confirmed)
+
+    vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.1)]
+    ranked = [at("elasticity", "2", 0.6, confirmed=False), at("stribeck", "3", 0.9)]
+    steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
+    vetoed.append(at("offset", "1", 0.8))  # named later
+    last = SimpleNamespace(ranked=ranked)
+    found = SimpleNamespace(search=SimpleNamespace(vetoed=vetoed, steps=steps, last=last))
+    first, second = refused_lines(found)  # type: ignore[arg-type]
+    assert "(elasticity), joint 2, explains 60 %" in first and "errors of timing" in first
+    assert "(spring), joint 1, explains 50 %" in second and "held-out motion" in second
