@@ -4,6 +4,7 @@
 PYTHONS := python3.13 python3.12 python3.11 python3
 PYTHON ?=
 JOBS ?= 2
+TESTS ?=
 BIN := .venv/bin
 
 .DEFAULT_GOAL := help
@@ -12,7 +13,7 @@ BIN := .venv/bin
 
 help:
 	@echo 'make demo         install, then a hidden effect found and added, on two built-in robots: pages in demo/'
-	@echo 'make test         install, then ruff, mypy and every test (JOBS=2 processes)'
+	@echo 'make test         install, then ruff, mypy and every test (JOBS=2 processes; TESTS=tests/fit some)'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
 	@echo 'make clean        remove all that these commands made, .venv included'
@@ -22,7 +23,7 @@ demo: .venv/.installed
 	$(BIN)/modeler demo --out demo
 
 test: lint
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal $(TESTS)
 
 lint: .venv/.installed-test
 	$(BIN)/python -m ruff check .
@@ -33,7 +34,7 @@ regenerate: .venv/.installed-test
 	$(BIN)/python -m pytest -q --regenerate
 
 clean:
-	rm -rf .venv build dist demo .pytest_cache .mypy_cache .ruff_cache
+	rm -rf .venv build dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The build tools go first, at their pinned versions, so that building downloads nothing by itself.

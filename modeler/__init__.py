@@ -7,7 +7,8 @@ Data flows one way::
 
 The stages before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
 A robot names effects of the catalogue; `terms` stands beside codegen and writes for people;
-`simulate` has physics of its own. `derivation` and `api` put the steps in a row.
+`simulate` has physics of its own, `show` draws a robot from its table alone. `derivation` and
+`api` put the steps in a row.
 This module imports nothing, so that the numeric stages never load the symbolic ones.
 """
 

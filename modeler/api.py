@@ -13,6 +13,7 @@
 Each step is a function of the stage of that name; use the stages directly for more choices.
 """
 
+import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -22,18 +23,21 @@ from modeler.compare import compare as compare_prediction
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
-from modeler.core.contract import Emitted
+from modeler.core.contract import Emitted, ModuleSpec
 from modeler.core.errors import DataError, ManifestError
+from modeler.core.window import file_and_window
 from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate
 from modeler.derivation import load as load
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
-from modeler.fit import FitResult, IdentifiedModel, identify, provenance
+from modeler.fit import FitResult, IdentifiedModel, identify, provenance, with_verdict
 from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
+from modeler.observation.apart import check_apart
+from modeler.observation.findings import findings_of_fit
 from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
@@ -69,8 +73,8 @@ def read_logs(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list
 
 
 def _read(place: str | Path, compiled: CompiledModel) -> Log:
-    path, at, times = str(place).rpartition("@")
-    if not at or Path(place).exists():
+    path, times = file_and_window(str(place))
+    if times is None:
         return read_log(place, compiled.spec)
     start, colon, end = times.partition(":")
     try:
@@ -91,7 +95,9 @@ def observe(
     processing: Processing | None = None,
 ) -> Observation:
     """The rows y = W beta of logs."""
-    return observe_logs(compiled, read_logs(compiled, logs), processing)
+    given = read_logs(compiled, logs)
+    check_apart(given)
+    return observe_logs(compiled, given, processing)
 
 
 def fit(
@@ -100,8 +106,28 @@ def fit(
     observation: Observation,
     method: Method = "weighted",
 ) -> IdentifiedModel:
-    """The base parameters from an observation, with all that a model file holds."""
-    return identified(derivation, emitted, observation, identify(observation, method))
+    """The base parameters from an observation, with all that a model file holds.
+
+    Raises:
+        DataError: the derivation, the C and the observation are not of one robot; or see
+            `identify`.
+    """
+    names = tuple(base.name for base in emitted.spec.base)
+    for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
+        if other != emitted.spec.robot:
+            raise DataError(
+                f"fit: the {what} is of {other} and the C of {emitted.spec.robot}; expected one "
+                "robot; derive, generate and observe it again"
+            )
+    if observation.names != names:
+        raise DataError(
+            f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
+            f"{', '.join(names)}; expected the same; observe with this C"
+        )
+    compiled, result = compile_model(emitted), identify(observation, method)
+    told = findings_of_fit(compiled, observation, result.beta)
+    result = with_verdict(compiled, observation, result, told)
+    return identified(derivation, emitted, observation, result)
 
 
 def identified(
@@ -128,11 +154,17 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
     robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
     emitted = generate(derive(robot))
     if emitted.spec.signature() != model.spec.signature():
+        what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
         raise ManifestError(
-            f"model of {model.spec.robot}: made by another version of modeler, or changed since; "
-            "fit it again, or use --run-embedded-c to run the C in the file if you trust its source"
+            f"model of {model.spec.robot}: its robot text gives another {what} than its values "
+            "belong to: made by another version of modeler, or changed since; fit it again, or use "
+            "--run-embedded-c to run the C in the file if you trust its source"
         )
     return compile_model(emitted)
+
+
+def _uncoded(spec: ModuleSpec) -> ModuleSpec:
+    return dataclasses.replace(spec, code="")
 
 
 def compare(model: IdentifiedModel, logs: Sequence[str | Path | Log]) -> Comparison:
@@ -153,4 +185,5 @@ def diagnose(
     robot = robot_from_text(model.robot_text, "robot of the model")
     known = Known(robot.catalogue, robot.coupling)
     given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    check_apart(given, kept)
     return find_missing(model, compiled, given, kept, without, known=known)

@@ -30,9 +30,16 @@ def derive(robot: Robot) -> Derivation:
     return Derivation(robot, model, base_parameters(model))
 
 
-def generate(derivation: Derivation, folder: str | Path | None = None) -> Emitted:
-    """The C module; written to `folder` if one is given."""
+def generate(
+    derivation: Derivation, folder: str | Path | None = None, force: bool = False
+) -> Emitted:
+    """The C module; written to `folder` if one is given.
+
+    Raises:
+        ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
+            that were edited since, and `force` is not given; or it cannot be written.
+    """
     emitted = emit(derivation.model, derivation.base)
     if folder is not None:
-        write_emitted(emitted, Path(folder))
+        write_emitted(emitted, Path(folder), force)
     return emitted

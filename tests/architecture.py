@@ -18,28 +18,30 @@ STAGES: dict[str, set[str]] = {
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
     "diagnose": {"core", "effects", *SOUTH[:-1]},
     "simulate": {"core", "robot"},
+    "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
     "api": {"core", *NORTH, *SOUTH, "derivation", "improve"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "derivation", "improve", "api"},
+    "cli": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "improve", "api"},
 }
 
 # Which packages of others a stage may import, besides the standard library.
 PACKAGES: dict[str, set[str]] = {
-    "core": {"numpy"},
+    "core": {"numpy", "mpmath"},
     "effects": set(),
     "robot": set(),
-    "symbolic": {"numpy", "scipy", "sympy", "casadi"},
+    "symbolic": {"numpy", "sympy", "casadi"},
     "base": {"numpy", "sympy"},
     "terms": {"numpy", "sympy"},
     "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},
-    "fit": {"numpy", "scipy"},
+    "fit": {"numpy", "scipy", "clarabel"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "diagnose": {"numpy", "scipy", "threadpoolctl"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
+    "show": {"numpy", "matplotlib"},
     "derivation": set(),
     "improve": {"numpy", "threadpoolctl"},
     "api": {"numpy"},
@@ -51,6 +53,7 @@ ONLY_IN = {
     "jinja2": ("codegen/render.py",),
     "cffi": ("compiled/bind.py",),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
+    "clarabel": ("fit/possible.py",),
 }
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

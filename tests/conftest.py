@@ -43,6 +43,15 @@ def measured_folder() -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def loop_robots_folder() -> Path:
+    """The folder of robots with loops beside the checkout; they are not part of the project."""
+    folder = ROOT.parent / "shared" / "robots"
+    if not folder.is_dir():
+        pytest.skip(f"NOT CHECKED: no further robots with loops, there is no {folder}")
+    return folder
+
+
 @pytest.fixture(scope="session", autouse=True)
 def compiled_models_beside_pytest(request: pytest.FixtureRequest) -> Iterator[None]:
     """Compiled models go into pytest's cache: kept between runs, never in the user's own."""

@@ -1,8 +1,10 @@
 /* Closing kinematic loops: which free variables u of the opened tree belong to given ones.
  *
  * Newton along a path: from a closed posture the given variables move straight to their values, in
- * steps so short that Newton contracts from the first and that the loops' determinant keeps its
- * sign, so the assembly mode never changes. C99, no allocation, no global state, re-entrant.
+ * steps so short that Newton contracts from the first and that the Jacobian is singular nowhere
+ * within one, so the assembly mode never changes: a way through a turning point or a bifurcation
+ * ends there. Every equation of every loop is checked at the end of each step, those that follow
+ * from others too. C99, no allocation, no global state, re-entrant.
  */
 #ifndef MODELER_CLOSURE_H
 #define MODELER_CLOSURE_H
@@ -33,11 +35,15 @@ typedef struct {
     const int *solved_places; /* in u */
     const double *scale;      /* of u: 1 for angles in rad, the robot's size for travels in m */
     void (*equations)(const double *u, double *values);
+    int residuals;            /* equations of all loops, in m or 1 */
+    int alignments;           /* cosines that are positive where axes point as they should */
+    double tolerance;         /* of the residuals */
+    void (*residual)(const double *u, double *values); /* residuals, then alignments */
 } modeler_closure;
 
-/* Numbers that `work` must hold. */
-#define MODELER_CLOSURE_WORK(unknowns, solved) \
-    ((solved) + 2 * (solved) * (unknowns) + (solved) * (solved) + 6 * (solved) + 4 * (unknowns))
+/* Numbers that `work` must hold; `checked` = residuals + alignments. */
+#define MODELER_CLOSURE_WORK(unknowns, solved, checked) \
+    ((solved) * ((unknowns) + 2 * (solved) + 7) + 3 * (unknowns) + (checked))
 
 /* Closed posture u with the given variables at q, from the closed posture `start`.
  * u may be `start`. Returns a status; u is unchanged unless it is MODELER_CLOSED. */

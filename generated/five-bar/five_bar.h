@@ -68,14 +68,14 @@ extern "C" {
 
 /* beta: base parameters, columns of five_bar_base_regressor
  *
- *    0  ZZ11R = ZZ11 + L1**2*M21 + L1**2/L4*MX22  [kg m2]
- *    1  MX11R = MX11 + L1*M21 + L1/L4*MX22  [kg m]
+ *    0  ZZ11R = ZZ11 + L1**2*M21 + L1**2*MX22/L4  [kg m2]
+ *    1  MX11R = MX11 + L1*M21 + L1*MX22/L4  [kg m]
  *    2  MY11  [kg m]
- *    3  ZZ21R = ZZ21 + L2**2/L4*MX22  [kg m2]
- *    4  MX21R = MX21 + L2/L4*MX22  [kg m]
+ *    3  ZZ21R = ZZ21 + L2**2*MX22/L4  [kg m2]
+ *    4  MX21R = MX21 + L2*MX22/L4  [kg m]
  *    5  MY21  [kg m]
- *    6  ZZ12R = ZZ12 - L3**2/L4*MX22 + L3**2*M22  [kg m2]
- *    7  MX12R = MX12 - L3/L4*MX22 + L3*M22  [kg m]
+ *    6  ZZ12R = ZZ12 - L3**2*MX22/L4 + L3**2*M22  [kg m2]
+ *    7  MX12R = MX12 - L3*MX22/L4 + L3*M22  [kg m]
  *    8  MY12  [kg m]
  *    9  ZZ22R = ZZ22 - L4*MX22  [kg m2]
  *   10  MY22  [kg m]

@@ -10,7 +10,8 @@
 #include "modeler_sincos.h"
 #include "five_bar_tree.h"
 
-/* Geometry. To use another value, compile with e.g. -DFIVE_BAR_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DFIVE_BAR_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef FIVE_BAR_GEO_g
 #define FIVE_BAR_GEO_g 9.81
 #endif
@@ -30,6 +31,10 @@
 #define FIVE_BAR_GEO_L4 0.42
 #endif
 
+static const double five_bar_geo_g = FIVE_BAR_GEO_g;
+static const double five_bar_geo_L1 = FIVE_BAR_GEO_L1;
+static const double five_bar_geo_L3 = FIVE_BAR_GEO_L3;
+
 /* Regressor of the base parameters.
  * 17 additions, 28 multiplications. */
 void five_bar_tree_base_regressor(const double *q, const double *qd, const double *qdd,
@@ -48,19 +53,19 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     modeler_sincos(q[3], &s3, &c3);
 
     phi[0] = qdd[0];
-    const double t1 = FIVE_BAR_GEO_g*c0;
+    const double t1 = five_bar_geo_g*c0;
     phi[1] = t1;
-    const double t2 = FIVE_BAR_GEO_g*s0;
+    const double t2 = five_bar_geo_g*s0;
     phi[2] = -t2;
     const double t3 = qdd[0] + qdd[1];
     phi[3] = t3;
-    const double t4 = t1 + FIVE_BAR_GEO_L1*qdd[0];
-    const double t5 = t2 - qd[0]*qd[0]*FIVE_BAR_GEO_L1;
+    const double t4 = t1 + five_bar_geo_L1*qdd[0];
+    const double t5 = t2 - qd[0]*qd[0]*five_bar_geo_L1;
     const double t6 = c1*t4 - s1*t5;
     const double t7 = qd[0] + qd[1];
     const double t8 = t7*t7;
-    const double t9 = FIVE_BAR_GEO_L1*s1;
-    const double t10 = FIVE_BAR_GEO_L1*c1;
+    const double t9 = five_bar_geo_L1*s1;
+    const double t10 = five_bar_geo_L1*c1;
     phi[4] = t3*t10 - t8*t9 + t6;
     const double t11 = c1*t5 + s1*t4;
     phi[5] = -(t3*t9 + t8*t10 + t11);
@@ -68,15 +73,15 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     phi[15] = t6;
     phi[16] = -t11;
     phi[28] = qdd[2];
-    const double t12 = FIVE_BAR_GEO_g*c2;
+    const double t12 = five_bar_geo_g*c2;
     phi[29] = t12;
-    const double t13 = FIVE_BAR_GEO_g*s2;
+    const double t13 = five_bar_geo_g*s2;
     phi[30] = -t13;
     const double t14 = qdd[2] + qdd[3];
     phi[31] = t14;
-    const double t15 = c3*(t13 - qd[2]*qd[2]*FIVE_BAR_GEO_L3) + s3*(t12 + FIVE_BAR_GEO_L3*qdd[2]);
+    const double t15 = c3*(t13 - qd[2]*qd[2]*five_bar_geo_L3) + s3*(t12 + five_bar_geo_L3*qdd[2]);
     const double t16 = qd[2] + qd[3];
-    phi[32] = -(FIVE_BAR_GEO_L3*s3*t14 + t16*t16*(FIVE_BAR_GEO_L3*c3) + t15);
+    phi[32] = -(five_bar_geo_L3*s3*t14 + t16*t16*(five_bar_geo_L3*c3) + t15);
     phi[42] = t14;
     phi[43] = -t15;
 }

@@ -8,9 +8,11 @@
 #include "modeler_closure.h"
 #include "five_bar_tree.h"
 
+#define WORK MODELER_CLOSURE_WORK(4, 2, 3)
+
 /* Free variables u: 11, 21, 12, 22. */
 static const double home[4] = {
-    2.2, -1.370417319700625, 0.9, 1.4635998467408846
+    2.2, -1.370417319700625, 0.9, 1.4635998467408842
 };
 static const double scale[4] = {
     1.0, 1.0, 1.0, 1.0
@@ -18,12 +20,15 @@ static const double scale[4] = {
 static const int given[2] = { 0, 2 };
 static const int solved[2] = { 1, 3 };
 static const modeler_closure loops = {
-    4, 2, 2, given, solved, scale, five_bar_tree_closure
+    4, 2, 2, given, solved, scale, five_bar_tree_closure,
+    2, 1, 4.2e-10, five_bar_tree_residual
 };
+
+static const double standing[2] = {0.0};
 
 const char *five_bar_signature(void)
 {
-    return "56cc054f87ae3be5";
+    return "00758a49c1dbc3cb";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
@@ -32,7 +37,7 @@ void five_bar_observation(size_t samples, const double *q, const double *qd, con
 {
     double u[4], ud[4], udd[4];
     double G[8], rows[4 * FIVE_BAR_BASE_PARAMETERS];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double work[WORK];
     const size_t width = (size_t)FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS;
 
     for (size_t i = 0; i < samples; i++) {
@@ -58,8 +63,7 @@ void five_bar_observation(size_t samples, const double *q, const double *qd, con
 /* Regressor of the standard parameters. */
 int five_bar_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
 {
-    double u[4], G[8], ud[4], udd[4], rows[160];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double u[4], G[8], ud[4], udd[4], rows[160], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -77,8 +81,7 @@ int five_bar_regressor(const double *q, const double *qd, const double *qdd, dou
 int five_bar_base_regressor(const double *q, const double *qd, const double *qdd,
                             double *restrict phi)
 {
-    double u[4], G[8], ud[4], udd[4], rows[44];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double u[4], G[8], ud[4], udd[4], rows[44], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -96,8 +99,7 @@ int five_bar_base_regressor(const double *q, const double *qd, const double *qdd
 int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                               const double *beta, double *restrict tau)
 {
-    double u[4], G[8], ud[4], udd[4], rows[4];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -114,8 +116,7 @@ int five_bar_inverse_dynamics(const double *q, const double *qd, const double *q
 /* Torques that hold the robot still, without friction. */
 int five_bar_gravity(const double *q, const double *beta, double *restrict tau)
 {
-    double u[4], G[8], rows[4];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double u[4], G[8], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -132,9 +133,7 @@ int five_bar_gravity(const double *q, const double *beta, double *restrict tau)
 /* Coriolis and centripetal torques. */
 int five_bar_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
 {
-    double u[4], G[8], ud[4], udd[4], rows[4];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
-    static const double standing[2] = {0.0};
+    double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -151,9 +150,7 @@ int five_bar_coriolis(const double *q, const double *qd, const double *beta, dou
 /* Torques of all effects but rotor inertias: friction, offsets. */
 int five_bar_friction(const double *q, const double *qd, const double *beta, double *restrict tau)
 {
-    double u[4], G[8], ud[4], udd[4], rows[4];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
-    static const double standing[2] = {0.0};
+    double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -170,9 +167,7 @@ int five_bar_friction(const double *q, const double *qd, const double *beta, dou
 /* Inertia matrix, rotor inertias included; symmetric. */
 int five_bar_inertia_matrix(const double *q, const double *beta, double *restrict M)
 {
-    double u[4], G[8], rows[16];
-    double work[MODELER_CLOSURE_WORK(4, 2)];
-    double half[8];
+    double u[4], G[8], rows[16], half[8], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -193,7 +188,7 @@ int five_bar_inertia_matrix(const double *q, const double *beta, double *restric
 /* Pose of the frame of every moving row of the table. */
 int five_bar_forward_kinematics(const double *q, double *restrict T)
 {
-    double u[4], work[MODELER_CLOSURE_WORK(4, 2)];
+    double u[4], work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -206,7 +201,7 @@ int five_bar_forward_kinematics(const double *q, double *restrict T)
 /* Closed posture, on a straight way from home. */
 int five_bar_close(const double *q, double *restrict u)
 {
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
 
     if (status != MODELER_CLOSED)
@@ -217,7 +212,7 @@ int five_bar_close(const double *q, double *restrict u)
 /* Closed posture, on a straight way from another one, such as the last. */
 int five_bar_close_from(const double *q, const double *start, double *restrict u)
 {
-    double work[MODELER_CLOSURE_WORK(4, 2)];
+    double work[WORK];
     const int status = modeler_close(&loops, q, start, u, work);
 
     if (status != MODELER_CLOSED)
@@ -228,7 +223,7 @@ int five_bar_close_from(const double *q, const double *start, double *restrict u
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int five_bar_coupling(const double *q, double *restrict G)
 {
-    double u[4], work[MODELER_CLOSURE_WORK(4, 2)];
+    double u[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)

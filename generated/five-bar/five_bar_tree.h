@@ -18,6 +18,7 @@ void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd
 void five_bar_tree_friction(const double *qd, const double *beta, double *tau);
 void five_bar_tree_forward_kinematics(const double *q, double *T);
 void five_bar_tree_closure(const double *q, double *values);
+void five_bar_tree_residual(const double *q, double *values);
 void five_bar_tree_drift(const double *q, const double *qd, double *values);
 
 #endif

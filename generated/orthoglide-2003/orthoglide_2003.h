@@ -191,20 +191,20 @@ extern "C" {
 
 /* beta: base parameters, columns of orthoglide_2003_base_regressor
  *
- *    0  MPR = MP + 1/D41*MX31 + M41 + 1/D41*MX71 + 1/D42*MX32 + M42 + 1/D42*MX72 + 1/D43*MX33 +
- *         M43 + 1/D43*MX73  [kg]
- *    1  Ia11R = Ia11 + M11 + M21 - 1/D41*MX31 + M31 - 1/D41*MX71 + M71  [kg]
+ *    0  MPR = MP + MX31/D41 + M41 + MX71/D41 + MX32/D42 + M42 + MX72/D42 + MX33/D43 + M43 +
+ *         MX73/D43  [kg]
+ *    1  Ia11R = Ia11 + M11 + M21 - MX31/D41 + M31 - MX71/D41 + M71  [kg]
  *    2  Fv11  [N s/m]
  *    3  Fs11  [N]
  *    4  Off11  [N]
- *    5  Ia12R = Ia12 + M12 + M22 - 1/D42*MX32 + M32 - 1/D42*MX72 + M72  [kg]
+ *    5  Ia12R = Ia12 + M12 + M22 - MX32/D42 + M32 - MX72/D42 + M72  [kg]
  *    6  Fv12  [N s/m]
  *    7  Fs12  [N]
  *    8  Off12  [N]
- *    9  Ia13R = Ia13 + M13 + M23 - 1/D43*MX33 + M33 - 1/D43*MX73 + M73  [kg]
+ *    9  Ia13R = Ia13 + M13 + M23 - MX33/D43 + M33 - MX73/D43 + M73  [kg]
  *   10  Fv13  [N s/m]
  *   11  Fs13  [N]
- *   12  Off13R = Off13 - g*M13 - g*M23 + g/D43*MX33 - g*M33 + g/D43*MX73 - g*M73  [N]
+ *   12  Off13R = Off13 - g*M13 - g*M23 + g*MX33/D43 - g*M33 + g*MX73/D43 - g*M73  [N]
  *   13  ZZ21R = ZZ21 + YY31 - D41*MX31 + YY41 + YY71 - D41*MX71  [kg m2]
  *   14  MX21  [kg m]
  *   15  MY21R = MY21 + MZ31 + MZ41 + MZ71  [kg m]

@@ -10,7 +10,8 @@
 #include "modeler_sincos.h"
 #include "orthoglide_2003_tree.h"
 
-/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_2003_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_2003_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef ORTHOGLIDE_2003_GEO_g
 #define ORTHOGLIDE_2003_GEO_g 9.81
 #endif
@@ -36,6 +37,11 @@
 #define ORTHOGLIDE_2003_GEO_d6 0.1
 #endif
 
+static const double orthoglide_2003_geo_g = ORTHOGLIDE_2003_GEO_g;
+static const double orthoglide_2003_geo_D41 = ORTHOGLIDE_2003_GEO_D41;
+static const double orthoglide_2003_geo_D42 = ORTHOGLIDE_2003_GEO_D42;
+static const double orthoglide_2003_geo_D43 = ORTHOGLIDE_2003_GEO_D43;
+
 /* Regressor of the base parameters.
  * 68 additions, 114 multiplications. */
 void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, const double *qdd,
@@ -58,7 +64,7 @@ void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, cons
     modeler_sincos(q[11], &s11, &c11);
 
     phi[0] = qdd[0];
-    phi[43] = qdd[1] - ORTHOGLIDE_2003_GEO_g;
+    phi[43] = qdd[1] - orthoglide_2003_geo_g;
     phi[86] = qdd[2];
     phi[130] = qdd[3];
     phi[131] = qd[3];
@@ -134,18 +140,18 @@ void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, cons
     phi[276] = c7*(t1 - t42) - s7*(qdd[7] + t5);
     phi[277] = -(s7*(t1 - t8) + c7*t6);
     phi[279] = s7*t37;
-    phi[280] = ORTHOGLIDE_2003_GEO_D41*c7*qdd[6] - (t37 + ORTHOGLIDE_2003_GEO_D41*t41);
+    phi[280] = orthoglide_2003_geo_D41*c7*qdd[6] - (t37 + orthoglide_2003_geo_D41*t41);
     phi[317] = -t5;
     phi[318] = t8 - t42;
     phi[319] = -t10;
     phi[320] = -t40;
     phi[321] = qdd[7];
-    phi[322] = c7*t38 - ORTHOGLIDE_2003_GEO_g*s7;
-    phi[323] = ORTHOGLIDE_2003_GEO_D41*s7*t1;
+    phi[322] = c7*t38 - orthoglide_2003_geo_g*s7;
+    phi[323] = orthoglide_2003_geo_D41*s7*t1;
     phi[367] = qdd[8];
-    const double t43 = c8*qdd[4] - ORTHOGLIDE_2003_GEO_g*s8;
+    const double t43 = c8*qdd[4] - orthoglide_2003_geo_g*s8;
     phi[368] = -t43;
-    const double t44 = ORTHOGLIDE_2003_GEO_g*c8 + s8*qdd[4];
+    const double t44 = orthoglide_2003_geo_g*c8 + s8*qdd[4];
     phi[369] = t44;
     const double t45 = qd[9]*t15;
     phi[370] = s9*t23 + c9*t45;
@@ -156,16 +162,16 @@ void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, cons
     phi[372] = c9*(t13 - t48) - s9*(qdd[9] + t17);
     phi[373] = -(s9*(t13 - t20) + c9*t18);
     phi[375] = s9*t43;
-    phi[376] = ORTHOGLIDE_2003_GEO_D42*c9*qdd[8] - (t43 + ORTHOGLIDE_2003_GEO_D42*t47);
+    phi[376] = orthoglide_2003_geo_D42*c9*qdd[8] - (t43 + orthoglide_2003_geo_D42*t47);
     phi[413] = -t17;
     phi[414] = t20 - t48;
     phi[415] = -t22;
     phi[416] = -t46;
     phi[417] = qdd[9];
     phi[418] = c9*t44;
-    phi[419] = ORTHOGLIDE_2003_GEO_D42*s9*t13;
+    phi[419] = orthoglide_2003_geo_D42*s9*t13;
     phi[463] = qdd[10];
-    const double t49 = qdd[5] - ORTHOGLIDE_2003_GEO_g;
+    const double t49 = qdd[5] - orthoglide_2003_geo_g;
     const double t50 = c10*t49;
     phi[464] = -t50;
     const double t51 = s10*t49;
@@ -179,12 +185,12 @@ void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, cons
     phi[468] = c11*(t25 - t55) - s11*(qdd[11] + t29);
     phi[469] = -(s11*(t25 - t32) + c11*t30);
     phi[471] = s11*t50;
-    phi[472] = ORTHOGLIDE_2003_GEO_D43*c11*qdd[10] - (t50 + ORTHOGLIDE_2003_GEO_D43*t54);
+    phi[472] = orthoglide_2003_geo_D43*c11*qdd[10] - (t50 + orthoglide_2003_geo_D43*t54);
     phi[509] = -t29;
     phi[510] = t32 - t55;
     phi[511] = -t34;
     phi[512] = -t53;
     phi[513] = qdd[11];
     phi[514] = c11*t51;
-    phi[515] = ORTHOGLIDE_2003_GEO_D43*s11*t25;
+    phi[515] = orthoglide_2003_geo_D43*s11*t25;
 }

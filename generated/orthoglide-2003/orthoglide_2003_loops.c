@@ -8,6 +8,8 @@
 #include "modeler_closure.h"
 #include "orthoglide_2003_tree.h"
 
+#define WORK MODELER_CLOSURE_WORK(12, 9, 9)
+
 /* Free variables u: Px, Py, P, 11, 12, 13, 21, 31, 22, 32, 23, 33. */
 static const double home[12] = {
     0.0, 0.0, 0.6, 0.19, 0.19, 0.19, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0
@@ -18,17 +20,21 @@ static const double scale[12] = {
 static const int given[3] = { 3, 4, 5 };
 static const int solved[9] = { 0, 1, 2, 6, 7, 8, 9, 10, 11 };
 static const modeler_closure loops = {
-    12, 3, 9, given, solved, scale, orthoglide_2003_tree_closure
+    12, 3, 9, given, solved, scale, orthoglide_2003_tree_closure,
+    9, 0, 6e-10, orthoglide_2003_tree_residual
 };
 static const int platform_given[3] = { 0, 1, 2 };
 static const int platform_solved[9] = { 3, 4, 5, 6, 7, 8, 9, 10, 11 };
 static const modeler_closure platform_loops = {
-    12, 3, 9, platform_given, platform_solved, scale, orthoglide_2003_tree_closure
+    12, 3, 9, platform_given, platform_solved, scale, orthoglide_2003_tree_closure,
+    9, 0, 6e-10, orthoglide_2003_tree_residual
 };
+
+static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "31c5a07162dd8f3e";
+    return "0af9665a3ecf4234";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
@@ -37,7 +43,7 @@ void orthoglide_2003_observation(size_t samples, const double *q, const double *
 {
     double u[12], ud[12], udd[12];
     double G[36], rows[12 * ORTHOGLIDE_2003_BASE_PARAMETERS];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double work[WORK];
     const size_t width = (size_t)ORTHOGLIDE_2003_JOINTS * ORTHOGLIDE_2003_BASE_PARAMETERS;
 
     for (size_t i = 0; i < samples; i++) {
@@ -64,8 +70,7 @@ void orthoglide_2003_observation(size_t samples, const double *q, const double *
 int orthoglide_2003_regressor(const double *q, const double *qd, const double *qdd,
                               double *restrict phi)
 {
-    double u[12], G[36], ud[12], udd[12], rows[1956];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], G[36], ud[12], udd[12], rows[1956], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -83,8 +88,7 @@ int orthoglide_2003_regressor(const double *q, const double *qd, const double *q
 int orthoglide_2003_base_regressor(const double *q, const double *qd, const double *qdd,
                                    double *restrict phi)
 {
-    double u[12], G[36], ud[12], udd[12], rows[516];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], G[36], ud[12], udd[12], rows[516], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -102,8 +106,7 @@ int orthoglide_2003_base_regressor(const double *q, const double *qd, const doub
 int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                                      const double *beta, double *restrict tau)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -120,8 +123,7 @@ int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const do
 /* Torques that hold the robot still, without friction. */
 int orthoglide_2003_gravity(const double *q, const double *beta, double *restrict tau)
 {
-    double u[12], G[36], rows[12];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], G[36], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -139,9 +141,7 @@ int orthoglide_2003_gravity(const double *q, const double *beta, double *restric
 int orthoglide_2003_coriolis(const double *q, const double *qd, const double *beta,
                              double *restrict tau)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
-    static const double standing[3] = {0.0};
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -159,9 +159,7 @@ int orthoglide_2003_coriolis(const double *q, const double *qd, const double *be
 int orthoglide_2003_friction(const double *q, const double *qd, const double *beta,
                              double *restrict tau)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
-    static const double standing[3] = {0.0};
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -178,9 +176,7 @@ int orthoglide_2003_friction(const double *q, const double *qd, const double *be
 /* Inertia matrix, rotor inertias included; symmetric. */
 int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *restrict M)
 {
-    double u[12], G[36], rows[144];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
-    double half[36];
+    double u[12], G[36], rows[144], half[36], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -201,7 +197,7 @@ int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *
 /* Pose of the frame of every moving row of the table. */
 int orthoglide_2003_forward_kinematics(const double *q, double *restrict T)
 {
-    double u[12], work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -214,7 +210,7 @@ int orthoglide_2003_forward_kinematics(const double *q, double *restrict T)
 /* Closed posture, on a straight way from home. */
 int orthoglide_2003_close(const double *q, double *restrict u)
 {
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
 
     if (status != MODELER_CLOSED)
@@ -225,7 +221,7 @@ int orthoglide_2003_close(const double *q, double *restrict u)
 /* Closed posture, on a straight way from another one, such as the last. */
 int orthoglide_2003_close_from(const double *q, const double *start, double *restrict u)
 {
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double work[WORK];
     const int status = modeler_close(&loops, q, start, u, work);
 
     if (status != MODELER_CLOSED)
@@ -236,7 +232,7 @@ int orthoglide_2003_close_from(const double *q, const double *start, double *res
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int orthoglide_2003_coupling(const double *q, double *restrict G)
 {
-    double u[12], work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -250,8 +246,7 @@ int orthoglide_2003_coupling(const double *q, double *restrict G)
 int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, const double *xdd,
                                             double *restrict phi)
 {
-    double u[12], G[36], ud[12], udd[12], rows[516];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], G[36], ud[12], udd[12], rows[516], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -269,8 +264,7 @@ int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, c
 int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
                                               const double *beta, double *restrict f)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12];
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
 
     if (status == MODELER_CLOSED)
@@ -287,7 +281,7 @@ int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd,
 /* Closed posture, on a straight way from home. */
 int orthoglide_2003_platform_close(const double *x, double *restrict u)
 {
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double work[WORK];
     const int status = modeler_close(&platform_loops, x, home, u, work);
 
     if (status != MODELER_CLOSED)
@@ -298,7 +292,7 @@ int orthoglide_2003_platform_close(const double *x, double *restrict u)
 /* Closed posture, on a straight way from another one, such as the last. */
 int orthoglide_2003_platform_close_from(const double *x, const double *start, double *restrict u)
 {
-    double work[MODELER_CLOSURE_WORK(12, 9)];
+    double work[WORK];
     const int status = modeler_close(&platform_loops, x, start, u, work);
 
     if (status != MODELER_CLOSED)
@@ -309,7 +303,7 @@ int orthoglide_2003_platform_close_from(const double *x, const double *start, do
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int orthoglide_2003_platform_coupling(const double *x, double *restrict G)
 {
-    double u[12], work[MODELER_CLOSURE_WORK(12, 9)];
+    double u[12], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
 
     if (status == MODELER_CLOSED)

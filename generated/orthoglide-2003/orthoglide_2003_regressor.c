@@ -10,7 +10,8 @@
 #include "modeler_sincos.h"
 #include "orthoglide_2003_tree.h"
 
-/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_2003_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_2003_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef ORTHOGLIDE_2003_GEO_g
 #define ORTHOGLIDE_2003_GEO_g 9.81
 #endif
@@ -36,6 +37,11 @@
 #define ORTHOGLIDE_2003_GEO_d6 0.1
 #endif
 
+static const double orthoglide_2003_geo_g = ORTHOGLIDE_2003_GEO_g;
+static const double orthoglide_2003_geo_D41 = ORTHOGLIDE_2003_GEO_D41;
+static const double orthoglide_2003_geo_D42 = ORTHOGLIDE_2003_GEO_D42;
+static const double orthoglide_2003_geo_D43 = ORTHOGLIDE_2003_GEO_D43;
+
 /* Regressor of the standard parameters.
  * 99 additions, 172 multiplications. */
 void orthoglide_2003_tree_regressor(const double *q, const double *qd, const double *qdd,
@@ -58,7 +64,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     modeler_sincos(q[11], &s11, &c11);
 
     phi[0] = qdd[0];
-    phi[163] = qdd[1] - ORTHOGLIDE_2003_GEO_g;
+    phi[163] = qdd[1] - orthoglide_2003_geo_g;
     phi[326] = qdd[2];
     phi[499] = qdd[3];
     phi[500] = qdd[3];
@@ -98,13 +104,13 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[558] = t2;
     phi[560] = t3;
     const double t24 = s6*qdd[3];
-    const double t25 = c7*t24 - ORTHOGLIDE_2003_GEO_g*s7;
-    const double t26 = t25 + ORTHOGLIDE_2003_GEO_D41*t7;
-    const double t27 = ORTHOGLIDE_2003_GEO_g*c7 + s7*t24;
-    const double t28 = t27 + ORTHOGLIDE_2003_GEO_D41*t11;
+    const double t25 = c7*t24 - orthoglide_2003_geo_g*s7;
+    const double t26 = t25 + orthoglide_2003_geo_D41*t7;
+    const double t27 = orthoglide_2003_geo_g*c7 + s7*t24;
+    const double t28 = t27 + orthoglide_2003_geo_D41*t11;
     const double t29 = c7*t26 + s7*t28;
     const double t30 = c6*qdd[3];
-    const double t31 = t30 + ORTHOGLIDE_2003_GEO_D41*t15;
+    const double t31 = t30 + orthoglide_2003_geo_D41*t15;
     phi[561] = s6*t29 + c6*t31;
     phi[568] = t16;
     phi[569] = t23;
@@ -147,20 +153,20 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[754] = qdd[4];
     phi[761] = t33;
     phi[763] = t34;
-    const double t55 = ORTHOGLIDE_2003_GEO_g*c8 + s8*qdd[4];
+    const double t55 = orthoglide_2003_geo_g*c8 + s8*qdd[4];
     const double t56 = c9*t55;
-    const double t57 = t56 + ORTHOGLIDE_2003_GEO_D42*t38;
+    const double t57 = t56 + orthoglide_2003_geo_D42*t38;
     const double t58 = s9*t55;
-    const double t59 = t58 + ORTHOGLIDE_2003_GEO_D42*t42;
+    const double t59 = t58 + orthoglide_2003_geo_D42*t42;
     const double t60 = c9*t57 + s9*t59;
-    const double t61 = c8*qdd[4] - ORTHOGLIDE_2003_GEO_g*s8;
-    const double t62 = t61 + ORTHOGLIDE_2003_GEO_D42*t46;
+    const double t61 = c8*qdd[4] - orthoglide_2003_geo_g*s8;
+    const double t62 = t61 + orthoglide_2003_geo_D42*t46;
     phi[764] = s8*t60 + c8*t62;
     phi[771] = t47;
     phi[772] = t54;
     phi[773] = t34;
     phi[774] = qdd[4];
-    const double t63 = qdd[5] - ORTHOGLIDE_2003_GEO_g;
+    const double t63 = qdd[5] - orthoglide_2003_geo_g;
     phi[853] = t63;
     phi[854] = qdd[5];
     phi[855] = qd[5];
@@ -200,12 +206,12 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[966] = t66;
     const double t87 = s10*t63;
     const double t88 = c11*t87;
-    const double t89 = t88 + ORTHOGLIDE_2003_GEO_D43*t70;
+    const double t89 = t88 + orthoglide_2003_geo_D43*t70;
     const double t90 = s11*t87;
-    const double t91 = t90 + ORTHOGLIDE_2003_GEO_D43*t74;
+    const double t91 = t90 + orthoglide_2003_geo_D43*t74;
     const double t92 = c11*t89 + s11*t91;
     const double t93 = c10*t63;
-    const double t94 = t93 + ORTHOGLIDE_2003_GEO_D43*t78;
+    const double t94 = t93 + orthoglide_2003_geo_D43*t78;
     phi[967] = s10*t92 + c10*t94;
     phi[974] = t79;
     phi[975] = t86;
@@ -231,7 +237,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[1038] = t102;
     phi[1039] = t24;
     phi[1044] = qdd[6];
-    const double t103 = ORTHOGLIDE_2003_GEO_D41*c7;
+    const double t103 = orthoglide_2003_geo_D41*c7;
     phi[1047] = t103*qdd[6] - t31;
     phi[1049] = t29 - t103*t1;
     phi[1050] = -t103*t31;
@@ -252,7 +258,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[1199] = qdd[7];
     phi[1200] = t27;
     phi[1201] = t25;
-    const double t105 = ORTHOGLIDE_2003_GEO_D41*s7;
+    const double t105 = orthoglide_2003_geo_D41*s7;
     phi[1210] = t105*t1;
     phi[1212] = t105*qdd[6];
     phi[1213] = t105*t29 + t103*(c7*t28 - s7*t26);
@@ -284,7 +290,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[1404] = t113;
     phi[1405] = t55;
     phi[1410] = qdd[8];
-    const double t114 = ORTHOGLIDE_2003_GEO_D42*c9;
+    const double t114 = orthoglide_2003_geo_D42*c9;
     phi[1413] = t114*qdd[8] - t62;
     phi[1415] = t60 - t114*t32;
     phi[1416] = -t114*t62;
@@ -305,7 +311,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[1565] = qdd[9];
     phi[1566] = t58;
     phi[1567] = t56;
-    const double t116 = ORTHOGLIDE_2003_GEO_D42*s9;
+    const double t116 = orthoglide_2003_geo_D42*s9;
     phi[1576] = t116*t32;
     phi[1578] = t116*qdd[8];
     phi[1579] = t116*t60 + t114*(c9*t59 - s9*t57);
@@ -337,7 +343,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[1770] = t124;
     phi[1771] = t87;
     phi[1776] = qdd[10];
-    const double t125 = ORTHOGLIDE_2003_GEO_D43*c11;
+    const double t125 = orthoglide_2003_geo_D43*c11;
     phi[1779] = t125*qdd[10] - t94;
     phi[1781] = t92 - t125*t64;
     phi[1782] = -t125*t94;
@@ -358,7 +364,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[1931] = qdd[11];
     phi[1932] = t90;
     phi[1933] = t88;
-    const double t127 = ORTHOGLIDE_2003_GEO_D43*s11;
+    const double t127 = orthoglide_2003_geo_D43*s11;
     phi[1942] = t127*t64;
     phi[1944] = t127*qdd[10];
     phi[1945] = t127*t92 + t125*(c11*t91 - s11*t89);

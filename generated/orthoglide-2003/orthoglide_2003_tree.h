@@ -20,6 +20,7 @@ void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const doub
 void orthoglide_2003_tree_friction(const double *qd, const double *beta, double *tau);
 void orthoglide_2003_tree_forward_kinematics(const double *q, double *T);
 void orthoglide_2003_tree_closure(const double *q, double *values);
+void orthoglide_2003_tree_residual(const double *q, double *values);
 void orthoglide_2003_tree_drift(const double *q, const double *qd, double *values);
 
 #endif

@@ -10,7 +10,8 @@
 #include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef ORTHOGLIDE_LEG_TREE_GEO_g
 #define ORTHOGLIDE_LEG_TREE_GEO_g 9.81
 #endif
@@ -23,6 +24,11 @@
 #ifndef ORTHOGLIDE_LEG_TREE_GEO_b7
 #define ORTHOGLIDE_LEG_TREE_GEO_b7 0.04
 #endif
+
+static const double orthoglide_leg_tree_geo_g = ORTHOGLIDE_LEG_TREE_GEO_g;
+static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
+static const double orthoglide_leg_tree_geo_b3 = ORTHOGLIDE_LEG_TREE_GEO_b3;
+static const double orthoglide_leg_tree_geo_b7 = ORTHOGLIDE_LEG_TREE_GEO_b7;
 
 const int orthoglide_leg_tree_nonzero_row[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
@@ -39,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "c58020c027c9d0d1";
+    return "46a1649f6417b540";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
@@ -131,10 +137,10 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     const double t57 = t20*beta[20] - t10*beta[21] - t12*beta[22];
     const double t58 = t20*beta[19] - t12*beta[21];
     const double t59 = s1*qdd[0];
-    const double t60 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t59;
-    const double t61 = t60 + ORTHOGLIDE_LEG_TREE_GEO_D4*t37;
-    const double t62 = c2*t59 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
-    const double t63 = t62 + ORTHOGLIDE_LEG_TREE_GEO_D4*t34;
+    const double t60 = orthoglide_leg_tree_geo_g*c2 + s2*t59;
+    const double t61 = t60 + orthoglide_leg_tree_geo_D4*t37;
+    const double t62 = c2*t59 - orthoglide_leg_tree_geo_g*s2;
+    const double t63 = t62 + orthoglide_leg_tree_geo_D4*t34;
     const double t64 = c3*t61 + s3*t63;
     const double t65 = t10*t57 - t12*t58 + (t30*beta[18] - t29*beta[19] - t19*beta[20]);
     const double t66 = t65 + t64*beta[24];
@@ -142,7 +148,7 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     const double t68 = t12*t67 + t20*t57 + (t30*beta[19] - t19*beta[21]) - t64*beta[23];
     const double t69 = t9*beta[13] + t11*beta[14] - t6*beta[15];
     const double t70 = t9*beta[12] - t6*beta[14];
-    const double t71 = t53 + ORTHOGLIDE_LEG_TREE_GEO_D4*t47;
+    const double t71 = t53 + orthoglide_leg_tree_geo_D4*t47;
     const double t72 = t11*t69 + t6*t70 + (t25*beta[13] - (t28*beta[11] + t18*beta[12]));
     const double t73 = c4*t66 - s4*t68 + (t71*beta[17] - t72);
     const double t74 = c3*t63 - s3*t61;
@@ -155,19 +161,19 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     const double t81 = t8*t79 + qd[2]*t80 + (qdd[2]*beta[6] - (t17*beta[4] + t15*beta[5]));
     const double t82 = t7*beta[4] + t8*beta[5] - qd[2]*beta[6];
     const double t83 = qd[2]*t82 + t7*t79 + (t17*beta[5] - qdd[2]*beta[7]) - t53*beta[9];
-    const double t84 = c2*(s3*t73 + c3*t78 - ORTHOGLIDE_LEG_TREE_GEO_D4*t46 + t83);
+    const double t84 = c2*(s3*t73 + c3*t78 - orthoglide_leg_tree_geo_D4*t46 + t83);
     const double t85 = s2*(c3*t73 - s3*t78 + (t53*beta[10] - t81)) + t84;
     const double t86 = t59*beta[3] - t53*beta[2] + qdd[1]*beta[1];
     tau[1] = t86 - (s5*(t54 - t53*beta[31]) - t56 - t85);
     const double t87 = t9*t70 - t11*t77 + (t25*beta[15] - (t28*beta[13] + t18*beta[14]));
     const double t88 = s4*t66 + c4*t68 - (t64*beta[16] + t74*beta[17] + t87);
     const double t89 = t7*t80 - t8*t82 + (qdd[2]*beta[8] - (t17*beta[6] + t15*beta[7]));
-    tau[2] = t60*beta[9] + t62*beta[10] + t89 - (t88 + ORTHOGLIDE_LEG_TREE_GEO_D4*t36);
+    tau[2] = t60*beta[9] + t62*beta[10] + t89 - (t88 + orthoglide_leg_tree_geo_D4*t36);
     tau[3] = -t88;
     tau[4] = t76;
-    const double t90 = (ORTHOGLIDE_LEG_TREE_GEO_g*c5 + s5*t59)*beta[30];
+    const double t90 = (orthoglide_leg_tree_geo_g*c5 + s5*t59)*beta[30];
     const double t91 = t3*t52 - t1*t55 + (qdd[5]*beta[29] - (t45*beta[27] + t43*beta[28]));
-    tau[5] = t90 + (c5*t59 - ORTHOGLIDE_LEG_TREE_GEO_g*s5)*beta[31] + t91;
+    tau[5] = t90 + (c5*t59 - orthoglide_leg_tree_geo_g*s5)*beta[31] + t91;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -181,7 +187,7 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
     M[33] = 0.0;
     M[34] = 0.0;
 
-    const double k1 = ORTHOGLIDE_LEG_TREE_GEO_D4*2.0;
+    const double k1 = orthoglide_leg_tree_geo_D4*2.0;
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -227,7 +233,7 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
     const double t24 = s3*beta[22];
     const double t25 = c3*t21;
     const double t26 = t24 - t25;
-    const double t27 = s3*t23 - c3*t26 + beta[5] - ORTHOGLIDE_LEG_TREE_GEO_D4*t4;
+    const double t27 = s3*t23 - c3*t26 + beta[5] - orthoglide_leg_tree_geo_D4*t4;
     const double t28 = c3*beta[22];
     const double t29 = k1*t6;
     const double t30 = c2*(s2*t27 + c2*(s3*(s3*t19 + t25) + c3*(t28 + t22) - t29));
@@ -238,11 +244,11 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
     const double t34 = beta[14] - t33;
     const double t35 = c3*t32 - s3*t34;
     const double t36 = s3*t32 + c3*t34;
-    const double t37 = s2*(beta[6] + t35 - ORTHOGLIDE_LEG_TREE_GEO_D4*t1) + c2*(beta[7] + t36);
+    const double t37 = s2*(beta[6] + t35 - orthoglide_leg_tree_geo_D4*t1) + c2*(beta[7] + t36);
     M[8] = -t37;
     const double t38 = s2*t35 + c2*t36;
     M[9] = -t38;
-    const double t39 = s2*(c3*t20 + t24) + c2*(s3*t20 - t28 + ORTHOGLIDE_LEG_TREE_GEO_D4*t2);
+    const double t39 = s2*(c3*t20 + t24) + c2*(s3*t20 - t28 + orthoglide_leg_tree_geo_D4*t2);
     M[10] = -t39;
     const double t40 = s5*beta[27] + c5*beta[28];
     M[11] = -t40;
@@ -250,9 +256,9 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
     M[13] = -t37;
     const double t41 = t18 + s4*(s4*beta[18] + t17) + beta[15];
     M[14] = beta[8] + t41 - t29;
-    const double t42 = t41 - ORTHOGLIDE_LEG_TREE_GEO_D4*t6;
+    const double t42 = t41 - orthoglide_leg_tree_geo_D4*t6;
     M[15] = t42;
-    const double t43 = t33 - ORTHOGLIDE_LEG_TREE_GEO_D4*t12;
+    const double t43 = t33 - orthoglide_leg_tree_geo_D4*t12;
     M[16] = t43;
     M[18] = t11;
     M[19] = -t38;
@@ -285,16 +291,16 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *re
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = ORTHOGLIDE_LEG_TREE_GEO_g*c2;
-    const double t2 = ORTHOGLIDE_LEG_TREE_GEO_g*s2;
+    const double t1 = orthoglide_leg_tree_geo_g*c2;
+    const double t2 = orthoglide_leg_tree_geo_g*s2;
     const double t3 = c3*t1 - s3*t2;
     const double t4 = c3*t2 + s3*t1;
     const double t5 = beta[24]*t3*s4 - beta[23]*t3*c4 + (beta[17]*t4 - beta[16]*t3);
     tau[2] = t1*beta[9] - t2*beta[10] - t5;
     tau[3] = -t5;
     tau[4] = -(s4*t4*beta[23] + c4*t4*beta[24]);
-    const double t6 = ORTHOGLIDE_LEG_TREE_GEO_g*c5*beta[30];
-    tau[5] = t6 - ORTHOGLIDE_LEG_TREE_GEO_g*s5*beta[31];
+    const double t6 = orthoglide_leg_tree_geo_g*c5*beta[30];
+    tau[5] = t6 - orthoglide_leg_tree_geo_g*s5*beta[31];
 }
 
 /* Coriolis and centripetal torques.
@@ -302,7 +308,7 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *re
 void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const double *beta,
                                   double *restrict tau)
 {
-    const double k1 = ORTHOGLIDE_LEG_TREE_GEO_D4*2.0;
+    const double k1 = orthoglide_leg_tree_geo_D4*2.0;
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -362,8 +368,8 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
     const double t44 = s5*(t35*beta[25] - t34*beta[26] - (t1*t41 + qd[5]*t42));
     const double t45 = t15*beta[20] - t10*beta[21] - t12*beta[22];
     const double t46 = t15*beta[19] - t12*beta[21];
-    const double t47 = ORTHOGLIDE_LEG_TREE_GEO_D4*t29;
-    const double t48 = ORTHOGLIDE_LEG_TREE_GEO_D4*t28;
+    const double t47 = orthoglide_leg_tree_geo_D4*t29;
+    const double t48 = orthoglide_leg_tree_geo_D4*t28;
     const double t49 = c3*t47 + s3*t48;
     const double t50 = beta[18]*t24 + beta[19]*t23 - t14*beta[20] + (t12*t46 - t10*t45);
     const double t51 = t50 - beta[24]*t49;
@@ -382,14 +388,14 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
     const double t64 = t7*beta[6] + t8*beta[7] - qd[2]*beta[8];
     const double t65 = t7*beta[5] - qd[2]*beta[7];
     const double t66 = t7*beta[4] + t8*beta[5] - qd[2]*beta[6];
-    const double t67 = s3*t58 - c3*t63 + ORTHOGLIDE_LEG_TREE_GEO_D4*t36;
+    const double t67 = s3*t58 - c3*t63 + orthoglide_leg_tree_geo_D4*t36;
     const double t68 = s2*(c3*t58 + s3*t63 + (t8*t64 + qd[2]*t65 - (t38*beta[4] - t37*beta[5])));
     const double t69 = t68 + c2*(t67 - (qd[2]*t66 + t7*t64 + t38*beta[5]));
     tau[1] = t44 + c5*(qd[5]*t43 + t3*t41 + t35*beta[26]) - t69;
     const double t70 = t22*beta[13] - t14*beta[14] + (t11*t62 - t9*t55);
     const double t71 = s4*t51 + c4*t53 + (beta[16]*t49 + beta[17]*t59 - t70);
     const double t72 = t38*beta[6] - t37*beta[7] + (t8*t66 - t7*t65);
-    tau[2] = t71 - ORTHOGLIDE_LEG_TREE_GEO_D4*t30 - t72;
+    tau[2] = t71 - orthoglide_leg_tree_geo_D4*t30 - t72;
     tau[3] = t71;
     tau[4] = t61;
     tau[5] = t3*t42 - t1*t43 - (t35*beta[27] - t34*beta[28]);
@@ -413,7 +419,7 @@ void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *
  * 27 additions, 5 multiplications. */
 void orthoglide_leg_tree_base_parameters(const double *chi, double *restrict beta)
 {
-    const double k1 = ORTHOGLIDE_LEG_TREE_GEO_D4*ORTHOGLIDE_LEG_TREE_GEO_D4;
+    const double k1 = orthoglide_leg_tree_geo_D4*orthoglide_leg_tree_geo_D4;
 
     beta[0] = chi[9] + chi[19] + chi[29] + chi[39] + chi[49] + chi[59];
     const double t1 = k1*chi[39];
@@ -423,11 +429,11 @@ void orthoglide_leg_tree_base_parameters(const double *chi, double *restrict bet
     beta[3] = chi[17] + chi[28] + chi[38] + chi[58];
     beta[4] = -(chi[23] - chi[20] + t1 + t2);
     beta[5] = chi[21];
-    beta[6] = chi[22] - ORTHOGLIDE_LEG_TREE_GEO_D4*chi[38];
+    beta[6] = chi[22] - orthoglide_leg_tree_geo_D4*chi[38];
     beta[7] = chi[24];
     beta[8] = chi[25] + t1 + t2;
-    const double t3 = chi[26] + ORTHOGLIDE_LEG_TREE_GEO_D4*chi[39];
-    beta[9] = t3 + ORTHOGLIDE_LEG_TREE_GEO_D4*chi[49];
+    const double t3 = chi[26] + orthoglide_leg_tree_geo_D4*chi[39];
+    beta[9] = t3 + orthoglide_leg_tree_geo_D4*chi[49];
     beta[10] = chi[27];
     beta[11] = chi[30] - chi[33] + chi[43];
     beta[12] = chi[31];
@@ -487,7 +493,7 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *restrict T)
     T[26] = -s1;
     T[28] = -s2;
     T[29] = -c2;
-    T[31] = ORTHOGLIDE_LEG_TREE_GEO_b3;
+    T[31] = orthoglide_leg_tree_geo_b3;
     const double t3 = s1*c2;
     T[32] = -t3;
     const double t4 = s1*s2;
@@ -499,20 +505,20 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *restrict T)
     const double t6 = c3*t2 + s3*t1;
     T[37] = -t6;
     T[38] = -s1;
-    const double t7 = ORTHOGLIDE_LEG_TREE_GEO_D4*t1;
+    const double t7 = orthoglide_leg_tree_geo_D4*t1;
     T[39] = t7;
     const double t8 = s2*c3 + c2*s3;
     T[40] = -t8;
     const double t9 = c2*c3 - s2*s3;
     T[41] = -t9;
-    const double t10 = ORTHOGLIDE_LEG_TREE_GEO_b3 - ORTHOGLIDE_LEG_TREE_GEO_D4*s2;
+    const double t10 = orthoglide_leg_tree_geo_b3 - orthoglide_leg_tree_geo_D4*s2;
     T[43] = t10;
     const double t11 = c3*t3 - s3*t4;
     T[44] = -t11;
     const double t12 = c3*t4 + s3*t3;
     T[45] = t12;
     T[46] = -c1;
-    const double t13 = q[0] - ORTHOGLIDE_LEG_TREE_GEO_D4*t3;
+    const double t13 = q[0] - orthoglide_leg_tree_geo_D4*t3;
     T[47] = t13;
     T[48] = c4*t5 - s1*s4;
     T[49] = -(s1*c4 + s4*t5);
@@ -531,7 +537,7 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *restrict T)
     T[62] = -s1;
     T[64] = -s5;
     T[65] = -c5;
-    T[67] = ORTHOGLIDE_LEG_TREE_GEO_b7;
+    T[67] = orthoglide_leg_tree_geo_b7;
     T[68] = -s1*c5;
     T[69] = s1*s5;
     T[70] = -c1;

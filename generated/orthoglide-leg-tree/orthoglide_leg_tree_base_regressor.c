@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef ORTHOGLIDE_LEG_TREE_GEO_g
 #define ORTHOGLIDE_LEG_TREE_GEO_g 9.81
 #endif
@@ -22,6 +23,9 @@
 #ifndef ORTHOGLIDE_LEG_TREE_GEO_b7
 #define ORTHOGLIDE_LEG_TREE_GEO_b7 0.04
 #endif
+
+static const double orthoglide_leg_tree_geo_g = ORTHOGLIDE_LEG_TREE_GEO_g;
+static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 
 /* Regressor of the base parameters.
  * 140 additions, 202 multiplications. */
@@ -142,8 +146,8 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[44] = t32*t75 + t37*t76;
     phi[45] = t76*(t1 - t23) - t28*t75;
     phi[46] = -(t75*(t1 - t34) + t33*t76);
-    const double t77 = t73 + ORTHOGLIDE_LEG_TREE_GEO_D4*t13;
-    const double t78 = ORTHOGLIDE_LEG_TREE_GEO_D4*c2;
+    const double t77 = t73 + orthoglide_leg_tree_geo_D4*t13;
+    const double t78 = orthoglide_leg_tree_geo_D4*c2;
     phi[48] = t32*t78 - t77*t76;
     phi[49] = t77*t75 - t37*t78;
     const double t79 = c4*t75;
@@ -159,10 +163,10 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t86 = t48 - t49;
     phi[53] = t86*t76 - (t79*t85 - t51*t80);
     phi[54] = t81 - t54*t79 + t43*t76;
-    const double t87 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t74;
-    const double t88 = t87 + ORTHOGLIDE_LEG_TREE_GEO_D4*t8;
-    const double t89 = c2*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
-    const double t90 = t89 + ORTHOGLIDE_LEG_TREE_GEO_D4*t4;
+    const double t87 = orthoglide_leg_tree_geo_g*c2 + s2*t74;
+    const double t88 = t87 + orthoglide_leg_tree_geo_D4*t8;
+    const double t89 = c2*t74 - orthoglide_leg_tree_geo_g*s2;
+    const double t90 = t89 + orthoglide_leg_tree_geo_D4*t4;
     const double t91 = c3*t88 + s3*t90;
     const double t92 = c3*t90 - s3*t88;
     const double t93 = c4*t77 - s4*t92;
@@ -192,8 +196,8 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t99 = t30 + t31;
     phi[78] = -t99;
     phi[79] = t25;
-    const double t100 = ORTHOGLIDE_LEG_TREE_GEO_D4*s3;
-    const double t101 = ORTHOGLIDE_LEG_TREE_GEO_D4*c3;
+    const double t100 = orthoglide_leg_tree_geo_D4*s3;
+    const double t101 = orthoglide_leg_tree_geo_D4*c3;
     phi[80] = t28*t101 - t23*t100 + t91;
     phi[81] = t92 - (t33*t100 + t34*t101);
     const double t102 = c4*t49;
@@ -239,8 +243,8 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[187] = -t70;
     phi[188] = -t65;
     phi[189] = qdd[5];
-    phi[190] = ORTHOGLIDE_LEG_TREE_GEO_g*c5 + s5*t74;
-    phi[191] = c5*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s5;
+    phi[190] = orthoglide_leg_tree_geo_g*c5 + s5*t74;
+    phi[191] = c5*t74 - orthoglide_leg_tree_geo_g*s5;
 }
 
 /* The entries of the base regressor that are not always 0.
@@ -359,8 +363,8 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     values[21] = t32*t75 + t37*t76;
     values[22] = t76*(t1 - t23) - t28*t75;
     values[23] = -(t75*(t1 - t34) + t33*t76);
-    const double t77 = t73 + ORTHOGLIDE_LEG_TREE_GEO_D4*t13;
-    const double t78 = ORTHOGLIDE_LEG_TREE_GEO_D4*c2;
+    const double t77 = t73 + orthoglide_leg_tree_geo_D4*t13;
+    const double t78 = orthoglide_leg_tree_geo_D4*c2;
     values[24] = t32*t78 - t77*t76;
     values[25] = t77*t75 - t37*t78;
     const double t79 = c4*t75;
@@ -376,10 +380,10 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     const double t86 = t48 - t49;
     values[29] = t86*t76 - (t79*t85 - t51*t80);
     values[30] = t81 - t54*t79 + t43*t76;
-    const double t87 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t74;
-    const double t88 = t87 + ORTHOGLIDE_LEG_TREE_GEO_D4*t8;
-    const double t89 = c2*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
-    const double t90 = t89 + ORTHOGLIDE_LEG_TREE_GEO_D4*t4;
+    const double t87 = orthoglide_leg_tree_geo_g*c2 + s2*t74;
+    const double t88 = t87 + orthoglide_leg_tree_geo_D4*t8;
+    const double t89 = c2*t74 - orthoglide_leg_tree_geo_g*s2;
+    const double t90 = t89 + orthoglide_leg_tree_geo_D4*t4;
     const double t91 = c3*t88 + s3*t90;
     const double t92 = c3*t90 - s3*t88;
     const double t93 = c4*t77 - s4*t92;
@@ -409,8 +413,8 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     const double t99 = t30 + t31;
     values[49] = -t99;
     values[50] = t25;
-    const double t100 = ORTHOGLIDE_LEG_TREE_GEO_D4*s3;
-    const double t101 = ORTHOGLIDE_LEG_TREE_GEO_D4*c3;
+    const double t100 = orthoglide_leg_tree_geo_D4*s3;
+    const double t101 = orthoglide_leg_tree_geo_D4*c3;
     values[51] = t28*t101 - t23*t100 + t91;
     values[52] = t92 - (t33*t100 + t34*t101);
     const double t102 = c4*t49;
@@ -456,6 +460,6 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
     values[83] = -t70;
     values[84] = -t65;
     values[85] = qdd[5];
-    values[86] = ORTHOGLIDE_LEG_TREE_GEO_g*c5 + s5*t74;
-    values[87] = c5*t74 - ORTHOGLIDE_LEG_TREE_GEO_g*s5;
+    values[86] = orthoglide_leg_tree_geo_g*c5 + s5*t74;
+    values[87] = c5*t74 - orthoglide_leg_tree_geo_g*s5;
 }

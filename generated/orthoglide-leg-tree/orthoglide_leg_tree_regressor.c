@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef ORTHOGLIDE_LEG_TREE_GEO_g
 #define ORTHOGLIDE_LEG_TREE_GEO_g 9.81
 #endif
@@ -22,6 +23,9 @@
 #ifndef ORTHOGLIDE_LEG_TREE_GEO_b7
 #define ORTHOGLIDE_LEG_TREE_GEO_b7 0.04
 #endif
+
+static const double orthoglide_leg_tree_geo_g = ORTHOGLIDE_LEG_TREE_GEO_g;
+static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 
 /* Regressor of the standard parameters.
  * 152 additions, 218 multiplications. */
@@ -93,14 +97,14 @@ void orthoglide_leg_tree_regressor(const double *q, const double *qd, const doub
     phi[37] = t39;
     phi[38] = t2;
     const double t40 = s1*qdd[0];
-    const double t41 = c2*t40 - ORTHOGLIDE_LEG_TREE_GEO_g*s2;
-    const double t42 = t41 + ORTHOGLIDE_LEG_TREE_GEO_D4*t5;
-    const double t43 = ORTHOGLIDE_LEG_TREE_GEO_g*c2 + s2*t40;
-    const double t44 = t43 + ORTHOGLIDE_LEG_TREE_GEO_D4*t9;
+    const double t41 = c2*t40 - orthoglide_leg_tree_geo_g*s2;
+    const double t42 = t41 + orthoglide_leg_tree_geo_D4*t5;
+    const double t43 = orthoglide_leg_tree_geo_g*c2 + s2*t40;
+    const double t44 = t43 + orthoglide_leg_tree_geo_D4*t9;
     const double t45 = c3*t42 - s3*t44;
     const double t46 = c3*t44 + s3*t42;
     const double t47 = c1*qdd[0];
-    const double t48 = t47 + ORTHOGLIDE_LEG_TREE_GEO_D4*t14;
+    const double t48 = t47 + orthoglide_leg_tree_geo_D4*t14;
     const double t49 = t45*t25 + t46*t30 + c1*t48;
     phi[39] = t49;
     const double t50 = c4*t22 + s4*t27;
@@ -167,7 +171,7 @@ void orthoglide_leg_tree_regressor(const double *q, const double *qd, const doub
     phi[92] = t88*(t1 - t24) - t29*t87;
     phi[93] = t31*t88 - t89;
     phi[94] = -(t87*(t1 - t35) + t34*t88);
-    const double t90 = ORTHOGLIDE_LEG_TREE_GEO_D4*c2;
+    const double t90 = orthoglide_leg_tree_geo_D4*c2;
     phi[96] = t33*t90 - t48*t88;
     const double t91 = t48*t87 - t38*t90;
     phi[97] = t91;
@@ -224,8 +228,8 @@ void orthoglide_leg_tree_regressor(const double *q, const double *qd, const doub
     const double t110 = t31 + t32;
     phi[154] = -t110;
     phi[155] = t26;
-    const double t111 = ORTHOGLIDE_LEG_TREE_GEO_D4*s3;
-    const double t112 = ORTHOGLIDE_LEG_TREE_GEO_D4*c3;
+    const double t111 = orthoglide_leg_tree_geo_D4*s3;
+    const double t112 = orthoglide_leg_tree_geo_D4*c3;
     phi[156] = t29*t112 - t24*t111 + t46;
     const double t113 = t45 - (t34*t111 + t35*t112);
     phi[157] = t113;
@@ -285,6 +289,6 @@ void orthoglide_leg_tree_regressor(const double *q, const double *qd, const doub
     phi[353] = t73;
     phi[354] = -t77;
     phi[355] = qdd[5];
-    phi[356] = ORTHOGLIDE_LEG_TREE_GEO_g*c5 + s5*t40;
-    phi[357] = c5*t40 - ORTHOGLIDE_LEG_TREE_GEO_g*s5;
+    phi[356] = orthoglide_leg_tree_geo_g*c5 + s5*t40;
+    phi[357] = c5*t40 - orthoglide_leg_tree_geo_g*s5;
 }

@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DSR400_TREE_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DSR400_TREE_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef SR400_TREE_GEO_g
 #define SR400_TREE_GEO_g 9.81
 #endif
@@ -28,6 +29,13 @@
 #ifndef SR400_TREE_GEO_D8
 #define SR400_TREE_GEO_D8 0.35
 #endif
+
+static const double sr400_tree_geo_g = SR400_TREE_GEO_g;
+static const double sr400_tree_geo_D2 = SR400_TREE_GEO_D2;
+static const double sr400_tree_geo_D3 = SR400_TREE_GEO_D3;
+static const double sr400_tree_geo_D4 = SR400_TREE_GEO_D4;
+static const double sr400_tree_geo_RL4 = SR400_TREE_GEO_RL4;
+static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 
 /* Regressor of the base parameters.
  * 340 additions, 454 multiplications. */
@@ -73,9 +81,9 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[3] = c1*(t13 - t15) - s1*t12;
     const double t16 = t5*t5 + t14;
     phi[4] = -(s1*(t13 - t16) + c1*(qdd[1] - t11));
-    const double t17 = SR400_TREE_GEO_D2*qdd[0];
-    phi[6] = c1*t17 - SR400_TREE_GEO_D2*t9;
-    phi[7] = -(s1*t17 + SR400_TREE_GEO_D2*t10);
+    const double t17 = sr400_tree_geo_D2*qdd[0];
+    phi[6] = c1*t17 - sr400_tree_geo_D2*t9;
+    phi[7] = -(s1*t17 + sr400_tree_geo_D2*t10);
     const double t18 = c2*t2 - s2*t5;
     const double t19 = c2*t4 + s2*t8 + qd[2]*t18;
     const double t20 = s1*c2 + c1*s2;
@@ -98,8 +106,8 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t34 = t21*t21 + t32;
     const double t35 = t29 - t30;
     phi[11] = -(t20*(t13 - t34) + t35*t24);
-    const double t36 = t17 - SR400_TREE_GEO_D3*t9;
-    const double t37 = SR400_TREE_GEO_D2 + SR400_TREE_GEO_D3*c1;
+    const double t36 = t17 - sr400_tree_geo_D3*t9;
+    const double t37 = sr400_tree_geo_D2 + sr400_tree_geo_D3*c1;
     phi[13] = t36*t24 + t26*t37;
     phi[14] = -(t36*t20 + t28*t37);
     const double t38 = c3*t22 - s3*t21;
@@ -131,18 +139,18 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t61 = t47 + t43;
     phi[18] = t61*t24 - (t40*t59 - t60*t44);
     phi[19] = t45 + t49*t40 - t55*t24;
-    const double t62 = SR400_TREE_GEO_D2*t13;
-    const double t63 = SR400_TREE_GEO_g*c1 - s1*t62;
-    const double t64 = t63 - SR400_TREE_GEO_D3*t12;
-    const double t65 = c1*t62 + SR400_TREE_GEO_g*s1;
-    const double t66 = t65 + SR400_TREE_GEO_D3*t15;
+    const double t62 = sr400_tree_geo_D2*t13;
+    const double t63 = sr400_tree_geo_g*c1 - s1*t62;
+    const double t64 = t63 - sr400_tree_geo_D3*t12;
+    const double t65 = c1*t62 + sr400_tree_geo_g*s1;
+    const double t66 = t65 + sr400_tree_geo_D3*t15;
     const double t67 = c2*t64 - s2*t66;
-    const double t68 = SR400_TREE_GEO_RL4*t34 - SR400_TREE_GEO_D4*t31 + t67;
-    const double t69 = SR400_TREE_GEO_D4*t26 - SR400_TREE_GEO_RL4*t28 + t36;
+    const double t68 = sr400_tree_geo_RL4*t34 - sr400_tree_geo_D4*t31 + t67;
+    const double t69 = sr400_tree_geo_D4*t26 - sr400_tree_geo_RL4*t28 + t36;
     const double t70 = c2*t66 + s2*t64;
-    const double t71 = SR400_TREE_GEO_D4*t33 + SR400_TREE_GEO_RL4*t35 + t70;
+    const double t71 = sr400_tree_geo_D4*t33 + sr400_tree_geo_RL4*t35 + t70;
     const double t72 = c3*t69 - s3*t71;
-    const double t73 = SR400_TREE_GEO_D4*t24 - SR400_TREE_GEO_RL4*t20 + t37;
+    const double t73 = sr400_tree_geo_D4*t24 - sr400_tree_geo_RL4*t20 + t37;
     const double t74 = s3*t73;
     const double t75 = c3*t73;
     phi[20] = t68*t44 + t72*t24 + (t52*t74 - t56*t75);
@@ -237,8 +245,8 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[38] = c6*(t13 - t146) - s6*t144;
     const double t147 = t137*t137 + t145;
     phi[39] = -(s6*(t13 - t147) + c6*(qdd[6] - t143));
-    phi[41] = c6*t17 - SR400_TREE_GEO_D2*t141;
-    phi[42] = -(s6*t17 + SR400_TREE_GEO_D2*t142);
+    phi[41] = c6*t17 - sr400_tree_geo_D2*t141;
+    phi[42] = -(s6*t17 + sr400_tree_geo_D2*t142);
     const double t148 = c7*t134 - s7*t137;
     const double t149 = c7*t136 + s7*t140 + qd[7]*t148;
     const double t150 = s6*c7 + c6*s7;
@@ -261,8 +269,8 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t164 = t151*t151 + t162;
     const double t165 = t159 - t160;
     phi[46] = -(t150*(t13 - t164) + t165*t154);
-    const double t166 = t17 - SR400_TREE_GEO_D8*t141;
-    const double t167 = SR400_TREE_GEO_D2 + SR400_TREE_GEO_D8*c6;
+    const double t166 = t17 - sr400_tree_geo_D8*t141;
+    const double t167 = sr400_tree_geo_D2 + sr400_tree_geo_D8*c6;
     phi[48] = t166*t154 + t156*t167;
     phi[49] = -(t166*t150 + t158*t167);
     phi[51] = -t11;
@@ -280,8 +288,8 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t170 = t25 + t23;
     phi[61] = -t170;
     phi[62] = t29;
-    const double t171 = SR400_TREE_GEO_D3*s2;
-    const double t172 = SR400_TREE_GEO_D3*c2;
+    const double t171 = sr400_tree_geo_D3*s2;
+    const double t172 = sr400_tree_geo_D3*c2;
     phi[63] = -(t33*t171 - t31*t172 + t67);
     phi[64] = t70 - (t35*t171 + t34*t172);
     const double t173 = c3*t43;
@@ -296,10 +304,10 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t178 = t173 - s3*t49;
     phi[69] = -t178;
     const double t179 = c3*t68;
-    const double t180 = SR400_TREE_GEO_RL4 - t171;
+    const double t180 = sr400_tree_geo_RL4 - t171;
     const double t181 = c3*t180;
     const double t182 = s3*t180;
-    const double t183 = SR400_TREE_GEO_D4 + t172;
+    const double t183 = sr400_tree_geo_D4 + t172;
     phi[70] = t52*t181 + t56*t182 + t48*t183 - t179;
     const double t184 = s3*t68;
     phi[71] = t60*t181 - t53*t182 - t50*t183 + t184;
@@ -353,17 +361,17 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[117] = -t176;
     phi[118] = -t177;
     phi[119] = -t178;
-    const double t209 = SR400_TREE_GEO_RL4*c3;
-    const double t210 = SR400_TREE_GEO_RL4*s3;
-    phi[120] = t52*t209 + t56*t210 + SR400_TREE_GEO_D4*t48 - t179;
-    phi[121] = t60*t209 - t53*t210 - SR400_TREE_GEO_D4*t50 + t184;
+    const double t209 = sr400_tree_geo_RL4*c3;
+    const double t210 = sr400_tree_geo_RL4*s3;
+    phi[120] = t52*t209 + t56*t210 + sr400_tree_geo_D4*t48 - t179;
+    phi[121] = t60*t209 - t53*t210 - sr400_tree_geo_D4*t50 + t184;
     phi[122] = t188;
     phi[123] = -t189;
     phi[124] = -t190;
     phi[125] = -t191;
     phi[126] = t192;
-    const double t211 = c4*t209 - SR400_TREE_GEO_D4*s4;
-    const double t212 = SR400_TREE_GEO_D4*c4 + s4*t209;
+    const double t211 = c4*t209 - sr400_tree_geo_D4*s4;
+    const double t212 = sr400_tree_geo_D4*c4 + s4*t209;
     phi[127] = t91*t211 + t95*t212 + t87*t210 - t193;
     phi[128] = t99*t211 - t92*t212 + t89*t210 - t196;
     phi[129] = t200;
@@ -427,9 +435,9 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[338] = -t133;
     phi[339] = -t139;
     phi[340] = qdd[6];
-    const double t220 = SR400_TREE_GEO_g*c6 - s6*t62;
+    const double t220 = sr400_tree_geo_g*c6 - s6*t62;
     phi[341] = -t220;
-    const double t221 = c6*t62 + SR400_TREE_GEO_g*s6;
+    const double t221 = c6*t62 + sr400_tree_geo_g*s6;
     phi[342] = t221;
     phi[343] = -t160;
     const double t222 = t163 - t164;
@@ -439,11 +447,11 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t224 = t155 + t153;
     phi[346] = -t224;
     phi[347] = t159;
-    const double t225 = t220 - SR400_TREE_GEO_D8*t144;
-    const double t226 = t221 + SR400_TREE_GEO_D8*t146;
+    const double t225 = t220 - sr400_tree_geo_D8*t144;
+    const double t226 = t221 + sr400_tree_geo_D8*t146;
     const double t227 = c7*t225 - s7*t226;
-    const double t228 = SR400_TREE_GEO_D8*s7;
-    const double t229 = SR400_TREE_GEO_D8*c7;
+    const double t228 = sr400_tree_geo_D8*s7;
+    const double t229 = sr400_tree_geo_D8*c7;
     phi[348] = -(t163*t228 - t161*t229 + t227);
     const double t230 = c7*t226 + s7*t225;
     phi[349] = t230 - (t165*t228 + t164*t229);
@@ -497,9 +505,9 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     values[3] = c1*(t13 - t15) - s1*t12;
     const double t16 = t5*t5 + t14;
     values[4] = -(s1*(t13 - t16) + c1*(qdd[1] - t11));
-    const double t17 = SR400_TREE_GEO_D2*qdd[0];
-    values[5] = c1*t17 - SR400_TREE_GEO_D2*t9;
-    values[6] = -(s1*t17 + SR400_TREE_GEO_D2*t10);
+    const double t17 = sr400_tree_geo_D2*qdd[0];
+    values[5] = c1*t17 - sr400_tree_geo_D2*t9;
+    values[6] = -(s1*t17 + sr400_tree_geo_D2*t10);
     const double t18 = c2*t2 - s2*t5;
     const double t19 = c2*t4 + s2*t8 + qd[2]*t18;
     const double t20 = s1*c2 + c1*s2;
@@ -522,8 +530,8 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     const double t34 = t21*t21 + t32;
     const double t35 = t29 - t30;
     values[10] = -(t20*(t13 - t34) + t35*t24);
-    const double t36 = t17 - SR400_TREE_GEO_D3*t9;
-    const double t37 = SR400_TREE_GEO_D2 + SR400_TREE_GEO_D3*c1;
+    const double t36 = t17 - sr400_tree_geo_D3*t9;
+    const double t37 = sr400_tree_geo_D2 + sr400_tree_geo_D3*c1;
     values[11] = t36*t24 + t26*t37;
     values[12] = -(t36*t20 + t28*t37);
     const double t38 = c3*t22 - s3*t21;
@@ -555,18 +563,18 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     const double t61 = t47 + t43;
     values[16] = t61*t24 - (t40*t59 - t60*t44);
     values[17] = t45 + t49*t40 - t55*t24;
-    const double t62 = SR400_TREE_GEO_D2*t13;
-    const double t63 = SR400_TREE_GEO_g*c1 - s1*t62;
-    const double t64 = t63 - SR400_TREE_GEO_D3*t12;
-    const double t65 = c1*t62 + SR400_TREE_GEO_g*s1;
-    const double t66 = t65 + SR400_TREE_GEO_D3*t15;
+    const double t62 = sr400_tree_geo_D2*t13;
+    const double t63 = sr400_tree_geo_g*c1 - s1*t62;
+    const double t64 = t63 - sr400_tree_geo_D3*t12;
+    const double t65 = c1*t62 + sr400_tree_geo_g*s1;
+    const double t66 = t65 + sr400_tree_geo_D3*t15;
     const double t67 = c2*t64 - s2*t66;
-    const double t68 = SR400_TREE_GEO_RL4*t34 - SR400_TREE_GEO_D4*t31 + t67;
-    const double t69 = SR400_TREE_GEO_D4*t26 - SR400_TREE_GEO_RL4*t28 + t36;
+    const double t68 = sr400_tree_geo_RL4*t34 - sr400_tree_geo_D4*t31 + t67;
+    const double t69 = sr400_tree_geo_D4*t26 - sr400_tree_geo_RL4*t28 + t36;
     const double t70 = c2*t66 + s2*t64;
-    const double t71 = SR400_TREE_GEO_D4*t33 + SR400_TREE_GEO_RL4*t35 + t70;
+    const double t71 = sr400_tree_geo_D4*t33 + sr400_tree_geo_RL4*t35 + t70;
     const double t72 = c3*t69 - s3*t71;
-    const double t73 = SR400_TREE_GEO_D4*t24 - SR400_TREE_GEO_RL4*t20 + t37;
+    const double t73 = sr400_tree_geo_D4*t24 - sr400_tree_geo_RL4*t20 + t37;
     const double t74 = s3*t73;
     const double t75 = c3*t73;
     values[18] = t68*t44 + t72*t24 + (t52*t74 - t56*t75);
@@ -661,8 +669,8 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     values[36] = c6*(t13 - t146) - s6*t144;
     const double t147 = t137*t137 + t145;
     values[37] = -(s6*(t13 - t147) + c6*(qdd[6] - t143));
-    values[38] = c6*t17 - SR400_TREE_GEO_D2*t141;
-    values[39] = -(s6*t17 + SR400_TREE_GEO_D2*t142);
+    values[38] = c6*t17 - sr400_tree_geo_D2*t141;
+    values[39] = -(s6*t17 + sr400_tree_geo_D2*t142);
     const double t148 = c7*t134 - s7*t137;
     const double t149 = c7*t136 + s7*t140 + qd[7]*t148;
     const double t150 = s6*c7 + c6*s7;
@@ -685,8 +693,8 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     const double t164 = t151*t151 + t162;
     const double t165 = t159 - t160;
     values[43] = -(t150*(t13 - t164) + t165*t154);
-    const double t166 = t17 - SR400_TREE_GEO_D8*t141;
-    const double t167 = SR400_TREE_GEO_D2 + SR400_TREE_GEO_D8*c6;
+    const double t166 = t17 - sr400_tree_geo_D8*t141;
+    const double t167 = sr400_tree_geo_D2 + sr400_tree_geo_D8*c6;
     values[44] = t166*t154 + t156*t167;
     values[45] = -(t166*t150 + t158*t167);
     values[46] = -t11;
@@ -704,8 +712,8 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     const double t170 = t25 + t23;
     values[56] = -t170;
     values[57] = t29;
-    const double t171 = SR400_TREE_GEO_D3*s2;
-    const double t172 = SR400_TREE_GEO_D3*c2;
+    const double t171 = sr400_tree_geo_D3*s2;
+    const double t172 = sr400_tree_geo_D3*c2;
     values[58] = -(t33*t171 - t31*t172 + t67);
     values[59] = t70 - (t35*t171 + t34*t172);
     const double t173 = c3*t43;
@@ -720,10 +728,10 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     const double t178 = t173 - s3*t49;
     values[64] = -t178;
     const double t179 = c3*t68;
-    const double t180 = SR400_TREE_GEO_RL4 - t171;
+    const double t180 = sr400_tree_geo_RL4 - t171;
     const double t181 = c3*t180;
     const double t182 = s3*t180;
-    const double t183 = SR400_TREE_GEO_D4 + t172;
+    const double t183 = sr400_tree_geo_D4 + t172;
     values[65] = t52*t181 + t56*t182 + t48*t183 - t179;
     const double t184 = s3*t68;
     values[66] = t60*t181 - t53*t182 - t50*t183 + t184;
@@ -777,17 +785,17 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     values[90] = -t176;
     values[91] = -t177;
     values[92] = -t178;
-    const double t209 = SR400_TREE_GEO_RL4*c3;
-    const double t210 = SR400_TREE_GEO_RL4*s3;
-    values[93] = t52*t209 + t56*t210 + SR400_TREE_GEO_D4*t48 - t179;
-    values[94] = t60*t209 - t53*t210 - SR400_TREE_GEO_D4*t50 + t184;
+    const double t209 = sr400_tree_geo_RL4*c3;
+    const double t210 = sr400_tree_geo_RL4*s3;
+    values[93] = t52*t209 + t56*t210 + sr400_tree_geo_D4*t48 - t179;
+    values[94] = t60*t209 - t53*t210 - sr400_tree_geo_D4*t50 + t184;
     values[95] = t188;
     values[96] = -t189;
     values[97] = -t190;
     values[98] = -t191;
     values[99] = t192;
-    const double t211 = c4*t209 - SR400_TREE_GEO_D4*s4;
-    const double t212 = SR400_TREE_GEO_D4*c4 + s4*t209;
+    const double t211 = c4*t209 - sr400_tree_geo_D4*s4;
+    const double t212 = sr400_tree_geo_D4*c4 + s4*t209;
     values[100] = t91*t211 + t95*t212 + t87*t210 - t193;
     values[101] = t99*t211 - t92*t212 + t89*t210 - t196;
     values[102] = t200;
@@ -851,9 +859,9 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     values[153] = -t133;
     values[154] = -t139;
     values[155] = qdd[6];
-    const double t220 = SR400_TREE_GEO_g*c6 - s6*t62;
+    const double t220 = sr400_tree_geo_g*c6 - s6*t62;
     values[156] = -t220;
-    const double t221 = c6*t62 + SR400_TREE_GEO_g*s6;
+    const double t221 = c6*t62 + sr400_tree_geo_g*s6;
     values[157] = t221;
     values[158] = -t160;
     const double t222 = t163 - t164;
@@ -863,11 +871,11 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
     const double t224 = t155 + t153;
     values[161] = -t224;
     values[162] = t159;
-    const double t225 = t220 - SR400_TREE_GEO_D8*t144;
-    const double t226 = t221 + SR400_TREE_GEO_D8*t146;
+    const double t225 = t220 - sr400_tree_geo_D8*t144;
+    const double t226 = t221 + sr400_tree_geo_D8*t146;
     const double t227 = c7*t225 - s7*t226;
-    const double t228 = SR400_TREE_GEO_D8*s7;
-    const double t229 = SR400_TREE_GEO_D8*c7;
+    const double t228 = sr400_tree_geo_D8*s7;
+    const double t229 = sr400_tree_geo_D8*c7;
     values[163] = -(t163*t228 - t161*t229 + t227);
     const double t230 = c7*t226 + s7*t225;
     values[164] = t230 - (t165*t228 + t164*t229);

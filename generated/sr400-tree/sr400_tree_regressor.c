@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DSR400_TREE_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DSR400_TREE_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef SR400_TREE_GEO_g
 #define SR400_TREE_GEO_g 9.81
 #endif
@@ -29,6 +30,13 @@
 #define SR400_TREE_GEO_D8 0.35
 #endif
 
+static const double sr400_tree_geo_g = SR400_TREE_GEO_g;
+static const double sr400_tree_geo_D2 = SR400_TREE_GEO_D2;
+static const double sr400_tree_geo_D3 = SR400_TREE_GEO_D3;
+static const double sr400_tree_geo_D4 = SR400_TREE_GEO_D4;
+static const double sr400_tree_geo_RL4 = SR400_TREE_GEO_RL4;
+static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
+
 /* Regressor of the standard parameters.
  * 380 additions, 500 multiplications. */
 void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
@@ -37,7 +45,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     for (int i = 0; i < 640; i++)
         phi[i] = 0.0;
 
-    const double k1 = SR400_TREE_GEO_D2*SR400_TREE_GEO_D2;
+    const double k1 = sr400_tree_geo_D2*sr400_tree_geo_D2;
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -77,9 +85,9 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[13] = c1*t9 - t7;
     const double t17 = t5*t5 + t15;
     phi[14] = -(s1*(t14 - t17) + c1*(qdd[1] - t12));
-    const double t18 = SR400_TREE_GEO_D2*qdd[0];
-    phi[16] = c1*t18 - SR400_TREE_GEO_D2*t10;
-    phi[17] = -(s1*t18 + SR400_TREE_GEO_D2*t11);
+    const double t18 = sr400_tree_geo_D2*qdd[0];
+    phi[16] = c1*t18 - sr400_tree_geo_D2*t10;
+    phi[17] = -(s1*t18 + sr400_tree_geo_D2*t11);
     const double t19 = k1*qdd[0];
     phi[19] = t19;
     const double t20 = c2*t2 - s2*t5;
@@ -106,15 +114,15 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t37 = t23*t23 + t35;
     const double t38 = t32 - t33;
     phi[24] = -(t22*(t14 - t37) + t38*t26);
-    const double t39 = t18 - SR400_TREE_GEO_D3*t10;
-    const double t40 = SR400_TREE_GEO_D2 + SR400_TREE_GEO_D3*c1;
+    const double t39 = t18 - sr400_tree_geo_D3*t10;
+    const double t40 = sr400_tree_geo_D2 + sr400_tree_geo_D3*c1;
     phi[26] = t39*t26 + t29*t40;
     phi[27] = -(t39*t22 + t31*t40);
-    const double t41 = SR400_TREE_GEO_D2*t14;
-    const double t42 = SR400_TREE_GEO_g*c1 - s1*t41;
-    const double t43 = t42 - SR400_TREE_GEO_D3*t13;
-    const double t44 = c1*t41 + SR400_TREE_GEO_g*s1;
-    const double t45 = t44 + SR400_TREE_GEO_D3*t16;
+    const double t41 = sr400_tree_geo_D2*t14;
+    const double t42 = sr400_tree_geo_g*c1 - s1*t41;
+    const double t43 = t42 - sr400_tree_geo_D3*t13;
+    const double t44 = c1*t41 + sr400_tree_geo_g*s1;
+    const double t45 = t44 + sr400_tree_geo_D3*t16;
     const double t46 = c2*t43 - s2*t45;
     const double t47 = c2*t45 + s2*t43;
     phi[28] = -(t46*t22 - t47*t26 + t14*t40);
@@ -151,12 +159,12 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t73 = t58 + t53;
     phi[34] = t73*t26 - (t50*t71 - t72*t54);
     phi[35] = t55 + t70 - t66*t26;
-    const double t74 = SR400_TREE_GEO_RL4*t37 - SR400_TREE_GEO_D4*t34 + t46;
-    const double t75 = SR400_TREE_GEO_D4*t29 - SR400_TREE_GEO_RL4*t31 + t39;
-    const double t76 = SR400_TREE_GEO_RL4*t38;
-    const double t77 = SR400_TREE_GEO_D4*t36 + t76 + t47;
+    const double t74 = sr400_tree_geo_RL4*t37 - sr400_tree_geo_D4*t34 + t46;
+    const double t75 = sr400_tree_geo_D4*t29 - sr400_tree_geo_RL4*t31 + t39;
+    const double t76 = sr400_tree_geo_RL4*t38;
+    const double t77 = sr400_tree_geo_D4*t36 + t76 + t47;
     const double t78 = c3*t75 - s3*t77;
-    const double t79 = SR400_TREE_GEO_D4*t26 - SR400_TREE_GEO_RL4*t22 + t40;
+    const double t79 = sr400_tree_geo_D4*t26 - sr400_tree_geo_RL4*t22 + t40;
     const double t80 = s3*t79;
     const double t81 = c3*t79;
     phi[36] = t74*t54 + t78*t26 + (t63*t80 - t67*t81);
@@ -268,8 +276,8 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[63] = c6*t154 - t152;
     const double t161 = t150*t150 + t159;
     phi[64] = -(s6*(t14 - t161) + c6*(qdd[6] - t157));
-    phi[66] = c6*t18 - SR400_TREE_GEO_D2*t155;
-    phi[67] = -(s6*t18 + SR400_TREE_GEO_D2*t156);
+    phi[66] = c6*t18 - sr400_tree_geo_D2*t155;
+    phi[67] = -(s6*t18 + sr400_tree_geo_D2*t156);
     phi[69] = t19;
     const double t162 = c7*t147 - s7*t150;
     const double t163 = c7*t149 + s7*t154 + qd[7]*t162;
@@ -295,14 +303,14 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t179 = t165*t165 + t177;
     const double t180 = t174 - t175;
     phi[74] = -(t164*(t14 - t179) + t180*t168);
-    const double t181 = t18 - SR400_TREE_GEO_D8*t155;
-    const double t182 = SR400_TREE_GEO_D2 + SR400_TREE_GEO_D8*c6;
+    const double t181 = t18 - sr400_tree_geo_D8*t155;
+    const double t182 = sr400_tree_geo_D2 + sr400_tree_geo_D8*c6;
     phi[76] = t181*t168 + t171*t182;
     phi[77] = -(t181*t164 + t173*t182);
-    const double t183 = SR400_TREE_GEO_g*c6 - s6*t41;
-    const double t184 = t183 - SR400_TREE_GEO_D8*t158;
-    const double t185 = c6*t41 + SR400_TREE_GEO_g*s6;
-    const double t186 = t185 + SR400_TREE_GEO_D8*t160;
+    const double t183 = sr400_tree_geo_g*c6 - s6*t41;
+    const double t184 = t183 - sr400_tree_geo_D8*t158;
+    const double t185 = c6*t41 + sr400_tree_geo_g*s6;
+    const double t186 = t185 + sr400_tree_geo_D8*t160;
     const double t187 = c7*t184 - s7*t186;
     const double t188 = c7*t186 + s7*t184;
     phi[78] = -(t187*t164 - t188*t168 + t14*t182);
@@ -324,8 +332,8 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t191 = t28 + t25;
     phi[104] = -t191;
     phi[105] = t32;
-    const double t192 = SR400_TREE_GEO_D3*s2;
-    const double t193 = SR400_TREE_GEO_D3*c2;
+    const double t192 = sr400_tree_geo_D3*s2;
+    const double t193 = sr400_tree_geo_D3*c2;
     phi[106] = -(t36*t192 - t34*t193 + t46);
     phi[107] = t47 - (t38*t192 + t37*t193);
     phi[108] = t190*t193 - t191*t192;
@@ -345,10 +353,10 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t201 = t194 - t198;
     phi[115] = -t201;
     const double t202 = c3*t74;
-    const double t203 = SR400_TREE_GEO_RL4 - t192;
+    const double t203 = sr400_tree_geo_RL4 - t192;
     const double t204 = c3*t203;
     const double t205 = s3*t203;
-    const double t206 = SR400_TREE_GEO_D4 + t193;
+    const double t206 = sr400_tree_geo_D4 + t193;
     phi[116] = t63*t204 + t67*t205 + t59*t206 - t202;
     const double t207 = s3*t74;
     const double t208 = t72*t204 - t64*t205 - t61*t206 + t207;
@@ -421,13 +429,13 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[193] = -t199;
     phi[194] = -t200;
     phi[195] = -t201;
-    const double t241 = SR400_TREE_GEO_RL4*c3;
-    const double t242 = SR400_TREE_GEO_RL4*s3;
-    phi[196] = t63*t241 + t67*t242 + SR400_TREE_GEO_D4*t59 - t202;
-    const double t243 = t72*t241 - t64*t242 - SR400_TREE_GEO_D4*t61 + t207;
+    const double t241 = sr400_tree_geo_RL4*c3;
+    const double t242 = sr400_tree_geo_RL4*s3;
+    phi[196] = t63*t241 + t67*t242 + sr400_tree_geo_D4*t59 - t202;
+    const double t243 = t72*t241 - t64*t242 - sr400_tree_geo_D4*t61 + t207;
     phi[197] = t243;
-    phi[198] = t76 - SR400_TREE_GEO_D4*t37 + t77;
-    const double t244 = t82*t241 - t78*t242 - SR400_TREE_GEO_D4*t74;
+    phi[198] = t76 - sr400_tree_geo_D4*t37 + t77;
+    const double t244 = t82*t241 - t78*t242 - sr400_tree_geo_D4*t74;
     phi[199] = t244;
     phi[200] = t214;
     phi[201] = -t215;
@@ -435,8 +443,8 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[203] = -t218;
     phi[204] = -t219;
     phi[205] = t220;
-    const double t245 = c4*t241 - SR400_TREE_GEO_D4*s4;
-    const double t246 = SR400_TREE_GEO_D4*c4 + s4*t241;
+    const double t245 = c4*t241 - sr400_tree_geo_D4*s4;
+    const double t246 = sr400_tree_geo_D4*c4 + s4*t241;
     phi[206] = t100*t245 + t104*t246 + t96*t242 - t221;
     const double t247 = t224 - (t109*t245 - t101*t246 + t98*t242);
     phi[207] = -t247;
@@ -532,8 +540,8 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t262 = t170 + t167;
     phi[554] = -t262;
     phi[555] = t174;
-    const double t263 = SR400_TREE_GEO_D8*s7;
-    const double t264 = SR400_TREE_GEO_D8*c7;
+    const double t263 = sr400_tree_geo_D8*s7;
+    const double t264 = sr400_tree_geo_D8*c7;
     phi[556] = -(t178*t263 - t176*t264 + t187);
     phi[557] = t188 - (t180*t263 + t179*t264);
     phi[558] = t261*t264 - t262*t263;

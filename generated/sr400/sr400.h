@@ -126,7 +126,7 @@ extern "C" {
  *   12  ZZ3R = ZZ3 + YY4 + 2*RL4*MZ4 + (D4**2 + RL4**2)*M4 + (D4**2 + RL4**2)*M5 + (D4**2 +
  *         RL4**2)*M6 + ZZ7 + D8**2*M8  [kg m2]
  *   13  MX3R = MX3 + D4*M4 + D4*M5 + D4*M6  [kg m]
- *   14  MY3R = MY3 + MZ4 + RL4*M4 + RL4*M5 + RL4*M6 - D8/D3*MX8  [kg m]
+ *   14  MY3R = MY3 + MZ4 + RL4*M4 + RL4*M5 + RL4*M6 - D8*MX8/D3  [kg m]
  *   15  XX4R = XX4 - YY4 + YY5  [kg m2]
  *   16  XY4  [kg m2]
  *   17  XZ4  [kg m2]
@@ -148,7 +148,7 @@ extern "C" {
  *   33  ZZ6  [kg m2]
  *   34  MX6  [kg m]
  *   35  MY6  [kg m]
- *   36  MX7R = MX7 - D8/D3*MX8 + D8*M8  [kg m]
+ *   36  MX7R = MX7 - D8*MX8/D3 + D8*M8  [kg m]
  *   37  MY7  [kg m]
  *   38  MY8  [kg m]
  */

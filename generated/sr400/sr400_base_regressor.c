@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DSR400_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DSR400_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef SR400_GEO_g
 #define SR400_GEO_g 9.81
 #endif
@@ -28,6 +29,13 @@
 #ifndef SR400_GEO_D8
 #define SR400_GEO_D8 0.35
 #endif
+
+static const double sr400_geo_g = SR400_GEO_g;
+static const double sr400_geo_D2 = SR400_GEO_D2;
+static const double sr400_geo_D3 = SR400_GEO_D3;
+static const double sr400_geo_D4 = SR400_GEO_D4;
+static const double sr400_geo_RL4 = SR400_GEO_RL4;
+static const double sr400_geo_D8 = SR400_GEO_D8;
 
 /* Regressor of the base parameters.
  * 291 additions, 398 multiplications. */
@@ -73,9 +81,9 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t17 = t6*t6 + t15;
     const double t18 = qdd[1] - t12;
     phi[4] = -(s1*(t14 - t17) + c1*t18);
-    const double t19 = SR400_GEO_D2*qdd[0];
-    phi[6] = c1*t19 - SR400_GEO_D2*t10;
-    phi[7] = -(s1*t19 + SR400_GEO_D2*t11);
+    const double t19 = sr400_geo_D2*qdd[0];
+    phi[6] = c1*t19 - sr400_geo_D2*t10;
+    phi[7] = -(s1*t19 + sr400_geo_D2*t11);
     const double t20 = qd[1] - qd[5];
     const double t21 = sa2*t3 - ca2*t6;
     const double t22 = sa2*t5 + ca2*t9 - t20*t21;
@@ -95,8 +103,8 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t33 = t23*t23 + t31;
     const double t34 = qdd[5] - t29;
     phi[11] = s5*t34 - c5*(t14 - t33);
-    const double t35 = t19 - SR400_GEO_D3*t10;
-    const double t36 = SR400_GEO_D2 + SR400_GEO_D3*c1;
+    const double t35 = t19 - sr400_geo_D3*t10;
+    const double t36 = sr400_geo_D2 + sr400_geo_D3*c1;
     phi[13] = t26*t36 - s5*t35;
     phi[14] = -(c5*t35 + t28*t36);
     const double t37 = c2*c5;
@@ -128,18 +136,18 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t60 = t46 + t43;
     phi[18] = -(t37*t58 - t40*t59 + s5*t60);
     phi[19] = t44 + t37*t48 + s5*t54;
-    const double t61 = SR400_GEO_D2*t14;
-    const double t62 = SR400_GEO_g*c1 - s1*t61;
-    const double t63 = t62 - SR400_GEO_D3*t13;
-    const double t64 = c1*t61 + SR400_GEO_g*s1;
-    const double t65 = t64 + SR400_GEO_D3*t16;
+    const double t61 = sr400_geo_D2*t14;
+    const double t62 = sr400_geo_g*c1 - s1*t61;
+    const double t63 = t62 - sr400_geo_D3*t13;
+    const double t64 = c1*t61 + sr400_geo_g*s1;
+    const double t65 = t64 + sr400_geo_D3*t16;
     const double t66 = sa2*t63 - ca2*t65;
-    const double t67 = SR400_GEO_RL4*t33 - SR400_GEO_D4*t30 + t66;
-    const double t68 = SR400_GEO_D4*t26 - SR400_GEO_RL4*t28 + t35;
+    const double t67 = sr400_geo_RL4*t33 - sr400_geo_D4*t30 + t66;
+    const double t68 = sr400_geo_D4*t26 - sr400_geo_RL4*t28 + t35;
     const double t69 = sa2*t65 + ca2*t63;
-    const double t70 = SR400_GEO_D4*t32 + SR400_GEO_RL4*t34 + t69;
+    const double t70 = sr400_geo_D4*t32 + sr400_geo_RL4*t34 + t69;
     const double t71 = c2*t68 - s2*t70;
-    const double t72 = t36 - (SR400_GEO_RL4*c5 + SR400_GEO_D4*s5);
+    const double t72 = t36 - (sr400_geo_RL4*c5 + sr400_geo_D4*s5);
     const double t73 = s2*t72;
     const double t74 = c2*t72;
     phi[20] = t40*t67 - s5*t71 + (t51*t73 - t55*t74);
@@ -215,9 +223,9 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[34] = t107*t100 - t79*t128 + (t118*t129 - t122*t130 + t114*t102);
     const double t131 = c4*t103 + s4*t71;
     phi[35] = t104*t100 + t79*t131 + (t126*t129 + t119*t130 - t116*t102);
-    phi[36] = c5*t19 + SR400_GEO_D2*t28;
-    phi[37] = SR400_GEO_D2*t26 - s5*t19;
-    phi[38] = -(s1*(t19 + SR400_GEO_D8*t28) + t11*(SR400_GEO_D2 + SR400_GEO_D8*c5));
+    phi[36] = c5*t19 + sr400_geo_D2*t28;
+    phi[37] = sr400_geo_D2*t26 - s5*t19;
+    phi[38] = -(s1*(t19 + sr400_geo_D8*t28) + t11*(sr400_geo_D2 + sr400_geo_D8*c5));
     phi[40] = -t12;
     phi[41] = t17 - t16;
     phi[42] = -t2;
@@ -225,24 +233,24 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[44] = qdd[1];
     phi[45] = -t62;
     phi[46] = t64;
-    const double t132 = SR400_GEO_D3*ca2;
-    const double t133 = SR400_GEO_D3*sa2;
+    const double t132 = sr400_geo_D3*ca2;
+    const double t133 = sr400_geo_D3*sa2;
     phi[52] = t30*t133 - t32*t132;
     phi[53] = -(t34*t132 + t33*t133);
-    const double t134 = SR400_GEO_RL4 - t132;
+    const double t134 = sr400_geo_RL4 - t132;
     const double t135 = c2*t134;
-    const double t136 = SR400_GEO_RL4*c2;
+    const double t136 = sr400_geo_RL4*c2;
     const double t137 = t135 - t136;
     const double t138 = s2*t134;
-    const double t139 = SR400_GEO_RL4*s2;
+    const double t139 = sr400_geo_RL4*s2;
     const double t140 = t138 - t139;
     phi[59] = t51*t137 + t55*t140 + t47*t133;
     phi[60] = t59*t137 - t52*t140 - t49*t133;
-    const double t141 = SR400_GEO_D4 + t133;
+    const double t141 = sr400_geo_D4 + t133;
     const double t142 = c3*t135 - s3*t141;
-    const double t143 = c3*t136 - SR400_GEO_D4*s3;
+    const double t143 = c3*t136 - sr400_geo_D4*s3;
     const double t144 = t142 - t143;
-    const double t145 = SR400_GEO_D4*c3 + s3*t136;
+    const double t145 = sr400_geo_D4*c3 + s3*t136;
     const double t146 = c3*t141 + s3*t135 - t145;
     phi[66] = t90*t144 + t94*t146 + t86*t140;
     phi[67] = t98*t144 - t91*t146 + t88*t140;
@@ -252,9 +260,9 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t150 = c4*t138 + s4*t142 - t149;
     phi[73] = t118*t148 + t122*t150 + t114*t146;
     phi[74] = t126*t148 - t119*t150 - t116*t146;
-    const double t151 = c5*t61 + SR400_GEO_g*s5;
-    const double t152 = SR400_GEO_g*c5 - s5*t61;
-    phi[77] = ca2*(t151 + SR400_GEO_D8*t33) + sa2*(t152 - SR400_GEO_D8*t34);
+    const double t151 = c5*t61 + sr400_geo_g*s5;
+    const double t152 = sr400_geo_g*c5 - s5*t61;
+    phi[77] = ca2*(t151 + sr400_geo_D8*t33) + sa2*(t152 - sr400_geo_D8*t34);
     phi[93] = -t45;
     phi[94] = -t53;
     phi[95] = -t57;
@@ -315,8 +323,8 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[212] = c2*t56 - s2*t55;
     phi[213] = -(s2*t58 + c2*t59);
     phi[214] = s2*t48 - t158;
-    phi[215] = t51*t136 + t55*t139 + SR400_GEO_D4*t47 - c2*t67;
-    phi[216] = t59*t136 - t52*t139 - SR400_GEO_D4*t49 + s2*t67;
+    phi[215] = t51*t136 + t55*t139 + sr400_geo_D4*t47 - c2*t67;
+    phi[216] = t59*t136 - t52*t139 - sr400_geo_D4*t49 + s2*t67;
     const double t159 = s2*c3;
     const double t160 = s2*s3;
     const double t161 = t82*t160;
@@ -339,7 +347,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[230] = t100*t162 + t131*t160 + (t126*t147 - t119*t149 - t116*t145);
     phi[231] = -t152;
     phi[232] = t151;
-    phi[233] = -(SR400_GEO_D8*sa2*t18 + SR400_GEO_D8*ca2*t17);
+    phi[233] = -(sr400_geo_D8*sa2*t18 + sr400_geo_D8*ca2*t17);
 }
 
 /* The entries of the base regressor that are not always 0.
@@ -383,9 +391,9 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     const double t17 = t6*t6 + t15;
     const double t18 = qdd[1] - t12;
     values[4] = -(s1*(t14 - t17) + c1*t18);
-    const double t19 = SR400_GEO_D2*qdd[0];
-    values[5] = c1*t19 - SR400_GEO_D2*t10;
-    values[6] = -(s1*t19 + SR400_GEO_D2*t11);
+    const double t19 = sr400_geo_D2*qdd[0];
+    values[5] = c1*t19 - sr400_geo_D2*t10;
+    values[6] = -(s1*t19 + sr400_geo_D2*t11);
     const double t20 = qd[1] - qd[5];
     const double t21 = sa2*t3 - ca2*t6;
     const double t22 = sa2*t5 + ca2*t9 - t20*t21;
@@ -405,8 +413,8 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     const double t33 = t23*t23 + t31;
     const double t34 = qdd[5] - t29;
     values[10] = s5*t34 - c5*(t14 - t33);
-    const double t35 = t19 - SR400_GEO_D3*t10;
-    const double t36 = SR400_GEO_D2 + SR400_GEO_D3*c1;
+    const double t35 = t19 - sr400_geo_D3*t10;
+    const double t36 = sr400_geo_D2 + sr400_geo_D3*c1;
     values[11] = t26*t36 - s5*t35;
     values[12] = -(c5*t35 + t28*t36);
     const double t37 = c2*c5;
@@ -438,18 +446,18 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     const double t60 = t46 + t43;
     values[16] = -(t37*t58 - t40*t59 + s5*t60);
     values[17] = t44 + t37*t48 + s5*t54;
-    const double t61 = SR400_GEO_D2*t14;
-    const double t62 = SR400_GEO_g*c1 - s1*t61;
-    const double t63 = t62 - SR400_GEO_D3*t13;
-    const double t64 = c1*t61 + SR400_GEO_g*s1;
-    const double t65 = t64 + SR400_GEO_D3*t16;
+    const double t61 = sr400_geo_D2*t14;
+    const double t62 = sr400_geo_g*c1 - s1*t61;
+    const double t63 = t62 - sr400_geo_D3*t13;
+    const double t64 = c1*t61 + sr400_geo_g*s1;
+    const double t65 = t64 + sr400_geo_D3*t16;
     const double t66 = sa2*t63 - ca2*t65;
-    const double t67 = SR400_GEO_RL4*t33 - SR400_GEO_D4*t30 + t66;
-    const double t68 = SR400_GEO_D4*t26 - SR400_GEO_RL4*t28 + t35;
+    const double t67 = sr400_geo_RL4*t33 - sr400_geo_D4*t30 + t66;
+    const double t68 = sr400_geo_D4*t26 - sr400_geo_RL4*t28 + t35;
     const double t69 = sa2*t65 + ca2*t63;
-    const double t70 = SR400_GEO_D4*t32 + SR400_GEO_RL4*t34 + t69;
+    const double t70 = sr400_geo_D4*t32 + sr400_geo_RL4*t34 + t69;
     const double t71 = c2*t68 - s2*t70;
-    const double t72 = t36 - (SR400_GEO_RL4*c5 + SR400_GEO_D4*s5);
+    const double t72 = t36 - (sr400_geo_RL4*c5 + sr400_geo_D4*s5);
     const double t73 = s2*t72;
     const double t74 = c2*t72;
     values[18] = t40*t67 - s5*t71 + (t51*t73 - t55*t74);
@@ -525,9 +533,9 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     values[32] = t107*t100 - t79*t128 + (t118*t129 - t122*t130 + t114*t102);
     const double t131 = c4*t103 + s4*t71;
     values[33] = t104*t100 + t79*t131 + (t126*t129 + t119*t130 - t116*t102);
-    values[34] = c5*t19 + SR400_GEO_D2*t28;
-    values[35] = SR400_GEO_D2*t26 - s5*t19;
-    values[36] = -(s1*(t19 + SR400_GEO_D8*t28) + t11*(SR400_GEO_D2 + SR400_GEO_D8*c5));
+    values[34] = c5*t19 + sr400_geo_D2*t28;
+    values[35] = sr400_geo_D2*t26 - s5*t19;
+    values[36] = -(s1*(t19 + sr400_geo_D8*t28) + t11*(sr400_geo_D2 + sr400_geo_D8*c5));
     values[37] = -t12;
     values[38] = t17 - t16;
     values[39] = -t2;
@@ -535,24 +543,24 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     values[41] = qdd[1];
     values[42] = -t62;
     values[43] = t64;
-    const double t132 = SR400_GEO_D3*ca2;
-    const double t133 = SR400_GEO_D3*sa2;
+    const double t132 = sr400_geo_D3*ca2;
+    const double t133 = sr400_geo_D3*sa2;
     values[44] = t30*t133 - t32*t132;
     values[45] = -(t34*t132 + t33*t133);
-    const double t134 = SR400_GEO_RL4 - t132;
+    const double t134 = sr400_geo_RL4 - t132;
     const double t135 = c2*t134;
-    const double t136 = SR400_GEO_RL4*c2;
+    const double t136 = sr400_geo_RL4*c2;
     const double t137 = t135 - t136;
     const double t138 = s2*t134;
-    const double t139 = SR400_GEO_RL4*s2;
+    const double t139 = sr400_geo_RL4*s2;
     const double t140 = t138 - t139;
     values[46] = t51*t137 + t55*t140 + t47*t133;
     values[47] = t59*t137 - t52*t140 - t49*t133;
-    const double t141 = SR400_GEO_D4 + t133;
+    const double t141 = sr400_geo_D4 + t133;
     const double t142 = c3*t135 - s3*t141;
-    const double t143 = c3*t136 - SR400_GEO_D4*s3;
+    const double t143 = c3*t136 - sr400_geo_D4*s3;
     const double t144 = t142 - t143;
-    const double t145 = SR400_GEO_D4*c3 + s3*t136;
+    const double t145 = sr400_geo_D4*c3 + s3*t136;
     const double t146 = c3*t141 + s3*t135 - t145;
     values[48] = t90*t144 + t94*t146 + t86*t140;
     values[49] = t98*t144 - t91*t146 + t88*t140;
@@ -562,9 +570,9 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     const double t150 = c4*t138 + s4*t142 - t149;
     values[50] = t118*t148 + t122*t150 + t114*t146;
     values[51] = t126*t148 - t119*t150 - t116*t146;
-    const double t151 = c5*t61 + SR400_GEO_g*s5;
-    const double t152 = SR400_GEO_g*c5 - s5*t61;
-    values[52] = ca2*(t151 + SR400_GEO_D8*t33) + sa2*(t152 - SR400_GEO_D8*t34);
+    const double t151 = c5*t61 + sr400_geo_g*s5;
+    const double t152 = sr400_geo_g*c5 - s5*t61;
+    values[52] = ca2*(t151 + sr400_geo_D8*t33) + sa2*(t152 - sr400_geo_D8*t34);
     values[53] = -t45;
     values[54] = -t53;
     values[55] = -t57;
@@ -625,8 +633,8 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     values[104] = c2*t56 - s2*t55;
     values[105] = -(s2*t58 + c2*t59);
     values[106] = s2*t48 - t158;
-    values[107] = t51*t136 + t55*t139 + SR400_GEO_D4*t47 - c2*t67;
-    values[108] = t59*t136 - t52*t139 - SR400_GEO_D4*t49 + s2*t67;
+    values[107] = t51*t136 + t55*t139 + sr400_geo_D4*t47 - c2*t67;
+    values[108] = t59*t136 - t52*t139 - sr400_geo_D4*t49 + s2*t67;
     const double t159 = s2*c3;
     const double t160 = s2*s3;
     const double t161 = t82*t160;
@@ -649,5 +657,5 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
     values[122] = t100*t162 + t131*t160 + (t126*t147 - t119*t149 - t116*t145);
     values[123] = -t152;
     values[124] = t151;
-    values[125] = -(SR400_GEO_D8*sa2*t18 + SR400_GEO_D8*ca2*t17);
+    values[125] = -(sr400_geo_D8*sa2*t18 + sr400_geo_D8*ca2*t17);
 }

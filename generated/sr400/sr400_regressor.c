@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DSR400_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DSR400_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef SR400_GEO_g
 #define SR400_GEO_g 9.81
 #endif
@@ -29,6 +30,13 @@
 #define SR400_GEO_D8 0.35
 #endif
 
+static const double sr400_geo_g = SR400_GEO_g;
+static const double sr400_geo_D2 = SR400_GEO_D2;
+static const double sr400_geo_D3 = SR400_GEO_D3;
+static const double sr400_geo_D4 = SR400_GEO_D4;
+static const double sr400_geo_RL4 = SR400_GEO_RL4;
+static const double sr400_geo_D8 = SR400_GEO_D8;
+
 /* Regressor of the standard parameters.
  * 329 additions, 445 multiplications. */
 void sr400_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
@@ -36,7 +44,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     for (int i = 0; i < 480; i++)
         phi[i] = 0.0;
 
-    const double k1 = SR400_GEO_D2*SR400_GEO_D2;
+    const double k1 = sr400_geo_D2*sr400_geo_D2;
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -81,9 +89,9 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     const double t23 = qdd[1] - t15;
     const double t24 = s1*(t17 - t22) + c1*t23;
     phi[14] = -t24;
-    const double t25 = SR400_GEO_D2*qdd[0];
-    phi[16] = c1*t25 - SR400_GEO_D2*t12;
-    phi[17] = -(s1*t25 + SR400_GEO_D2*t13);
+    const double t25 = sr400_geo_D2*qdd[0];
+    phi[16] = c1*t25 - sr400_geo_D2*t12;
+    phi[17] = -(s1*t25 + sr400_geo_D2*t13);
     const double t26 = k1*qdd[0];
     phi[19] = t26;
     const double t27 = qd[1] - qd[5];
@@ -112,15 +120,15 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     const double t46 = qdd[5] - t39;
     const double t47 = c5*(t17 - t45) - s5*t46;
     phi[24] = -t47;
-    const double t48 = t25 - SR400_GEO_D3*t12;
-    const double t49 = SR400_GEO_D2 + SR400_GEO_D3*c1;
+    const double t48 = t25 - sr400_geo_D3*t12;
+    const double t49 = sr400_geo_D2 + sr400_geo_D3*c1;
     phi[26] = t35*t49 - s5*t48;
     phi[27] = -(c5*t48 + t37*t49);
-    const double t50 = SR400_GEO_D2*t17;
-    const double t51 = SR400_GEO_g*c1 - s1*t50;
-    const double t52 = t51 - SR400_GEO_D3*t16;
-    const double t53 = c1*t50 + SR400_GEO_g*s1;
-    const double t54 = t53 + SR400_GEO_D3*t19;
+    const double t50 = sr400_geo_D2*t17;
+    const double t51 = sr400_geo_g*c1 - s1*t50;
+    const double t52 = t51 - sr400_geo_D3*t16;
+    const double t53 = c1*t50 + sr400_geo_g*s1;
+    const double t54 = t53 + sr400_geo_D3*t19;
     const double t55 = sa2*t52 - ca2*t54;
     const double t56 = sa2*t54 + ca2*t52;
     phi[28] = -(c5*t55 + s5*t56 + t17*t49);
@@ -157,12 +165,12 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     const double t82 = t67 + t63;
     phi[34] = -(t57*t80 - t60*t81 + s5*t82);
     phi[35] = t64 + t79 + s5*t75;
-    const double t83 = SR400_GEO_RL4*t45 - SR400_GEO_D4*t40 + t55;
-    const double t84 = SR400_GEO_D4*t35 - SR400_GEO_RL4*t37 + t48;
-    const double t85 = SR400_GEO_RL4*t46;
-    const double t86 = SR400_GEO_D4*t42 + t85 + t56;
+    const double t83 = sr400_geo_RL4*t45 - sr400_geo_D4*t40 + t55;
+    const double t84 = sr400_geo_D4*t35 - sr400_geo_RL4*t37 + t48;
+    const double t85 = sr400_geo_RL4*t46;
+    const double t86 = sr400_geo_D4*t42 + t85 + t56;
     const double t87 = c2*t84 - s2*t86;
-    const double t88 = t49 - (SR400_GEO_RL4*c5 + SR400_GEO_D4*s5);
+    const double t88 = t49 - (sr400_geo_RL4*c5 + sr400_geo_D4*s5);
     const double t89 = s2*t88;
     const double t90 = c2*t88;
     phi[36] = t60*t83 - s5*t87 + (t72*t89 - t76*t90);
@@ -258,22 +266,22 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[62] = t47;
     phi[63] = t33;
     phi[64] = -t43;
-    phi[66] = c5*t25 + SR400_GEO_D2*t37;
-    phi[67] = SR400_GEO_D2*t35 - s5*t25;
+    phi[66] = c5*t25 + sr400_geo_D2*t37;
+    phi[67] = sr400_geo_D2*t35 - s5*t25;
     phi[69] = t26;
     phi[70] = t9;
     phi[71] = -t14;
     phi[72] = -t20;
     phi[73] = -t21;
     phi[74] = -t24;
-    const double t155 = t25 + SR400_GEO_D8*t37;
-    const double t156 = SR400_GEO_D2 + SR400_GEO_D8*c5;
+    const double t155 = t25 + sr400_geo_D8*t37;
+    const double t156 = sr400_geo_D2 + sr400_geo_D8*c5;
     phi[76] = c1*t155 - t12*t156;
     phi[77] = -(s1*t155 + t13*t156);
-    const double t157 = SR400_GEO_g*c5 - s5*t50;
-    const double t158 = t157 - SR400_GEO_D8*t46;
-    const double t159 = c5*t50 + SR400_GEO_g*s5;
-    const double t160 = t159 + SR400_GEO_D8*t45;
+    const double t157 = sr400_geo_g*c5 - s5*t50;
+    const double t158 = t157 - sr400_geo_D8*t46;
+    const double t159 = c5*t50 + sr400_geo_g*s5;
+    const double t160 = t159 + sr400_geo_D8*t45;
     const double t161 = ca2*t158 - sa2*t160;
     const double t162 = ca2*t160 + sa2*t158;
     phi[78] = -(s1*t161 - c1*t162 + t17*t156);
@@ -287,8 +295,8 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[95] = qdd[1];
     phi[96] = -t51;
     phi[97] = t53;
-    const double t164 = SR400_GEO_D3*ca2;
-    const double t165 = SR400_GEO_D3*sa2;
+    const double t164 = sr400_geo_D3*ca2;
+    const double t165 = sr400_geo_D3*sa2;
     phi[106] = t40*t165 - t42*t164;
     const double t166 = t46*t164 + t45*t165;
     phi[107] = -t166;
@@ -296,12 +304,12 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     const double t168 = t29 - t36;
     phi[108] = t168*t165 - t167*t164;
     phi[109] = -(t56*t164 + t55*t165);
-    const double t169 = SR400_GEO_RL4 - t164;
+    const double t169 = sr400_geo_RL4 - t164;
     const double t170 = c2*t169;
-    const double t171 = SR400_GEO_RL4*c2;
+    const double t171 = sr400_geo_RL4*c2;
     const double t172 = t170 - t171;
     const double t173 = s2*t169;
-    const double t174 = SR400_GEO_RL4*s2;
+    const double t174 = sr400_geo_RL4*s2;
     const double t175 = t173 - t174;
     phi[116] = t72*t172 + t76*t175 + t68*t165;
     const double t176 = t81*t172 - t73*t175 - t70*t165;
@@ -309,11 +317,11 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[118] = -t166;
     const double t177 = t91*t172 - t87*t175 - t83*t165;
     phi[119] = t177;
-    const double t178 = SR400_GEO_D4 + t165;
+    const double t178 = sr400_geo_D4 + t165;
     const double t179 = c3*t170 - s3*t178;
-    const double t180 = c3*t171 - SR400_GEO_D4*s3;
+    const double t180 = c3*t171 - sr400_geo_D4*s3;
     const double t181 = t179 - t180;
-    const double t182 = SR400_GEO_D4*c3 + s3*t171;
+    const double t182 = sr400_geo_D4*c3 + s3*t171;
     const double t183 = c3*t178 + s3*t170 - t182;
     phi[126] = t109*t181 + t113*t183 + t105*t175;
     const double t184 = t118*t181 - t110*t183 + t107*t175;
@@ -414,11 +422,11 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[433] = c2*t67 - t201;
     phi[434] = -(s2*t80 + c2*t81);
     phi[435] = t201 - t200;
-    phi[436] = t72*t171 + t76*t174 + SR400_GEO_D4*t68 - c2*t83;
-    const double t202 = t81*t171 - t73*t174 - SR400_GEO_D4*t70 + s2*t83;
+    phi[436] = t72*t171 + t76*t174 + sr400_geo_D4*t68 - c2*t83;
+    const double t202 = t81*t171 - t73*t174 - sr400_geo_D4*t70 + s2*t83;
     phi[437] = t202;
-    phi[438] = t85 - SR400_GEO_D4*t45 + t86;
-    const double t203 = t91*t171 - t87*t174 - SR400_GEO_D4*t83;
+    phi[438] = t85 - sr400_geo_D4*t45 + t86;
+    const double t203 = t91*t171 - t87*t174 - sr400_geo_D4*t83;
     phi[439] = t203;
     const double t204 = s2*c3;
     const double t205 = s2*s3;
@@ -459,8 +467,8 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[465] = qdd[5];
     phi[466] = -t157;
     phi[467] = t159;
-    const double t215 = SR400_GEO_D8*sa2;
-    const double t216 = SR400_GEO_D8*ca2;
+    const double t215 = sr400_geo_D8*sa2;
+    const double t216 = sr400_geo_D8*ca2;
     phi[476] = t16*t216 - t19*t215;
     phi[477] = -(t23*t215 + t22*t216);
     phi[478] = t2*t216 - t10*t215;

@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef WRIST_GEO_g
 #define WRIST_GEO_g 9.81
 #endif
@@ -19,6 +20,9 @@
 #ifndef WRIST_GEO_bl1
 #define WRIST_GEO_bl1 0.1
 #endif
+
+static const double wrist_geo_g = WRIST_GEO_g;
+static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 
 /* Regressor of the base parameters.
  * 64 additions, 92 multiplications. */
@@ -48,9 +52,9 @@ void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
     modeler_sincos(q[2], &s2, &c2);
 
     phi[0] = qdd[0];
-    const double t1 = WRIST_GEO_g*s0;
+    const double t1 = wrist_geo_g*s0;
     phi[1] = -t1;
-    const double t2 = WRIST_GEO_g*c0;
+    const double t2 = wrist_geo_g*c0;
     phi[2] = -t2;
     const double t3 = s1*qdd[0];
     const double t4 = c1*qd[0];
@@ -103,12 +107,12 @@ void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[13] = t20*t39 - t40*t24 - c1*t41;
     phi[14] = t25 - t29*t20 + c1*t35;
     const double t42 = s1*t2;
-    const double t43 = t42 + WRIST_GEO_bl1*t16;
-    const double t44 = t1 + WRIST_GEO_bl1*t11;
+    const double t43 = t42 + wrist_geo_bl1*t16;
+    const double t44 = t1 + wrist_geo_bl1*t11;
     const double t45 = c1*t2;
-    const double t46 = t45 - WRIST_GEO_bl1*t17;
+    const double t46 = t45 - wrist_geo_bl1*t17;
     const double t47 = c2*t44 + s2*t46;
-    const double t48 = WRIST_GEO_bl1*s1;
+    const double t48 = wrist_geo_bl1*s1;
     const double t49 = s2*t48;
     const double t50 = c2*t48;
     phi[15] = t32*t49 - t36*t50 - (t43*t24 + c1*t47);
@@ -127,8 +131,8 @@ void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[29] = c2*t37 - s2*t36;
     phi[30] = -(s2*t39 + c2*t40);
     phi[31] = t52 + s2*t29;
-    const double t53 = WRIST_GEO_bl1*c2;
-    const double t54 = WRIST_GEO_bl1*s2;
+    const double t53 = wrist_geo_bl1*c2;
+    const double t54 = wrist_geo_bl1*s2;
     phi[32] = t32*t53 + t36*t54 - c2*t43;
     phi[33] = t40*t53 - t33*t54 + s2*t43;
     phi[44] = t26;
@@ -153,9 +157,9 @@ void wrist_base_regressor_nonzeros(const double *q, const double *qd, const doub
     modeler_sincos(q[2], &s2, &c2);
 
     values[0] = qdd[0];
-    const double t1 = WRIST_GEO_g*s0;
+    const double t1 = wrist_geo_g*s0;
     values[1] = -t1;
-    const double t2 = WRIST_GEO_g*c0;
+    const double t2 = wrist_geo_g*c0;
     values[2] = -t2;
     const double t3 = s1*qdd[0];
     const double t4 = c1*qd[0];
@@ -208,12 +212,12 @@ void wrist_base_regressor_nonzeros(const double *q, const double *qd, const doub
     values[12] = t20*t39 - t40*t24 - c1*t41;
     values[13] = t25 - t29*t20 + c1*t35;
     const double t42 = s1*t2;
-    const double t43 = t42 + WRIST_GEO_bl1*t16;
-    const double t44 = t1 + WRIST_GEO_bl1*t11;
+    const double t43 = t42 + wrist_geo_bl1*t16;
+    const double t44 = t1 + wrist_geo_bl1*t11;
     const double t45 = c1*t2;
-    const double t46 = t45 - WRIST_GEO_bl1*t17;
+    const double t46 = t45 - wrist_geo_bl1*t17;
     const double t47 = c2*t44 + s2*t46;
-    const double t48 = WRIST_GEO_bl1*s1;
+    const double t48 = wrist_geo_bl1*s1;
     const double t49 = s2*t48;
     const double t50 = c2*t48;
     values[14] = t32*t49 - t36*t50 - (t43*t24 + c1*t47);
@@ -232,8 +236,8 @@ void wrist_base_regressor_nonzeros(const double *q, const double *qd, const doub
     values[25] = c2*t37 - s2*t36;
     values[26] = -(s2*t39 + c2*t40);
     values[27] = t52 + s2*t29;
-    const double t53 = WRIST_GEO_bl1*c2;
-    const double t54 = WRIST_GEO_bl1*s2;
+    const double t53 = wrist_geo_bl1*c2;
+    const double t54 = wrist_geo_bl1*s2;
     values[28] = t32*t53 + t36*t54 - c2*t43;
     values[29] = t40*t53 - t33*t54 + s2*t43;
     values[30] = t26;

@@ -9,7 +9,8 @@
 
 #include "modeler_sincos.h"
 
-/* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81 */
+/* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81
+ * or any constant expression of C; mind that 1/2 is 0 there, 1.0/2 is not. */
 #ifndef WRIST_GEO_g
 #define WRIST_GEO_g 9.81
 #endif
@@ -19,6 +20,9 @@
 #ifndef WRIST_GEO_bl1
 #define WRIST_GEO_bl1 0.1
 #endif
+
+static const double wrist_geo_g = WRIST_GEO_g;
+static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 
 /* Regressor of the standard parameters.
  * 74 additions, 103 multiplications. */
@@ -35,9 +39,9 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     modeler_sincos(q[2], &s2, &c2);
 
     phi[5] = qdd[0];
-    const double t1 = WRIST_GEO_g*s0;
+    const double t1 = wrist_geo_g*s0;
     phi[6] = -t1;
-    const double t2 = WRIST_GEO_g*c0;
+    const double t2 = wrist_geo_g*c0;
     phi[7] = -t2;
     const double t3 = s1*qdd[0];
     const double t4 = c1*qd[0];
@@ -96,13 +100,13 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[24] = t21*t42 - t43*t25 - c1*t44;
     phi[25] = t26 - t41 + c1*t37;
     const double t45 = s1*t2;
-    const double t46 = t45 + WRIST_GEO_bl1*t17;
-    const double t47 = t1 + WRIST_GEO_bl1*t12;
+    const double t46 = t45 + wrist_geo_bl1*t17;
+    const double t47 = t1 + wrist_geo_bl1*t12;
     const double t48 = c1*t2;
-    const double t49 = WRIST_GEO_bl1*t18;
+    const double t49 = wrist_geo_bl1*t18;
     const double t50 = t48 - t49;
     const double t51 = c2*t47 + s2*t50;
-    const double t52 = WRIST_GEO_bl1*s1;
+    const double t52 = wrist_geo_bl1*s1;
     const double t53 = s2*t52;
     const double t54 = c2*t52;
     phi[26] = t34*t53 - t38*t54 - (t46*t25 + c1*t51);
@@ -126,8 +130,8 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
     phi[53] = c2*t29 - t57;
     phi[54] = -(s2*t42 + c2*t43);
     phi[55] = t56 + t57;
-    const double t58 = WRIST_GEO_bl1*c2;
-    const double t59 = WRIST_GEO_bl1*s2;
+    const double t58 = wrist_geo_bl1*c2;
+    const double t59 = wrist_geo_bl1*s2;
     phi[56] = t34*t58 + t38*t59 - c2*t46;
     phi[57] = t43*t58 - t35*t59 + s2*t46;
     phi[58] = t49 - t50;

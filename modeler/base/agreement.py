@@ -32,9 +32,14 @@ def grouping_matrix(model: SymbolicModel, base: BaseParameters) -> np.ndarray:
 def _matrix(model: SymbolicModel, parameters: tuple[BaseParameter, ...]) -> np.ndarray:
     place = {name: i for i, name in enumerate(model.names)}
     K = np.zeros((len(parameters), len(model.columns)))
+    known: dict[sympy.Expr, float] = {}
     for i, parameter in enumerate(parameters):
         for term in parameter.terms:
-            K[i, place[term.parameter]] = coefficient_value(term.coefficient, model.geometry.values)
+            value = known.get(term.coefficient)
+            if value is None:
+                value = coefficient_value(term.coefficient, model.geometry.values)
+                known[term.coefficient] = value
+            K[i, place[term.parameter]] = value
     return K
 
 

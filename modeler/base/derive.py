@@ -6,11 +6,16 @@ from modeler.base.agreement import torque_agreement
 from modeler.base.certificate import PRIME
 from modeler.base.elimination import TooLarge
 from modeler.base.fallback import numeric_grouping
-from modeler.base.field import geometry_field
-from modeler.base.grouping import base_from_relations, column_relations
-from modeler.base.numeric import NumericRank, numeric_rank, random_states, regressor_values
+from modeler.base.field import ExactField, geometry_field
+from modeler.base.grouping import (
+    Relations,
+    base_from_relations,
+    column_relations,
+    with_closure_relations,
+)
+from modeler.base.numeric import NumericRank, Sample, numeric_rank, sampled
 from modeler.base.proof import Certificate, NotProved, certificate
-from modeler.base.result import BaseParameters, Proof
+from modeler.base.result import BaseParameters, Proof, Sampling
 from modeler.symbolic import Geometry, SymbolicModel, exact_geometry
 
 SEED = 20030914
@@ -28,11 +33,12 @@ _TIED = (
     "a lower bound of the true rank."
 )
 _LOOPS = (
-    "Relations: those of the opened tree ({tree}), and for every joint that closes a loop those "
-    "of the bodies that move alike with both its sides; all exact in the symbols. That there are "
-    "no others: at random closed postures the torques of the base columns have full rank; the "
-    "last singular value kept is {margin:.0e} times the rounding, and a perturbation must be as "
-    "large as a singular value to lower a rank (Weyl)."
+    "Relations: those of the opened tree ({tree}), for every joint that closes a loop those of the "
+    "bodies that move alike with both its sides, and around loops those whose energies are "
+    "multiples of the closure equations; all exact in the symbols. That there are no others: at "
+    "random closed postures over the reachable range the torques of the base columns have full "
+    "rank; the last singular value kept is {margin:.0e} times the rounding, and a perturbation "
+    "must be as large as a singular value to lower a rank (Weyl)."
 )
 _OPEN = {
     False: "link by link over the exact field",
@@ -41,6 +47,7 @@ _OPEN = {
 _AT_NOMINAL = (
     " This rank belongs to the lengths and angles as given: {why}; so they stand as numbers."
 )
+_UNPROVEN = " Joints that seemed to follow others, but not provably, are solved for: {joints}."
 _NUMERIC = (
     "No exact proof: {why}. Rank and coefficients come from the torques at random states in "
     "floating point; every relation holds there to {bound:.1e} of its column."
@@ -59,36 +66,43 @@ def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
         DerivationError: a priority pattern matches nothing.
     """
     samples = max(60, 3 * len(model.columns) // max(1, len(model.robot.coordinates)))
-    phi = regressor_values(model, random_states(model, samples, np.random.default_rng(seed)))
-    numeric = numeric_rank(phi, range(len(model.columns)))
+    sample = sampled(model, samples, seed)
+    numeric = numeric_rank(sample, range(len(model.columns)))
     try:
-        return _exact(model, model.geometry, numeric, seed, "exact", "")
+        _check_general(model)
+        return _exact(model, model.geometry, sample, numeric, seed, "")
     except (NotProved, TooLarge) as error:
         why = str(error)
     try:
         nominal = exact_geometry(model.robot, at_nominal=True)
         statement = _AT_NOMINAL.format(why=why)
-        return _exact(model, nominal, numeric, seed, "exact at the given values", statement)
-    except (NotProved, TooLarge):
-        return _numeric(model, numeric, seed, why)
+        return _exact(model, nominal, sample, numeric, seed, statement)
+    except (NotProved, TooLarge) as error:
+        if str(error) != why:
+            why += f"; with these, {error}" if model.special else f"; in numbers, {error}"
+        return _numeric(model, sample, numeric, seed, why)
+
+
+def _check_general(model: SymbolicModel) -> None:
+    """Raises NotProved where the given values make the loops close, not any values."""
+    if model.special:
+        joints = "joint" if len(model.special) == 1 else "joints"
+        raise NotProved(
+            f"the loops tie {joints} {', '.join(model.special)} to others at the given values only"
+        )
 
 
 def _exact(
     model: SymbolicModel,
     geometry: Geometry,
+    sample: Sample,
     numeric: NumericRank,
     seed: int,
-    kind: str,
     statement: str,
 ) -> BaseParameters:
     """Raises NotProved or TooLarge unless everything agrees."""
     K = geometry_field(geometry)
-    relations = column_relations(model, geometry, K, seed)
-    if len(relations.kept) != numeric.rank:
-        raise NotProved(
-            f"the symbols give rank {len(relations.kept)}, the torques at the given values "
-            f"{numeric.rank}"
-        )
+    relations = _relations(model, geometry, K, numeric, seed)
     if model.closure is not None:
         proved = Certificate(numeric.rank, 0)
     else:
@@ -98,8 +112,8 @@ def _exact(
     if agreement > _AGREEMENT:
         raise NotProved(f"base and standard torque differ by {agreement:.1e}")
     proof = Proof(
-        kind=kind,
-        statement=_statement(model, numeric) + statement,
+        kind="exact at the given values" if statement else "exact",
+        statement=_statement(model, numeric) + statement + _unproven(model),
         prime=PRIME,
         points=proved.points,
         seed=seed,
@@ -109,8 +123,24 @@ def _exact(
         tolerance=numeric.tolerance,
         scale=numeric.scale,
         agreement=agreement,
+        sampling=_sampling(model, sample),
     )
     return BaseParameters(model.columns, parameters, unidentifiable, proof)
+
+
+def _relations(
+    model: SymbolicModel, geometry: Geometry, K: ExactField, numeric: NumericRank, seed: int
+) -> Relations:
+    """All relations; raises NotProved where they are not as many as the torques say."""
+    relations = column_relations(model, geometry, K, seed)
+    if model.closure is not None and len(relations.kept) > numeric.rank:
+        relations = with_closure_relations(model, geometry, K, relations, seed)
+    if len(relations.kept) != numeric.rank:
+        raise NotProved(
+            f"the symbols give rank {len(relations.kept)}, the torques at the given values "
+            f"{numeric.rank}"
+        )
+    return relations
 
 
 def _statement(model: SymbolicModel, numeric: NumericRank) -> str:
@@ -122,11 +152,26 @@ def _statement(model: SymbolicModel, numeric: NumericRank) -> str:
     return _LOOPS.format(tree=_OPEN[tied], margin=margin)
 
 
-def _numeric(model: SymbolicModel, numeric: NumericRank, seed: int, why: str) -> BaseParameters:
-    found = numeric_grouping(model, seed)
+def _unproven(model: SymbolicModel) -> str:
+    return _UNPROVEN.format(joints=", ".join(model.unproven)) if model.unproven else ""
+
+
+def _sampling(model: SymbolicModel, sample: Sample) -> Sampling | None:
+    walk = sample.walk
+    if walk is None:
+        return None
+    ends = zip(model.robot.coordinates, walk.lowest, walk.highest, strict=True)
+    ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
+    return Sampling(len(walk.postures), ranges, walk.distance)
+
+
+def _numeric(
+    model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
+) -> BaseParameters:
+    found = numeric_grouping(model, sample, numeric)
     proof = Proof(
         kind="numeric",
-        statement=_NUMERIC.format(why=why, bound=found.bound),
+        statement=_NUMERIC.format(why=why, bound=found.bound) + _unproven(model),
         prime=PRIME,
         points=0,
         seed=seed,
@@ -136,5 +181,6 @@ def _numeric(model: SymbolicModel, numeric: NumericRank, seed: int, why: str) ->
         tolerance=numeric.tolerance,
         scale=numeric.scale,
         agreement=torque_agreement(model, found.parameters, seed),
+        sampling=_sampling(model, sample),
     )
     return BaseParameters(model.columns, found.parameters, found.unidentifiable, proof)

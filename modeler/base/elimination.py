@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from modeler.base.field import Element, times
+from modeler.base.field import Element, minus, times
 from modeler.base.transfer import Matrix
 
 LARGEST = 400
@@ -57,7 +57,7 @@ def sparse_row_reduce(
 def _subtract(row: dict[int, Element], pivot: Mapping[int, Element], factor: Element) -> None:
     for j, x in pivot.items():
         part = times(factor, x)
-        value = row[j] - part if j in row else -part
+        value = minus(row[j], part) if j in row else -part
         if _terms(value) > LARGEST:
             raise TooLarge(f"a coefficient has more than {LARGEST} terms")
         if value:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy
+from sympy.polys.fields import FracElement
 from sympy.polys.fields import field as rational_functions
 
 from modeler.base.trigonometry import in_cosines
@@ -23,7 +24,24 @@ def times(a: Element, b: Element) -> Element:
     """a b. Most factors are 1, and the product of two fractions cancels common divisors."""
     if a == 1:
         return b
-    return a if b == 1 else a * b
+    if b == 1:
+        return a
+    # Polynomials have nothing to cancel, and looking for it is most of the work of a long chain.
+    if _is_polynomial(a) and _is_polynomial(b):
+        return a.raw_new(a.numer * b.numer, a.denom)
+    return a * b
+
+
+def minus(a: Element, b: Element) -> Element:
+    """a - b."""
+    if _is_polynomial(a) and _is_polynomial(b):
+        return a.raw_new(a.numer - b.numer, a.denom)
+    return a - b
+
+
+def _is_polynomial(a: Element) -> bool:
+    """True for a fraction over 1: its coefficients are whole then."""
+    return isinstance(a, FracElement) and a.denom == 1
 
 
 class ExactField:
@@ -48,6 +66,7 @@ class ExactField:
         self._zero = self._one - self._one
         self._generator = dict(zip(self.letters, generators, strict=True))
         self._found: dict[sympy.Expr, Element] = {}
+        self._told: dict[Element, sympy.Expr] = {}
 
     @property
     def one(self) -> Element:
@@ -98,7 +117,12 @@ class ExactField:
         """The element as a sympy expression in the symbols, cosines and sines."""
         if not self._generator:
             return sympy.Rational(int(element.numerator), int(element.denominator))
-        return in_cosines(element.numer, element.denom, self.letters)
+        # Most coefficients of a long chain are the same few.
+        found = self._told.get(element)
+        if found is None:
+            found = in_cosines(element.numer, element.denom, self.letters)
+            self._told[element] = found
+        return found
 
     def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
         """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""
@@ -149,6 +173,7 @@ def _residue(part: Any, point: list[int], prime: int) -> int:
     for monomial, coefficient in part.terms():
         term = int(coefficient.numerator) * pow(int(coefficient.denominator), -1, prime)
         for value, exponent in zip(point, monomial, strict=True):
-            term = term * pow(value, exponent, prime) % prime
+            if exponent:
+                term = term * pow(value, exponent, prime) % prime
         total += term
     return total % prime

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 import sympy
 
+from modeler.base.closures import closure_relations
 from modeler.base.elimination import sparse_row_reduce
 from modeler.base.field import Element, ExactField
 from modeler.base.loops import loop_relations, on_link
 from modeler.base.priority import priority_order
 from modeler.base.result import BaseParameter, Term
 from modeler.base.shafts import friction_relations
-from modeler.base.tied import tied_relations
+from modeler.base.tied import has_energy, tied_relations
 from modeler.base.tree import group_tree
 from modeler.base.units import Units, grouping_units
 from modeler.effects import EnergyBlock
@@ -60,8 +61,21 @@ def column_relations(
     reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
     first = sum(pivot >= len(model.columns) for pivot in pivots)
     reduced, dropped = reduced[first:], pivots[first:]
-    kept = [place for place in range(len(model.columns)) if place not in set(dropped)]
+    gone = set(dropped)
+    kept = [place for place in range(len(model.columns)) if place not in gone]
     return Relations(tuple(reduced), tuple(dropped), tuple(kept))
+
+
+def with_closure_relations(
+    model: SymbolicModel, geometry: Geometry, K: ExactField, relations: Relations, seed: int
+) -> Relations:
+    """The relations, and those among the kept columns that go around whole loops."""
+    order = priority_order(model.names, model.robot.kept_first)
+    kept = [i for i in order if i in relations.kept and has_energy(model.columns[i])]
+    more = closure_relations(geometry, model.columns, K, kept, seed)
+    reduced, dropped = sparse_row_reduce([*relations.rows, *more], order[::-1])
+    left = [i for i in range(len(model.columns)) if i not in set(dropped)]
+    return Relations(tuple(reduced), tuple(dropped), tuple(left))
 
 
 def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dict[int, Element]]:

@@ -6,17 +6,43 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.symbolic import SymbolicModel
-from modeler.symbolic.closed_states import closed_motion, closed_postures
+from modeler.symbolic.closed_states import closed_motion, closed_walk, rounded_off
+from modeler.symbolic.walks import Walk
 
 TOLERANCE = 1e-9
-"""Relative to the largest singular value of the scaled matrix; see `NumericRank.gap`."""
+"""Relative to the largest singular value of the scaled matrix, of a robot without loops; see
+`NumericRank.gap`."""
 
 ZERO = 1e-13
 """Columns below this share of the largest one are rounding errors of a zero column: they are left
 out, never scaled up."""
 
+_CERTAIN = 10.0
+"""A singular value counts if it is this many times the rounding: the rounding of one sample of
+closure errors is measured, another may be somewhat larger."""
+
+_REGULAR = 0.3
+"""Share of home's distance to a singularity that states keep where torques are compared: rounding
+is amplified less than by 1 / 0.3**2 of what it is at home."""
+
 States = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Positions, speeds and accelerations of the free variables, each (samples, len(u))."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The regressor at random states, ready for its rank.
+
+    Attributes:
+        matrix: (rows, columns); rows of a posture of a robot with loops are weighed by the inverse
+            of their own rounding.
+        rounding: how far the matrix is changed by closing the loops with rounding; None without.
+        walk: the closed postures; None without loops.
+    """
+
+    matrix: np.ndarray
+    rounding: np.ndarray | None = None
+    walk: Walk | None = None
 
 
 @dataclass(frozen=True)
@@ -39,18 +65,52 @@ class NumericRank:
 def random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) -> States:
     """Positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1.
 
-    With loops: closed postures around home, and motions that the loops allow.
+    With loops: closed postures over the reachable range, not near singularities, and motions that
+    the loops allow.
     """
     if model.closure is None:
         n = model.geometry.coordinates
         angular = np.array([joint.angular for joint in model.robot.free])
         q = rng.uniform(-1.0, 1.0, (samples, n)) * np.where(angular, np.pi, 1.0)
         return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
-    u = closed_postures(model, samples, rng)
-    qd, qdd = rng.normal(size=(2, samples, len(model.closure.given)))
+    u = closed_walk(model, samples, rng, _REGULAR).postures
+    qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
+    return _carried(model, u, qd, qdd)
+
+
+def _carried(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
+    """The motion of all free variables at closed postures from that of the coordinates."""
     motion = closed_motion(model, u, qd)
     ud = np.einsum("nij,nj->ni", motion.coupling, qd)
     return u, ud, np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
+
+
+def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
+    """The standard regressor at random states, (samples * coordinates, columns) and its rounding.
+
+    A closed posture is closed up to rounding r in the equations, hence wrong by J_s^-1 r in the
+    passive joints. What such an error changes in the regressor is its rounding; it grows towards
+    singularities, where regressor and rounding are both large. Rows are divided by the rounding of
+    their posture, so that none drowns what the others tell.
+    """
+    rng = np.random.default_rng(seed)
+    if model.closure is None:
+        phi = regressor_values(model, random_states(model, samples, rng))
+        return Sample(phi.reshape(-1, phi.shape[2]))
+    walk = closed_walk(model, samples, rng)
+    qd, qdd = rng.normal(size=(2, len(walk.postures), len(model.closure.given)))
+    phi, other = (
+        regressor_values(model, _carried(model, u, qd, qdd))
+        for u in (walk.postures, rounded_off(model, walk.postures, rng))
+    )
+    lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
+    scale = np.where(lengths > ZERO * lengths.max(initial=0.0), lengths, np.inf)
+    eps = float(np.finfo(float).eps)
+    error = np.linalg.norm((other - phi) / scale, axis=(1, 2))
+    error = np.maximum(error, eps * np.linalg.norm(phi / scale, axis=(1, 2)))
+    weight = (np.median(error) / error)[:, None, None]
+    both = [(part * weight).reshape(-1, phi.shape[2]) for part in (phi, other - phi)]
+    return Sample(both[0], both[1], walk)
 
 
 def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
@@ -76,17 +136,29 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
     return np.einsum("nij,nic->njc", closed_motion(model, q, none).coupling, phi)
 
 
-def numeric_rank(phi: np.ndarray, columns: Sequence[int]) -> NumericRank:
-    """Rank of the stacked regressor (samples, joints, columns), of the columns given."""
-    W = phi.reshape(-1, phi.shape[2])[:, list(columns)]
+def numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
+    """Rank of the sampled regressor, of the columns given.
+
+    Without loops singular values above `TOLERANCE` of the largest count. With loops those count
+    that are ten times as large as the rounding of the closure and of the decomposition: a matrix
+    of lower rank is as far away as the last singular value (Weyl).
+    """
+    W = sample.matrix[:, list(columns)]
     lengths = np.linalg.norm(W, axis=0)
-    W = W[:, lengths > ZERO * lengths.max(initial=0.0)]
+    having = lengths > ZERO * lengths.max(initial=0.0)
+    W, lengths = W[:, having], lengths[having]
     if W.shape[1] == 0:
         return NumericRank(0, (0.0, 0.0), TOLERANCE, "no column has an effect")
-    singular = np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
-    rank = int(np.sum(singular > TOLERANCE * singular[0]))
+    singular = np.linalg.svd(W / lengths, compute_uv=False)
+    tolerance = TOLERANCE
+    if sample.rounding is not None:
+        error = float(np.linalg.norm(sample.rounding[:, list(columns)][:, having] / lengths))
+        rounding = max(W.shape) * float(np.finfo(float).eps)
+        tolerance = _CERTAIN * max(error / float(singular[0]), rounding)
+    rank = int(np.sum(singular > tolerance * singular[0]))
     dropped = float(singular[rank]) if rank < len(singular) else 0.0
+    weighed = ", rows weighed by their rounding" if sample.rounding is not None else ""
     return NumericRank(
-        rank, (float(singular[rank - 1]), dropped), TOLERANCE,
-        f"{W.shape[0]} rows, {W.shape[1]} columns (the others are 0), scaled to length 1",
+        rank, (float(singular[rank - 1]), dropped), tolerance,
+        f"{W.shape[0]} rows, {W.shape[1]} columns (the others are 0), scaled to length 1{weighed}",
     )  # fmt: skip

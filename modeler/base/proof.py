@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.base.certificate import PRIME, ModularState, modular_rank
-from modeler.base.field import ExactField
+from modeler.base.field import Element, ExactField
 from modeler.base.grouping import Relations
 from modeler.base.shafts import friction_relations
 from modeler.effects import EnergyBlock
@@ -69,10 +69,14 @@ def _check_relations(
         for place, column in enumerate(columns)
         if column.column is not None and column.column.block is EnergyBlock.COULOMB
     }
+    known: dict[Element, int] = {}
     for relation, dropped in zip(relations.rows, relations.dropped, strict=True):
         total = np.zeros(rows.shape[0], dtype=np.int64)
         for place, coefficient in relation.items():
-            total = (total + rows[:, place] * K.residue(coefficient, state.residues, PRIME)) % PRIME
+            residue = known.get(coefficient)
+            if residue is None:
+                residue = known[coefficient] = K.residue(coefficient, state.residues, PRIME)
+            total = (total + rows[:, place] * residue) % PRIME
         if np.any(total) and dropped not in dry:
             raise NotProved(f"the relation of {columns[dropped].name} does not hold")
 

@@ -1,31 +1,12 @@
-"""Grouping relations as people and programs read them: text, LaTeX, Markdown, JSON."""
+"""All base parameters as people and programs read them: text, LaTeX, Markdown, JSON."""
 
-import re
 import textwrap
 from typing import Any
 
-import sympy
-
-from modeler.base.result import BaseParameter, BaseParameters, Proof, Term
+from modeler.base.relation_text import coefficient_text, relation_latex, relation_text
+from modeler.base.result import BaseParameters, Proof, Sampling
 
 _WIDTH = 96
-
-
-def relation_text(parameter: BaseParameter) -> str:
-    """`ZZ2R = ZZ2 + YY3 + D4**2*M4`."""
-    return f"{parameter.name} = {_sum([_text_term(term) for term in parameter.terms])}"
-
-
-def relation_latex(parameter: BaseParameter) -> str:
-    """`ZZ_{2R} = ZZ_{2} + YY_{3} + D_{4}^{2} M_{4}`."""
-    terms = [_latex_term(term) for term in parameter.terms]
-    return f"{name_latex(parameter.name)} = {_sum(terms)}"
-
-
-def name_latex(name: str) -> str:
-    """`ZZ2R` as `ZZ_{2R}`."""
-    match = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
-    return f"{match[1]}_{{{match[2]}}}" if match else name
 
 
 def as_text(base: BaseParameters) -> str:
@@ -61,7 +42,10 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
                 "column_of": base.columns[parameter.column].name,
                 "unit": base.columns[parameter.column].unit,
                 "terms": [
-                    {"coefficient": str(term.coefficient), "parameter": term.parameter}
+                    {
+                        "coefficient": coefficient_text(term.coefficient),
+                        "parameter": term.parameter,
+                    }
                     for term in parameter.terms
                 ],
             }
@@ -87,6 +71,15 @@ def _certificate(proof: Proof) -> dict[str, Any]:
         "tolerance": proof.tolerance,
         "scale": proof.scale,
         "base_against_standard_torque": proof.agreement,
+        "sampling": None if proof.sampling is None else _sampling(proof.sampling),
+    }
+
+
+def _sampling(sampling: Sampling) -> dict[str, Any]:
+    return {
+        "postures": sampling.postures,
+        "ranges": {name: list(ends) for name, ends in sampling.ranges.items()},
+        "distance_to_singularity": sampling.distance,
     }
 
 
@@ -102,49 +95,16 @@ def proof_text(proof: Proof) -> str:
         f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
         f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
         f"{proof.tolerance:g} of the largest; {proof.scale}",
+        *([] if proof.sampling is None else [_sampling_text(proof.sampling, proof.seed)]),
         f"base torque against standard torque: {proof.agreement:.1e} of the largest",
     ]
     return "\n".join(textwrap.fill(text, _WIDTH) for text in paragraphs)
 
 
-def _sum(terms: list[str]) -> str:
-    text = terms[0]
-    for term in terms[1:]:
-        text += f" - {term[1:]}" if term.startswith("-") else f" + {term}"
-    return text
-
-
-def _text_term(term: Term) -> str:
-    sign, size = _sign(term.coefficient)
-    if size == 1:
-        return sign + term.parameter
-    top, bottom = sympy.fraction(size)
-    if not bottom.free_symbols:
-        top, bottom = size, sympy.Integer(1)
-    front = "" if top == 1 else f"{_in_product(top)}*"
-    back = "" if bottom == 1 else f"/{_in_product(bottom)}"
-    return f"{sign}{front}{term.parameter}{back}"
-
-
-def _in_product(size: sympy.Expr) -> str:
-    return f"({size})" if size.is_Add else str(size)
-
-
-def _latex_term(term: Term) -> str:
-    sign, size = _sign(term.coefficient)
-    name = name_latex(term.parameter)
-    if size == 1:
-        return sign + name
-    letters = {symbol: name_latex(symbol.name) for symbol in size.free_symbols}
-    text = sympy.latex(size, symbol_names=letters)
-    return f"{sign}\\left({text}\\right) {name}" if size.is_Add else f"{sign}{text} {name}"
-
-
-def _sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
-    """The sign to write in front, and what stays: sums keep theirs unless all terms are minus."""
-    negative = (
-        all(arg.could_extract_minus_sign() for arg in coefficient.args)
-        if coefficient.is_Add
-        else coefficient.could_extract_minus_sign()
+def _sampling_text(sampling: Sampling, seed: int) -> str:
+    ranges = ", ".join(f"q{n} {low:.3g}..{high:.3g}" for n, (low, high) in sampling.ranges.items())
+    return (
+        f"at {sampling.postures} closed postures on walks from [home] (seed {seed}): {ranges}; "
+        f"distance to the nearest singularity {sampling.distance:.2g} (least singular value of the "
+        "loops' Jacobian by the passive joints, rows of length 1)"
     )
-    return ("-", -coefficient) if negative else ("", coefficient)

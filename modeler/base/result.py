@@ -30,6 +30,22 @@ class BaseParameter:
 
 
 @dataclass(frozen=True)
+class Sampling:
+    """The closed postures at which the torques of a robot with loops were sampled.
+
+    Attributes:
+        postures: their number.
+        ranges: (lowest, highest) position of each actuated joint, rad or m, by name.
+        distance: to the nearest singularity: least singular value of the loops' Jacobian by the
+            passive joints, rows of length 1, travels in sizes of the robot.
+    """
+
+    postures: int
+    ranges: Mapping[str, tuple[float, float]]
+    distance: float
+
+
+@dataclass(frozen=True)
 class Proof:
     """Why the base parameters are right, and what anyone needs to check it again.
 
@@ -46,6 +62,7 @@ class Proof:
         tolerance: singular values above tolerance * largest are kept.
         scale: how rows and columns were scaled before.
         agreement: largest relative difference of standard and base torque at random states.
+        sampling: how far the postures of the numeric rank went; None without loops.
     """
 
     kind: str
@@ -59,6 +76,7 @@ class Proof:
     tolerance: float
     scale: str
     agreement: float
+    sampling: Sampling | None = None
 
 
 @dataclass(frozen=True)

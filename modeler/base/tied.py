@@ -6,8 +6,10 @@ one random geometry; each coefficient, a rational function of a few letters of t
 interpolated from its values at several geometries and checked at fresh ones.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass
 from functools import partial
+from typing import Protocol
 
 import numpy as np
 import sympy
@@ -45,55 +47,89 @@ def tied_relations(
     Raises:
         TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
     """
+    energetic = [i for i in order if has_energy(columns[i])]
+    return dependent_columns(geometry, _Energies(columns), K, energetic, set(energetic), seed)
+
+
+class Functions(Protocol):
+    """Functions on the opened tree, numbered, of which relations are looked for."""
+
+    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
+        """(2 points, places): what those functions add to 2T, then to the power of gravity."""
+        ...
+
+
+@dataclass(frozen=True)
+class _Energies:
+    """The energy rows of columns."""
+
+    columns: Sequence[StandardColumn]
+
+    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
+        """(2 points, places)."""
+        return state.energy_rows([self.columns[i] for i in places])
+
+
+def dependent_columns(
+    geometry: Geometry,
+    functions: Functions,
+    K: ExactField,
+    order: Sequence[int],
+    wanted: Set[int],
+    seed: int,
+) -> list[dict[int, Element]]:
+    """The relation of every wanted function that is a combination of those before it.
+
+    Args:
+        geometry: the table.
+        functions: on its opened tree.
+        K: the field of the geometry.
+        order: numbers of the functions, in the order in which they are kept.
+        wanted: numbers of those whose coefficients are wanted; others are left out of relations.
+        seed: of the random points.
+
+    Raises:
+        TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
+    """
     try:
-        supports = _supports(geometry, columns, K, order, seed)
-        return _interpolated(geometry, columns, K, supports, seed)
+        supports = _supports(geometry, functions, K, order, seed)
+        supports = {column: kept for column, kept in supports.items() if column in wanted}
+        return _interpolated(_Sampler(geometry, functions, K, supports, seed), wanted)
     except ValueError as error:  # a constant whose denominator is a multiple of a prime
         raise TooLarge(f"a constant has no value modulo a prime ({error})") from None
 
 
-def _interpolated(
-    geometry: Geometry,
-    columns: Sequence[StandardColumn],
-    K: ExactField,
-    supports: Mapping[int, Sequence[int]],
-    seed: int,
-) -> list[dict[int, Element]]:
-    """The relation of each dependent column, from the kept columns that it involves."""
+def _interpolated(sampler: "_Sampler", wanted: Set[int]) -> list[dict[int, Element]]:
+    """The relation of each dependent function, from the kept ones that it involves."""
     relations: list[dict[int, Element]] = []
-    sampler = _Sampler(geometry, columns, K, supports, seed)
-    probes = Probes(len(K.letters), seed)
-    for column, support in supports.items():
+    K = sampler.K
+    probes = Probes(len(K.letters), sampler.seed)
+    for column, support in sampler.supports.items():
         relation = {column: K.one}
         for kept in support:
-            relation[kept] = -coefficient(partial(sampler.values, (column, kept)), K, probes)
+            if kept in wanted:
+                relation[kept] = -coefficient(partial(sampler.values, (column, kept)), K, probes)
         relations.append(relation)
     return relations
 
 
 def _supports(
-    geometry: Geometry,
-    columns: Sequence[StandardColumn],
-    K: ExactField,
-    order: Sequence[int],
-    seed: int,
+    geometry: Geometry, functions: Functions, K: ExactField, order: Sequence[int], seed: int
 ) -> dict[int, list[int]]:
-    """For each dependent column the kept columns that it is a combination of."""
-    energetic = [i for i in order if _has_energy(columns[i])]
-    state = ModularState(geometry, K, len(energetic) + _SPARE, seed, SMALL)
-    rows = state.energy_rows([columns[i] for i in energetic])
-    pivots = row_echelon(rows, range(len(energetic)), SMALL)
+    """For each dependent function the kept ones that it is a combination of."""
+    state = ModularState(geometry, K, len(order) + _SPARE, seed, SMALL)
+    rows = functions.rows(state, order)
+    pivots = row_echelon(rows, range(len(order)), SMALL)
     kept = {column: row for row, column in pivots}
     return {
-        energetic[column]: [
-            energetic[pivot] for pivot, row in kept.items() if rows[row, column] != 0
-        ]
-        for column in range(len(energetic))
+        order[column]: [order[pivot] for pivot, row in kept.items() if rows[row, column] != 0]
+        for column in range(len(order))
         if column not in kept
     }
 
 
-def _has_energy(column: StandardColumn) -> bool:
+def has_energy(column: StandardColumn) -> bool:
+    """True where a column adds to the energies: no friction."""
     return column.column is None or column.kind in ("rotor_inertia", "offset")
 
 
@@ -103,16 +139,16 @@ class _Sampler:
     def __init__(
         self,
         geometry: Geometry,
-        columns: Sequence[StandardColumn],
+        functions: Functions,
         K: ExactField,
         supports: Mapping[int, Sequence[int]],
         seed: int,
     ) -> None:
         self.geometry, self.K, self.supports, self.seed = geometry, K, supports, seed
+        self.functions = functions
         self.blocks = _blocks(supports)
-        used = sorted({c for kept, dependent in self.blocks for c in (*kept, *dependent)})
-        self.place = {column: i for i, column in enumerate(used)}
-        self.columns = [columns[i] for i in used]
+        self.used = sorted({c for kept, dependent in self.blocks for c in (*kept, *dependent)})
+        self.place = {column: i for i, column in enumerate(self.used)}
         self.points = max((len(kept) for kept, _ in self.blocks), default=0) + _POINTS
         self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
@@ -136,7 +172,7 @@ class _Sampler:
         total = n * len(geometries)
         self.seed += 1
         state = ModularState(self.geometry, self.K, total, self.seed, LARGE, letters)
-        rows = state.energy_rows(self.columns).reshape(2, len(geometries), n, -1)
+        rows = self.functions.rows(state, self.used).reshape(2, len(geometries), n, -1)
         for i, geometry in enumerate(geometries):
             self._known[geometry] = {}
             for kept, dependent in self.blocks:

@@ -7,6 +7,7 @@ the robot's columns: what it does not have is eliminated, and what legs share mu
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from modeler.base.field import Element
 from modeler.base.tree import INERTIA, OFFSET
@@ -70,7 +71,16 @@ class Units:
         )
 
     def _others(self, column: int, unit: int) -> list[int]:
-        return [u for u, owner in enumerate(self.owner) if owner == column and u != unit]
+        return [u for u in self._parts[column] if u != unit]
+
+    @cached_property
+    def _parts(self) -> dict[int, list[int]]:
+        """The units of each column."""
+        found: dict[int, list[int]] = {}
+        for unit, column in enumerate(self.owner):
+            if column is not None:
+                found.setdefault(column, []).append(unit)
+        return found
 
 
 def _add(row: dict[int, Element], place: int, value: Element) -> None:

@@ -5,42 +5,16 @@ from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, say, working
-from modeler.cli.places import check_places
-from modeler.cli.rows import check_apart
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.diagnose import Known, diagnose, write_additions
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
+from modeler.observation.apart import check_apart
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
-
-
-def add_add(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler add`."""
-    parser = commands.add_parser(
-        "add",
-        help="put a physical effect into a model and watch the error fall",
-        description="Adds EFFECT to the robot of MODEL, derives and emits it anew, fits it to the "
-        "logs and shows the error before and after. EFFECT may also be `auto`: all that `modeler "
-        "diagnose` names, or `undo`: without the last one.",
-        epilog="example: modeler add arm.model.json load_friction --joint 2 train.parquet "
-        "--holdout other.parquet --out arm2.model.json",
-    )
-    parser.add_argument("model", metavar="MODEL", help="a model file of `modeler fit`")
-    parser.add_argument("effect", metavar="EFFECT", help="see `modeler effects`; auto; undo")
-    parser.add_argument("logs", metavar="LOG", nargs="+", help="logs to fit to")
-    parser.add_argument("--joint", metavar="J", help="default: where it explains most")
-    parser.add_argument("--out", metavar="MODEL2", required=True, help="model file to write")
-    parser.add_argument(
-        "--holdout", metavar="LOG", nargs="+", default=[], help="logs of other motion to judge on"
-    )
-    parser.add_argument("--robot", metavar="FILE", help="write the new robot file too")
-    parser.add_argument("--report", metavar="PAGE.html", help="write one self-contained page")
-    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
-    parser.set_defaults(run=run_add)
 
 
 def run_add(args: argparse.Namespace) -> Json:
@@ -51,16 +25,25 @@ def run_add(args: argparse.Namespace) -> Json:
         compiled = recompile(model)
         logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
         check_apart(logs.fitted, logs.held_out)
-        better = _better(model, compiled, args, logs)
+        better, left_out = _better(model, compiled, args, logs)
     written = _written(args, better)
     for line in (
         *waterfall(better),
         *added(better),
+        *left_out,
         *notes(better),
+        *model.warning,
+        *_ending(better),
         *(f"written: {place}" for place in written),
     ):
         say(line)
-    return better.fit.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+    waterfall_ = [step.to_json() for step in better.history]
+    return better.fit.to_json() | {"waterfall": waterfall_, "left_out": list(left_out)}
+
+
+def _ending(better: IdentifiedModel) -> list[str]:
+    """Whether the new model is usable."""
+    return [] if better.fit.verdict is None else [f"now: {better.fit.verdict.line}"]
 
 
 def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
@@ -70,7 +53,7 @@ def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
     if args.robot is not None:
         write_atomically(Path(args.robot), better.robot_text)
         places.append(args.robot)
-    if args.report is not None:
+    if args.report is not None and better.history:
         write_additions(Path(args.report), better.spec.robot, better.history)
         places.append(args.report)
     return places
@@ -78,8 +61,6 @@ def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
 
 def _check(args: argparse.Namespace) -> None:
     """What can be refused before anything is computed."""
-    outputs = {f"--{name}": getattr(args, name) for name in ("out", "robot", "report", "json")}
-    check_places(args.model, [*args.logs, *args.holdout], outputs)
     if args.joint is not None and args.effect in ("auto", "undo"):
         raise DataError(
             f"--joint {args.joint}: `{args.effect}` takes no joint; expected one effect with "
@@ -89,26 +70,31 @@ def _check(args: argparse.Namespace) -> None:
 
 def _better(
     model: IdentifiedModel, compiled: CompiledModel, args: argparse.Namespace, logs: Logs
-) -> IdentifiedModel:
-    """The model with the effect, with all that a diagnosis names, or without the last one."""
+) -> tuple[IdentifiedModel, tuple[str, ...]]:
+    """The model with the effect, with all that a diagnosis names, or without the last one.
+
+    And why effects that the diagnosis names are left out.
+    """
     if args.effect == "undo":
-        return undone(model, logs)
+        return undone(model, logs), ()
     if args.effect != "auto":
-        return add_effect(model, compiled, args.effect, args.joint, logs)
+        return add_effect(model, compiled, args.effect, args.joint, logs), ()
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     known = Known(robot.catalogue, robot.coupling)
     found = diagnose(model, compiled, logs.fitted, logs.held_out, known=known)
-    better = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
-    if better is model:
+    better, left_out = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
+    if better is model and not left_out:
         raise DataError(
             "auto: nothing is added, because nothing that can be added is missing in this model "
             f"({found.sentences[0]})"
         )
-    return better
+    return better, left_out
 
 
 def waterfall(model: IdentifiedModel) -> list[str]:
     """The error after every effect that was added, as bars."""
+    if not model.history:
+        return ["nothing is added: the model stays as it was fitted"]
     held_out = bool(model.history and model.history[-1].held_out)
     title = "held-out error" if held_out else "error on the fitted logs (nothing was held out)"
     lines = [f"{'':<30} {title}"]

@@ -1,18 +1,22 @@
 """What every command shares: results on stdout, JSON for machines, progress on stderr."""
 
 import argparse
+import contextlib
 import io
 import json
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
+from modeler.core.destination import Kind, destination
+from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 Json = Any
 """What a command returns for `--json`: dicts, lists, texts, numbers."""
@@ -20,36 +24,109 @@ Json = Any
 
 def say(text: str = "") -> None:
     """One result, on stdout."""
-    print(text)
+    write_stdout(f"{text}\n")
 
 
-def run_command(args: argparse.Namespace) -> None:
+def write_stdout(text: str) -> None:
+    """Text as it is, on stdout; nowhere if stdout was closed before we began.
+
+    Raises:
+        ModelerError: it cannot be written, as on a full disk.
+        BrokenPipeError: its reader has gone.
+    """
+    with _stdout_told():
+        if sys.stdout is not None:
+            sys.stdout.write(text)
+
+
+def flush_stdout() -> None:
+    """Writes what is held back; after an error, that is dropped, so that it is told once.
+
+    Raises:
+        ModelerError: it cannot be written, as on a full disk.
+        BrokenPipeError: its reader has gone.
+    """
+    try:
+        with _stdout_told():
+            if sys.stdout is not None:
+                sys.stdout.flush()
+    except (ModelerError, BrokenPipeError):
+        with contextlib.suppress(OSError, ValueError):  # ValueError: a stream without a number
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, sys.stdout.fileno())
+            os.close(nowhere)
+        raise
+
+
+def complain(text: str) -> None:
+    """One line on stderr; if that cannot be written, the exit status has to do."""
+    with contextlib.suppress(OSError, ValueError):
+        if sys.stderr is not None:
+            sys.stderr.write(f"modeler: {text}\n")
+            sys.stderr.flush()
+
+
+def show_any_letter() -> None:
+    """What a terminal has no letter for is shown as its code, instead of being an error."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+@contextmanager
+def _stdout_told() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise ModelerError(
+            f"stdout: cannot be written ({error.strerror or error}); choose another place for it"
+        ) from error
+
+
+def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Json]) -> None:
     """Run the command of `args`, and write what it returns to the file that `--json` names.
 
-    `args.after`, if there is one, judges the result when all is written.
+    `args.after`, if the command set one, judges the result when all is written.
 
-    "-" is stdout, which then carries the JSON alone.
+    "-" is stdout, and so is /dev/stdout; it then carries the JSON alone.
     """
-    with redirect_stdout(io.StringIO()) if args.json == "-" else nullcontext():
-        content = args.run(args)
+    alone = args.json is not None and _is_stdout(args.json)
+    with redirect_stdout(io.StringIO()) if alone else nullcontext():
+        content = run(args)
     if args.json is not None:
         text = json.dumps(content, indent=1, allow_nan=False) + "\n"
-        if args.json == "-":
-            sys.stdout.write(text)
+        if alone:
+            write_stdout(text)
         else:
             write_atomically(Path(args.json), text)
     if hasattr(args, "after"):
         args.after(args)
 
 
+def _is_stdout(place: str) -> bool:
+    """True of "-", and of every name of the open file that stdout is."""
+    if place == "-":
+        return True
+    try:
+        found = destination(Path(place))
+        return found.kind is Kind.DESCRIPTOR and found.descriptor == sys.stdout.fileno()
+    except (AttributeError, OSError, ValueError, ModelerError):
+        return False
+
+
 @contextmanager
 def progress(title: str) -> Iterator[Callable[[float], None]]:
     """A bar on stderr while something runs, if stderr is a terminal; call with the share done."""
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as bar:
+    console = _terminal()
+    if console is None:
+        yield lambda share: None
+        return
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(title, total=1.0)
         yield lambda share: bar.update(task, completed=share)
 
@@ -57,9 +134,21 @@ def progress(title: str) -> Iterator[Callable[[float], None]]:
 @contextmanager
 def working(title: str) -> Iterator[None]:
     """A spinner on stderr, if stderr is a terminal."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
+    console = _terminal()
+    if console is None:
         yield
         return
-    with console.status(title):
+    from rich.text import Text
+
+    letters = console.encoding.lower().startswith("utf")
+    with console.status(Text(title), spinner="dots" if letters else "line"):
         yield
+
+
+def _terminal() -> "Console | None":
+    """Stderr, if somebody looks at it."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        return None
+    from rich.console import Console
+
+    return Console(stderr=True)

@@ -9,13 +9,13 @@ from modeler.cli.add import waterfall
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.diagnose import lines
 from modeler.cli.fit import judged
-from modeler.cli.options import add_number
 from modeler.compare import verdict, write_pictures, write_report
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose, write_additions, write_diagnosis
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
+from modeler.simulate.settings import check_settings
 
 _RUNS = (("train", 1), ("held_out", 2))
 
@@ -35,41 +35,24 @@ _STORIES = (
 )
 
 
-def add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler demo`."""
-    parser = commands.add_parser(
-        "demo",
-        help="the whole story on built-in robots with a hidden effect",
-        description="Simulates an arm, then a robot with closed loops, each with a physical effect "
-        "that its robot file lacks: derives, emits C, fits, compares, finds out which effect is "
-        "missing, adds it, and shows the error falling on motion that was never fitted.",
-        epilog="example: modeler demo --out demo",
-    )
-    parser.add_argument("--out", metavar="DIR", default="demo", help="folder (default %(default)s)")
-    add_number(parser, "--duration", "S", float, "seconds of each simulated run", default=20.0)
-    parser.add_argument("--json", metavar="FILE", help="write the diagnoses for machines")
-    parser.set_defaults(run=run_demo)
-
-
 def run_demo(args: argparse.Namespace) -> Json:
     """Runs both stories."""
-    return {
-        story.robot: _told(story, Path(args.out) / story.robot, args.duration) for story in _STORIES
-    }
+    check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
+    return {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
 
 
-def _told(story: Story, out: Path, duration: float) -> Json:
+def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
     robot = load(story.robot)
     say(f"{robot.title}\n{'=' * len(robot.title)}")
     say(f"1. derive and emit C into {out / 'c'}")
     with working("deriving"):
         derivation = derive(robot)
-        emitted = generate(derivation, out / "c")
+        emitted = generate(derivation, out / "c", args.force)
         compiled = compile_model(emitted)
     kinds = ", ".join(f"{count} {kind}" for kind, count in derivation.base.counts().items())
     say(f"   {derivation.base.rank} base parameters ({kinds}), proof: {derivation.base.proof.kind}")
-    say(f"2. simulate two runs of {duration:g} s; the machine has something the file lacks")
-    train, held_out = (_simulated(story, out, name, seed, duration) for name, seed in _RUNS)
+    say(f"2. simulate two runs of {args.duration:g} s; the machine has something the file lacks")
+    train, held_out = (_simulated(story, out, name, seed, args.duration) for name, seed in _RUNS)
     say(f"3. fit to {train.name}, compare with {held_out.name}")
     model = fit(derivation, emitted, observe(compiled, [train]))
     save_model(out / "model.json", model)
@@ -99,7 +82,7 @@ def _simulated(story: Story, out: Path, name: str, seed: int, duration: float) -
 
 def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: Path) -> None:
     with working("predicting"):
-        comparison, provenance = judged(model, [str(log)], compiled)
+        comparison, provenance, _ = judged(model, [str(log)], compiled)
     for line in (*comparison.summary().splitlines(), *verdict(comparison)):
         say(f"   {line}")
     with working("drawing the page"):
@@ -112,9 +95,9 @@ def _improved(
     model: IdentifiedModel, compiled: CompiledModel, found: Diagnosis, logs: Logs, out: Path
 ) -> IdentifiedModel:
     say("5. add it: new robot file, new C, new fit")
-    better = add_findings(model, compiled, found.effects, logs)
+    better, left_out = add_findings(model, compiled, found.effects, logs)
     save_model(out / "improved.json", better)
-    for line in waterfall(better):
+    for line in (*waterfall(better), *left_out):
         say(f"   {line}")
     if better.history:
         write_additions(out / "improved.html", better.spec.robot, better.history)

@@ -2,20 +2,24 @@
 
 import argparse
 import textwrap
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
+from modeler.base import BaseParameters
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
 from modeler.cli.console import Json, say, working
-from modeler.cli.robots import add_robot, robot_of
+from modeler.cli.parsers.derive import FEW_JOINTS, Form
+from modeler.cli.robots import robot_of
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation, derive, generate
 from modeler.symbolic import SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
 from modeler.terms import (
+    ClosedForm,
     CoefficientTable,
     backward_lines,
     closed_form,
@@ -30,43 +34,21 @@ from modeler.terms import (
     terms_report,
 )
 
-_FORMS = {"text": as_text, "latex": as_latex, "markdown": as_markdown}
-_CLOSED_FORMS = {
+_FORMS: dict[Form, Callable[[BaseParameters], str]] = {
+    "text": as_text,
+    "latex": as_latex,
+    "markdown": as_markdown,
+}
+_CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
     "text": closed_form_text,
     "latex": closed_form_latex,
     "markdown": closed_form_markdown,
 }
-_TABLES = {
+_TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "text": coefficients_text,
     "latex": coefficients_latex,
     "markdown": coefficients_markdown,
 }
-_FEW_JOINTS = 3
-
-
-def add_derive(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler derive`."""
-    parser = commands.add_parser(
-        "derive",
-        help="base parameters and grouping relations, with their proof",
-        description="Derives the model of ROBOT, linear in the dynamic parameters: which base "
-        "parameters it has, how the standard parameters group, and the proof. Robots of up to "
-        f"{_FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
-        epilog="example: modeler derive puma560 --format latex",
-    )
-    add_robot(parser)
-    parser.add_argument(
-        "--format", choices=sorted(_FORMS), default="text", help="of what is printed"
-    )
-    parser.add_argument(
-        "--terms", action=argparse.BooleanOptionalAction, help="PG/PJ/PS coefficients or not"
-    )
-    parser.add_argument(
-        "--closed-form", action="store_true", help="M(q), Christoffel coefficients and gravity"
-    )
-    parser.add_argument("--report", metavar="FILE.md", help="write the page of the coefficients")
-    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
-    parser.set_defaults(run=run_derive)
 
 
 def run_derive(args: argparse.Namespace) -> Json:
@@ -138,7 +120,7 @@ def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
                 "tree robots; leave out --closed-form, --terms and --report"
             )
         return
-    small = len(model.robot.coordinates) <= _FEW_JOINTS
+    small = len(model.robot.coordinates) <= FEW_JOINTS
     if args.closed_form:
         say()
         say(_CLOSED_FORMS[args.format](closed_form(model, base)))
@@ -158,7 +140,7 @@ def _closed_forms(args: argparse.Namespace, derivation: Derivation) -> None:
         say(f"written: {args.report}")
 
 
-def _coefficients(derivation: Derivation, form: str) -> list[str]:
+def _coefficients(derivation: Derivation, form: Form) -> list[str]:
     table = coefficient_table(derivation.model, derivation.base)
     return ["", _TABLES[form](table), "", *_facts(table)]
 
@@ -184,28 +166,12 @@ def _facts(table: CoefficientTable) -> list[str]:
     return lines
 
 
-def add_generate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler generate`."""
-    parser = commands.add_parser(
-        "generate",
-        help="C source, header, manifest and build files",
-        description="Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia "
-        "matrix, gravity, Coriolis, and the batch observation matrix, in a folder that builds by "
-        "itself with make or cmake.",
-        epilog="example: modeler generate panda --out panda_c",
-    )
-    add_robot(parser)
-    parser.add_argument("--out", metavar="DIR", required=True, help="folder to write")
-    parser.add_argument("--json", metavar="FILE", help="write the manifest for machines")
-    parser.set_defaults(run=run_generate)
-
-
 def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
-        emitted = generate(derivation, args.out)
+        emitted = generate(derivation, args.out, args.force)
     say(f"{robot.name}: {derivation.base.rank} base parameters, written to {args.out}:")
     for name in sorted(emitted.files):
         say(f"  {name}")

@@ -6,49 +6,18 @@ from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.places import check_places
-from modeler.cli.rows import check_apart
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known, diagnose, write_diagnosis
 from modeler.diagnose.sentences import blind_spots
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
+from modeler.observation.apart import check_apart
 from modeler.robot import robot_from_text
 from modeler.robot.place import near
 
 
-def add_diagnose(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler diagnose`."""
-    parser = commands.add_parser(
-        "diagnose",
-        help="which physical effect is missing",
-        description="Looks for the physical effects that MODEL lacks on the logs: which, on which "
-        "joint, how large, what adding them would gain on motion not used for the fit, what they "
-        "could be mistaken for, and what these logs cannot show.",
-        epilog="example: modeler diagnose arm.model.json train.parquet --holdout other.parquet",
-    )
-    parser.add_argument("model", metavar="MODEL", help="a model file of `modeler fit`")
-    parser.add_argument(
-        "logs", metavar="LOG", nargs="+",
-        help="logs to explain; FILE@START:END takes the rows between these seconds",
-    )  # fmt: skip
-    parser.add_argument(
-        "--holdout", metavar="LOG", nargs="+", default=[],
-        help="logs of other motion: errors come from them, nothing is fitted to them",
-    )  # fmt: skip
-    parser.add_argument(
-        "--without", metavar="EFFECT[@J]", action="append", default=[],
-        help="an effect that this robot does not have, on one joint or at all",
-    )  # fmt: skip
-    parser.add_argument("--report", metavar="PAGE.html", help="write one self-contained page")
-    parser.add_argument("--json", metavar="FILE", help="write the result for machines")
-    parser.set_defaults(run=run_diagnose)
-
-
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
-    outputs = {"--report": args.report, "--json": args.json}
-    check_places(args.model, [*args.logs, *args.holdout], outputs)
     model = load_model(args.model)
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     _check_effects(args.without, robot.catalogue)
@@ -67,7 +36,8 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     if args.report is not None:
         with working("drawing"):
             written = [write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))]
-    for line in (*lines(diagnosis), *(f"written: {place}" for place in written)):
+    wrote = (f"written: {place}" for place in written)
+    for line in (*lines(diagnosis), *model.warning, *wrote):
         say(line)
     return diagnosis.to_json()
 
@@ -78,6 +48,7 @@ def _provenance(model: IdentifiedModel, args: argparse.Namespace) -> list[str]:
     return [
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, fitted on {fitted}",
         f"logs explained: {shown}",
+        *model.warning,
     ]
 
 

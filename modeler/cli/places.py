@@ -1,48 +1,216 @@
-"""Files that a command reads and writes: none is both, and what it writes can be written."""
+"""What an argument means: a word, a file that is read, a file or folder that is written.
 
-from collections.abc import Mapping, Sequence
+Parsers declare it as the `type` of the argument. So one rule holds for every command: before any
+work, nothing that is read is written over, nothing is written twice, and all can be written.
+"""
+
+import argparse
+import fnmatch
+import io
+import os
+import stat
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
-from modeler.core.errors import DataError
-from modeler.core.files import check_writable
+from modeler.core.destination import Destination, Kind, destination
+from modeler.core.errors import DataError, ModelerError
+from modeler.core.files import check_folder_writable, check_writable, page_place
+from modeler.core.window import file_and_window
+from modeler.robot.builtin import builtin_file, builtin_names
 
 _LOGS = (".csv", ".parquet")
 
 
-def check_places(model: str, logs: Sequence[str], outputs: Mapping[str, str | None]) -> None:
+class Word(str):
+    """A text that names no file."""
+
+
+class Input(str):
+    """A file that is read."""
+
+    what = "the file that is read"
+
+    @property
+    def file(self) -> Path:
+        """Where it is."""
+        return Path(self)
+
+
+class ModelFile(Input):
+    """A model file."""
+
+    what = "the model that is read"
+
+
+class RobotFile(Input):
+    """A robot file, or the name of a built-in robot."""
+
+    what = "the robot file that is read"
+
+    @property
+    def file(self) -> Path:
+        """Where it is; a name of a built-in robot means that one."""
+        return builtin_file(self) if self in builtin_names() else Path(self)
+
+
+class LogFile(Input):
+    """A log, as FILE or FILE@START:END."""
+
+    what = "a log"
+
+    @property
+    def file(self) -> Path:
+        """Without the window."""
+        return Path(file_and_window(self)[0])
+
+
+class Output(str):
+    """A file that is written; it is no log."""
+
+    @property
+    def file(self) -> Path:
+        """Where it is."""
+        return Path(self)
+
+
+class NewLog(Output):
+    """A log that is written."""
+
+
+class PageOrFolder(Output):
+    """A page that is written, or a folder that it is written into."""
+
+    @property
+    def file(self) -> Path:
+        """The page."""
+        return page_place(Path(self), "compare.html")
+
+
+class JsonFile(Output):
+    """The result for machines; "-" is stdout."""
+
+
+class OutputFolder(str):
+    """A folder that files are written into.
+
+    Attributes:
+        writes: patterns of the files in it that are written.
+    """
+
+    writes: tuple[str, ...] = ()
+
+
+class ModuleFolder(OutputFolder):
+    """Of an emitted module."""
+
+    writes = ("*.c", "*.h", "*.md", "*.sha256", "manifest.json", "Makefile", "CMakeLists.txt")
+
+
+class PictureFolder(OutputFolder):
+    """Of the pictures of a comparison."""
+
+    writes = ("overview.*", "joint_*_time.*", "joint_*_residual.*")
+
+
+class DemoFolder(OutputFolder):
+    """Of `modeler demo`: a folder for each story."""
+
+    writes = ("demo-arm/*", "orthoglide-2003/*")
+
+
+def check_places(args: argparse.Namespace) -> None:
     """Refuse, before any work, outputs that would replace an input or each other.
 
-    Args:
-        model: the model file that is read.
-        logs: logs that are read, as FILE or FILE@START:END.
-        outputs: option, as in "--out", to the file that it names; None or "-": no file.
+    Links are followed; a window of a log is that log.
 
     Raises:
         ModelerError: an output is an input, is named like a log, is named twice, or cannot be
-            written.
+            written; or it lies where a folder of this command has a file of its own.
     """
-    read = {_file(place).resolve() for place in logs}
-    taken: dict[Path, str] = {}
-    for option, place in outputs.items():
-        if place is None or place == "-":
-            continue
-        path = Path(place).resolve()
-        if path in read or path.suffix.lower() in _LOGS:
-            raise DataError(f"{option} {place}: this is a log; expected a name of its own")
-        if path == Path(model).resolve():
-            raise DataError(
-                f"{option} {place}: this is the model that is read; expected a name of its own, "
-                "so that the model stays"
-            )
-        if path in taken:
-            raise DataError(
-                f"{option} {place}: {taken[path]} writes this file too; expected a name of its own"
-            )
-        taken[path] = option
-        check_writable(Path(place))
+    given = list(_given(args))
+    read = [(place.what, found) for _, place in given if isinstance(place, Input)
+            if (found := _found(place.file)) is not None]  # fmt: skip
+    folders = [(option, place) for option, place in given if isinstance(place, OutputFolder)]
+    for option, folder in folders:
+        check_folder_writable(Path(folder))
+        for what, found in read:
+            _check_inside(option, folder, found, what)
+    taken: list[tuple[str, Destination]] = []
+    for option, place in given:
+        if isinstance(place, Output) and not (place == "-" and isinstance(place, JsonFile)):
+            found = _checked(option, place, read, taken)
+            for other, folder in folders:
+                _check_inside(other, folder, found, f"what {option} writes")
+            taken.append((option, found))
 
 
-def _file(place: str) -> Path:
-    """The file of FILE or FILE@START:END."""
-    path = Path(place)
-    return path if path.exists() else Path(place.rpartition("@")[0] or place)
+def _given(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
+    """Every argument, with its name as it is typed."""
+    for name, value in vars(args).items():
+        for each in value if isinstance(value, list) else [value]:
+            yield "--" + name.replace("_", "-"), each
+
+
+def _found(path: Path) -> Destination | None:
+    """An input; None if it is not there, or no file: nothing of it can be lost."""
+    try:
+        found = destination(path)
+    except (OSError, ModelerError):
+        return None
+    return found if found.kind is Kind.FILE else None
+
+
+def _checked(
+    option: str,
+    place: Output,
+    read: list[tuple[str, Destination]],
+    taken: list[tuple[str, Destination]],
+) -> Destination:
+    """Where an output goes, if it may go there."""
+    given = f"{option} {place}"
+    if place == "-":
+        raise DataError(f"{given}: only --json takes - for stdout; expected the name of a file")
+    for path in {Path(place), place.file}:
+        there = _found(path)
+        what = next((what for what, other in read if there and _same(there, other)), None)
+        if what is None and path.suffix.lower() in _LOGS and not isinstance(place, NewLog):
+            what = LogFile.what
+        if what is not None:
+            raise DataError(f"{given}: this is {what}; expected a name of its own")
+    check_writable(place.file)
+    found = destination(place.file)
+    if found.kind is Kind.FILE:
+        taken = _stdout() + taken
+    for other_option, other in taken:
+        if _same(found, other):
+            raise DataError(
+                f"{given}: {other_option} writes this file too; expected a name of its own"
+            )
+    return found
+
+
+def _same(one: Destination, other: Destination) -> bool:
+    return one.identity is not None and one.identity == other.identity
+
+
+def _stdout() -> list[tuple[str, Destination]]:
+    """The file that stdout goes to, if it is one."""
+    try:
+        status = os.fstat(sys.stdout.fileno())
+    except (AttributeError, io.UnsupportedOperation, OSError):
+        return []
+    if not stat.S_ISREG(status.st_mode):
+        return []
+    return [("stdout", Destination(Path("stdout"), Kind.FILE, status))]
+
+
+def _check_inside(option: str, folder: OutputFolder, found: Destination, what: str) -> None:
+    """Refuse a file that stands where the folder gets one of its own."""
+    top = Path(os.path.realpath(folder))
+    if found.place.is_relative_to(top):
+        name = found.place.relative_to(top).as_posix()
+        if any(fnmatch.fnmatchcase(name, pattern) for pattern in folder.writes):
+            raise DataError(
+                f"{option} {folder}: {name} in it is {what}; expected a folder of its own"
+            )

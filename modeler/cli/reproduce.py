@@ -6,23 +6,9 @@ from dataclasses import asdict
 from modeler.cli.console import Json, say, working
 from modeler.core.errors import ModelerError
 from modeler.derivation import Derivation, derive, load
-from modeler.papers import Line, Paper, Verdict, check_paper, paper_names, read_paper
+from modeler.papers import Line, Paper, Verdict, check_paper, read_paper
 from modeler.papers.check import Derived
 from modeler.papers.coefficients import coefficient_lines
-
-
-def add_reproduce(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler reproduce`."""
-    parser = commands.add_parser(
-        "reproduce",
-        help="a paper's base parameters and relations beside the derived ones",
-        description="Derives the robot of a paper and marks every printed line: equal, misprint "
-        "in the paper, or different. Exit status 1 if a line differs unexpectedly.",
-        epilog="example: modeler reproduce guegan-2003",
-    )
-    parser.add_argument("paper", metavar="PAPER", help=f"one of {', '.join(paper_names())}")
-    parser.add_argument("--json", metavar="FILE", help="write the lines for machines")
-    parser.set_defaults(run=run_reproduce, after=after_reproduce)
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:
@@ -39,6 +25,7 @@ def run_reproduce(args: argparse.Namespace) -> Json:
         derivation = found[name]
         lines += coefficient_lines(derivation.model, derivation.base, paper.misprints)
     _print(paper, found, lines)
+    args.after = after_reproduce
     args.different = [line for line in lines if line.verdict is Verdict.DIFFERENT]
     return {
         "paper": paper.name,

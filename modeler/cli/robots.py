@@ -3,30 +3,39 @@
 import argparse
 from collections.abc import Sequence
 
-from modeler.cli.console import Json, say
+from modeler.cli.console import Json, complain, say, working
 from modeler.cli.signature import signature_lines
 from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import Robot, builtin_names, read_robot, robot_from_text
+from modeler.robot.converted import conversion_notes
 from modeler.robot.edit import with_effects
+from modeler.robot.home_text import with_home_text
 from modeler.robot.place import near
 
 
-def add_robot(parser: argparse.ArgumentParser) -> None:
-    """The ROBOT argument and what changes it."""
-    parser.add_argument(
-        "robot", metavar="ROBOT", help="a robot file, or the name of a built-in robot"
-    )
-    parser.add_argument(
-        "--effects",
-        metavar="LIST",
-        help='effects instead of those of the file, for all joints: "viscous,coulomb"; "" for none',
-    )
-
-
 def robot_of(args: argparse.Namespace) -> Robot:
-    """The robot that the arguments mean."""
-    robot = read_robot(args.robot)
+    """The robot that the arguments mean; a [home] that is missing or poor is found, and told."""
+    robot = _with_effects(args)
+    if not robot.loops:
+        return robot
+    from modeler.symbolic import with_home  # not needed by commands that answer at once
+
+    with working(f"closing the loops of {robot.name}"):
+        home = with_home(robot)
+    if not home.told:
+        return robot
+    say(home.told)
+    # The text goes into model files: it says which assembly mode was meant.
+    try:
+        text = with_home_text(robot.text, robot.home, home.robot.home)
+    except RobotError:  # it is found again, the same
+        return home.robot
+    return robot_from_text(text, f"{args.robot} with its [home]")
+
+
+def _with_effects(args: argparse.Namespace) -> Robot:
+    robot = read_told(args.robot)
     if args.effects is None:
         return robot
     wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
@@ -41,23 +50,18 @@ def robot_of(args: argparse.Namespace) -> Robot:
     return robot_from_text(text, f"{args.robot} with --effects")
 
 
-def add_robots(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler robots`."""
-    parser = commands.add_parser(
-        "robots",
-        help="the built-in robots",
-        description="Lists the built-in robots: names to use wherever a command asks for ROBOT.",
-        epilog="example: modeler robots --json robots.json",
-    )
-    parser.add_argument("--show", metavar="NAME", help="print that robot's file, to start your own")
-    parser.add_argument("--json", metavar="FILE", help="write the list for machines")
-    parser.set_defaults(run=run_robots)
+def read_told(name: str) -> Robot:
+    """The robot of that name or file; what a conversion decided or left out, on stderr."""
+    robot = read_robot(name)
+    for note in conversion_notes(name):
+        complain(f"{name}: {note}")
+    return robot
 
 
 def run_robots(args: argparse.Namespace) -> Json:
     """Prints the table of built-in robots, or one robot's file."""
     if args.show is not None:
-        text = read_robot(args.show).text
+        text = read_told(args.show).text
         say(text.rstrip())
         return {"name": args.show, "text": text}
     robots = [read_robot(name) for name in builtin_names()]
@@ -77,22 +81,6 @@ def run_robots(args: argparse.Namespace) -> Json:
         }
         for robot in robots
     ]
-
-
-def add_effects(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """`modeler effects`."""
-    parser = commands.add_parser(
-        "effects",
-        help="the catalogue of physical effects",
-        description="Lists the physical effects that a robot file may name under [effects].",
-        epilog="example: modeler effects coulomb",
-    )
-    parser.add_argument("effect", metavar="EFFECT", nargs="?", help="one effect, in full")
-    parser.add_argument(
-        "--robot", metavar="ROBOT", help="with the effects that this robot file defines"
-    )
-    parser.add_argument("--json", metavar="FILE", help="write the catalogue for machines")
-    parser.set_defaults(run=run_effects)
 
 
 def run_effects(args: argparse.Namespace) -> Json:

@@ -1,5 +1,6 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
+import dataclasses
 from dataclasses import dataclass
 from typing import Any
 
@@ -7,15 +8,31 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
-from modeler.codegen.functions import Function, tree_functions
+from modeler.codegen.functions import Closed, Function, tree_functions
 from modeler.codegen.manifest import module_spec
-from modeler.codegen.names import graph_places, module_prefix, symbol_macros
+from modeler.codegen.names import (
+    graph_places,
+    module_prefix,
+    symbol_constants,
+    symbol_macros,
+)
 from modeler.codegen.render import render
 from modeler.codegen.symbols import SymbolLines, symbol_lines
-from modeler.core.contract import CLOSURE_RUNTIME, MANIFEST, RUNTIME, Emitted, ModuleSpec
+from modeler.core.contract import (
+    CLOSURE_RUNTIME,
+    MANIFEST,
+    RUNTIME,
+    ArgumentSpec,
+    Emitted,
+    ModuleSpec,
+    code_digest,
+)
 from modeler.core.errors import EmitError
 from modeler.core.resources import resource_dir
 from modeler.symbolic import SymbolicModel
+
+_CLOSED = 1e-9
+"""Residual of a closed loop, relative to the robot's size."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +48,10 @@ class _Written:
     declaration: str
     definition: str
     lines: list[str]
+    closed: Closed | None
+    output: ArgumentSpec
+    length: int
+    symbols: frozenset[str]
     additions: int
     multiplications: int
 
@@ -52,22 +73,21 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
-    places = graph_places(model.geometry.coordinates, macros, parameters)
+    constants = symbol_constants(prefix, model.geometry.values)
+    places = graph_places(model.geometry.coordinates, constants, parameters)
     closed = model.closure is not None
-    functions = closed_functions(model, base, prefix) if closed else tree_functions(model, base)
+    functions = closed_functions(model, base) if closed else tree_functions(model, base)
     blocks = [(f, _block(f, places)) for f in functions]
     spec = module_spec(model, base, blocks)
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
-    values = _values(spec, symbols, written) | {"loops": _loops(model)}
+    relations = [layout.relation(parameter) for parameter in base.parameters]
+    values = _values(spec, symbols, written, relations)
+    values |= {"loops": _loops(model), "names": constants, "signature": ""}
+    spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
+    values |= {"spec": spec, "signature": spec.signature()}
     files = {
-        f"{prefix}.h": render("module.h", **values),
-        **{
-            f"{prefix}{unit}.c": _unit(unit, values)
-            for unit in ("", "_regressor", "_base_regressor")
-        },
-        **(_loop_files(prefix, values) if closed else {}),
-        **_runtime(spec),
+        **_code(spec, values),
         "Makefile": render("Makefile", **values),
         "CMakeLists.txt": render("CMakeLists.txt", **values),
         "base_parameters.md": render("base_parameters.md", **values),
@@ -75,6 +95,20 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
         MANIFEST: spec.to_json(),
     }
     return Emitted(spec, files)
+
+
+def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
+    """The files that the library is compiled from."""
+    prefix = spec.prefix
+    return {
+        f"{prefix}.h": render("module.h", **values),
+        **{
+            f"{prefix}{unit}.c": _unit(unit, values)
+            for unit in ("", "_regressor", "_base_regressor")
+        },
+        **(_loop_files(prefix, values) if spec.closure is not None else {}),
+        **_runtime(spec),
+    }
 
 
 def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
@@ -104,6 +138,10 @@ def _loops(model: SymbolicModel) -> dict[str, Any] | None:
         "unknowns": len(closure.home),
         "solved": len(closure.solved),
         "given": len(closure.given),
+        "residuals": len(closure.every),
+        "alignments": len(closure.alignments),
+        # Where the robot is small, its directions are as exact as its lengths.
+        "tolerance": repr(_CLOSED * min(1.0, closure.size)),
         "variables": ", ".join(joint.name for joint in model.robot.free),
         "sets": [
             (head, ", ".join(map(str, given)), ", ".join(str(k) for k in every if k not in given))
@@ -121,7 +159,7 @@ def _block(function: Function, places: dict[str, str]) -> Block | None:
 
 def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     name = f"{prefix}_{function.role}"
-    returns = "void" if function.body is None else "int"
+    returns = "void" if function.closed is None else "int"
     return _Written(
         unit=function.unit,
         internal=function.internal,
@@ -131,14 +169,20 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, "restrict "), returns),
-        lines=list(function.body or layout.body_lines(function, block)),
+        lines=[] if function.closed else layout.body_lines(function, block),
+        closed=function.closed,
+        output=function.output,
+        length=layout.output_size(function.output),
+        symbols=block.symbols if block else frozenset(),
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,
     )
 
 
-def _values(spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written]) -> dict[str, Any]:
-    standard, base = layout.parameter_lines(spec)
+def _values(
+    spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written], relations: list[str]
+) -> dict[str, Any]:
+    standard, base = layout.parameter_lines(spec, relations)
     return {
         "spec": spec,
         "prefix": spec.prefix,
@@ -148,7 +192,7 @@ def _values(spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written]) -
         "standard": standard,
         "base": base,
         "joints": ", ".join(joint.name for joint in spec.joints),
-        "relations": [layout.relation(parameter) for parameter in spec.base],
+        "relations": relations,
         "functions": functions,
         "signals": layout.signal_lines(spec),
         "observation": [
@@ -160,14 +204,20 @@ def _values(spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written]) -
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
-        "signature": spec.signature(),
         "sources": [name for name in spec.sources if name.endswith(".c")],
     }
 
 
 def _unit(unit: str, values: dict[str, Any]) -> str:
     functions = [function for function in values["functions"] if function.unit == unit]
-    return render("module.c", **{**values, "functions": functions, "main": not unit})
+    read = frozenset[str]().union(*(function.symbols for function in functions))
+    constants = [
+        (values["names"][symbol], initial)
+        for symbol, initial in values["symbols"].initial.items()
+        if symbol in read
+    ]
+    more = {"functions": functions, "constants": constants, "main": not unit}
+    return render("module.c", **{**values, **more})
 
 
 def _runtime(spec: ModuleSpec) -> dict[str, str]:

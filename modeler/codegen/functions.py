@@ -24,7 +24,7 @@ class Function:
         inputs: arguments read.
         output: argument written.
         entries: (index into the row-major output, value) of everything that is not zero.
-        body: statements, of a function that calls others; None if `entries` say all.
+        closed: how it is made from one of the opened tree; None if `entries` say all.
         internal: True for a function of the opened tree, which the header does not show.
     """
 
@@ -35,8 +35,40 @@ class Function:
     inputs: tuple[ArgumentSpec, ...]
     output: ArgumentSpec
     entries: tuple[tuple[int, Expr], ...]
-    body: tuple[str, ...] | None = None
+    closed: "Closed | None" = None
     internal: bool = False
+
+
+@dataclass(frozen=True)
+class Closed:
+    """How a function of the closed robot closes the loops and uses one of the opened tree.
+
+    Attributes:
+        kind: which macro of the template writes it: "projected" | "inertia_matrix" | "poses" |
+            "posture" | "coupling".
+        loops: C name of the closure.
+        q, qd, qdd: C names of the motion that is given; empty where none is.
+        start: C name of the closed posture from which the loops are closed.
+        role: of the tree's function.
+        reads: its further inputs, as C.
+        width: columns that are projected.
+    """
+
+    kind: str
+    loops: str
+    q: str
+    qd: str = ""
+    qdd: str = ""
+    start: str = "home"
+    role: str = ""
+    reads: str = ""
+    width: int = 1
+
+    @property
+    def calls(self) -> tuple[str, ...]:
+        """Roles of the tree's functions that it calls."""
+        carried = ("tree_drift",) if self.qd else ()
+        return ("tree_closure", "tree_residual", *carried, f"tree_{self.role}")
 
 
 @dataclass(frozen=True)

@@ -3,36 +3,20 @@
 import textwrap
 from collections.abc import Iterable, Sequence
 
+from modeler.base.relation_text import relation_text
+from modeler.base.result import BaseParameter
 from modeler.codegen.block import Block
 from modeler.codegen.functions import Function
-from modeler.core.contract import ArgumentSpec, BaseSpec, ModuleSpec
+from modeler.core.contract import ArgumentSpec, ModuleSpec
 
 _WIDTH = 100
 _FEW = 16  # outputs that are always 0, up to which each is written in its own line
 
 
-def relation(base: BaseSpec) -> str:
+def relation(parameter: BaseParameter) -> str:
     """`ZZ2R = ZZ2 + YY3 + D4**2*M4`; a name alone where nothing is grouped."""
-    text = ""
-    for term in base.terms:
-        coefficient = term.coefficient
-        if coefficient in ("1", "-1"):
-            piece = coefficient.removesuffix("1") + term.parameter
-        elif _is_sum(coefficient):
-            piece = f"({coefficient})*{term.parameter}"
-        else:
-            piece = f"{coefficient}*{term.parameter}"
-        text += (f" - {piece[1:]}" if piece.startswith("-") else f" + {piece}") if text else piece
-    return base.name if text == base.name else f"{base.name} = {text}"
-
-
-def _is_sum(coefficient: str) -> bool:
-    depth = 0
-    for previous, letter in zip(" " + coefficient, coefficient, strict=False):
-        depth += (letter == "(") - (letter == ")")
-        if letter in "+-" and depth == 0 and previous == " " and coefficient[0] != letter:
-            return True
-    return False
+    name, text = parameter.name, relation_text(parameter)
+    return name if text == f"{name} = {name}" else text
 
 
 def comment_text(text: str) -> str:
@@ -42,14 +26,19 @@ def comment_text(text: str) -> str:
     return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 
-def parameter_lines(spec: ModuleSpec) -> tuple[list[str], list[str]]:
-    """Comment lines that say which column is which parameter: (standard, base)."""
+def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Comment lines that say which column is which parameter: (standard, base).
+
+    Args:
+        spec: of the module.
+        relations: what `relation` writes of each base parameter.
+    """
     standard = [
         f"{i:4d}  {parameter.name:<8} {parameter.unit}" for i, parameter in enumerate(spec.standard)
     ]
     base = []
-    for i, parameter in enumerate(spec.base):
-        base += _wrap(f"{i:4d}  {relation(parameter)}  [{parameter.unit}]", " " * 8)
+    for i, (parameter, text) in enumerate(zip(spec.base, relations, strict=True)):
+        base += _wrap(f"{i:4d}  {text}  [{parameter.unit}]", " " * 8)
     return [comment_line(line) for line in standard], base
 
 

@@ -1,10 +1,11 @@
 """The manifest of an emitted module: everything the numeric stages will know of the robot."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import sympy
 
-from modeler.base.result import BaseParameter, BaseParameters
+from modeler.base.relation_text import coefficient_text
+from modeler.base.result import BaseParameters
 from modeler.codegen.block import Block
 from modeler.codegen.functions import Function
 from modeler.codegen.names import module_prefix
@@ -22,6 +23,7 @@ from modeler.core.contract import (
 )
 from modeler.robot import Joint, Robot
 from modeler.symbolic import StandardColumn, SymbolicModel
+from modeler.symbolic.precise import precise_values
 from modeler.symbolic.signals import Signal
 
 
@@ -40,13 +42,9 @@ def module_spec(
         symbols=tuple(SymbolSpec(name, value) for name, value in values.items()),
         joints=tuple(_joint(robot, joint) for joint in robot.coordinates),
         standard=tuple(_standard(model, column) for column in model.columns),
-        base=tuple(_base(model, parameter) for parameter in base.parameters),
+        base=_bases(model, base),
         unidentifiable=tuple(base.unidentifiable),
-        functions=tuple(
-            _function(prefix, function, block)
-            for function, block in blocks
-            if not function.internal
-        ),
+        functions=_functions(prefix, list(blocks)),
         closure=_closure(model),
         signals=tuple(_signal(model, signal) for signal in model.signals),
     )
@@ -101,43 +99,64 @@ def _nonnegative(column: StandardColumn) -> bool:
     return column.column.nonnegative
 
 
-def _base(model: SymbolicModel, parameter: BaseParameter) -> BaseSpec:
-    column = model.columns[parameter.column]
-    return BaseSpec(
-        name=parameter.name,
-        column_of=column.name,
-        unit=column.unit,
-        kind=column.kind,
-        rows=_rows(model, parameter.column),
-        terms=tuple(
-            TermSpec(
-                str(term.coefficient),
-                _number(model, term.coefficient, model.geometry.values),
-                term.parameter,
+def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
+    """The base parameters; entries of the regressor and equal coefficients are looked at once."""
+    rows: dict[int, list[int]] = {}
+    for joint, place in model.regressor:
+        rows.setdefault(place, []).append(joint)
+    every = range(len(model.closure.given)) if model.closure is not None else None
+    terms: dict[sympy.Expr, tuple[str, float]] = {}
+    for parameter in base.parameters:
+        for term in parameter.terms:
+            if term.coefficient not in terms:
+                number = _number(model, term.coefficient, model.geometry.values)
+                terms[term.coefficient] = coefficient_text(term.coefficient), number
+    found = []
+    for parameter in base.parameters:
+        column = model.columns[parameter.column]
+        found.append(
+            BaseSpec(
+                name=parameter.name,
+                column_of=column.name,
+                unit=column.unit,
+                kind=column.kind,
+                # With loops a column can enter the torque of every coordinate.
+                rows=tuple(every or sorted(rows.get(parameter.column, ()))),
+                terms=tuple(TermSpec(*terms[t.coefficient], t.parameter) for t in parameter.terms),
             )
-            for term in parameter.terms
-        ),
-    )
-
-
-def _rows(model: SymbolicModel, column: int) -> tuple[int, ...]:
-    """Coordinates whose torque the column can enter; with loops all."""
-    if model.closure is not None:
-        return tuple(range(len(model.closure.given)))
-    return tuple(sorted(joint for joint, k in model.regressor if k == column))
+        )
+    return tuple(found)
 
 
 def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
-    return float(model.graph.evaluate([model.algebra.static(coefficient)], values)[0])
+    return float(precise_values(model.graph, [model.algebra.static(coefficient)], values)[0])
 
 
-def _function(prefix: str, function: Function, block: Block | None) -> FunctionSpec:
-    return FunctionSpec(
-        name=f"{prefix}_{function.role}",
-        equation=function.equation,
-        inputs=function.inputs,
-        outputs=(function.output,),
-        additions=block.additions if block else 0,
-        multiplications=block.multiplications if block else 0,
-        status=function.body is not None,
-    )
+def _functions(
+    prefix: str, blocks: Sequence[tuple[Function, Block | None]]
+) -> tuple[FunctionSpec, ...]:
+    """The public ones; one that closes loops has the operations of all that it calls, once each."""
+    own = {function.role: _operations(block) for function, block in blocks}
+    found = []
+    for function, block in blocks:
+        if function.internal:
+            continue
+        parts = [_operations(block)]
+        if function.closed is not None:
+            parts = [own[role] for role in function.closed.calls if role in own]
+        found.append(
+            FunctionSpec(
+                name=f"{prefix}_{function.role}",
+                equation=function.equation,
+                inputs=function.inputs,
+                outputs=(function.output,),
+                additions=sum(additions for additions, _ in parts),
+                multiplications=sum(multiplications for _, multiplications in parts),
+                status=function.closed is not None,
+            )
+        )
+    return tuple(found)
+
+
+def _operations(block: Block | None) -> tuple[int, int]:
+    return (block.additions, block.multiplications) if block else (0, 0)

@@ -48,8 +48,17 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     return macros
 
 
-def graph_places(joints: int, macros: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
+def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
+    """{geometric symbol: C constant that the functions read}: D4 -> puma560_geo_D4.
+
+    What stands in a macro is text, and may be any expression: `-0.613-0.01` squared would be no
+    square. As the initialiser of a `const double` it is one number.
+    """
+    return {symbol: f"{prefix}_geo_{symbol}" for symbol in symbols}
+
+
+def graph_places(joints: int, symbols: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
     """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
     kinds = ("q", "qd", "qdd", "dq")
     inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]
-    return {**macros, **{name: name for name in (*inputs, *arrays)}}
+    return {**symbols, **{name: name for name in (*inputs, *arrays)}}

@@ -54,7 +54,7 @@ def number_text(value: Fraction) -> Text:
 
 
 def float_text(value: float) -> str:
-    """Text of a double, of either sign, as the operand of a macro: `0.2`, `(-0.1)`."""
+    """Text of a double, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
     return repr(value) if value >= 0 else f"({value!r})"
 
 

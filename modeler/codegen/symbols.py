@@ -25,13 +25,15 @@ class SymbolLines:
 
     Attributes:
         free: (macro, value) of those that -D replaces.
-        fixed: (macro, value) of those that must stay; no value for those that no line reads.
+        fixed: macros of those that must stay.
         why: why these must stay, one sentence.
+        initial: {symbol: what its constant is initialised with}: the macro, or the value.
     """
 
     free: tuple[tuple[str, str], ...]
-    fixed: tuple[tuple[str, str | None], ...]
+    fixed: tuple[str, ...]
     why: str
+    initial: Mapping[str, str]
 
 
 def symbol_lines(
@@ -52,13 +54,12 @@ def symbol_lines(
     stay = deciding_symbols(model.geometry) if exact else frozenset(values)
     texts = {name: float_text(value) for name, value in values.items()}
     return SymbolLines(
-        tuple((macros[name], text) for name, text in texts.items() if name not in stay),
-        tuple(
-            (macros[name], texts.get(name))
-            for name in model.robot.symbols
-            if name in stay or name not in texts
+        free=tuple((macros[name], text) for name, text in texts.items() if name not in stay),
+        fixed=tuple(
+            macros[name] for name in model.robot.symbols if name in stay or name not in texts
         ),
-        _SOME if exact else _ALL,
+        why=_SOME if exact else _ALL,
+        initial={name: text if name in stay else macros[name] for name, text in texts.items()},
     )
 
 

@@ -1,24 +1,85 @@
-"""Emitted files to disk."""
+"""Emitted files to disk, over what an earlier run wrote and over nothing else."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
+from modeler.codegen.record import RECORD, Record, checksum, read_record, record_text
 from modeler.core.contract import Emitted
-from modeler.core.files import write_atomically
+from modeler.core.errors import ModelerError
+from modeler.core.files import check_room, write_atomically
 
 
-def write_emitted(emitted: Emitted, folder: Path) -> tuple[str, ...]:
+def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[str, ...]:
     """Names of the files that were written: those that are new or have changed.
 
     A file that says the same already keeps its time, so that `make` has nothing to do. Other files
-    of the folder are left alone: it may be the user's controller.
+    of the folder are left alone: it may be the user's controller. What is written is recorded
+    beside it (`generated.sha256`), so that the next run knows its own files from the user's.
+
+    Args:
+        emitted: the files.
+        folder: made if it is not there.
+        force: write also over files that no earlier run wrote, or that were edited since.
 
     Raises:
-        ModelerError: the folder cannot be written.
+        ModelerError: the folder holds such files, which are named, and nothing is written; or it
+            cannot be written.
     """
-    written = []
-    for name, text in emitted.files.items():
-        path = Path(folder) / name
-        if not path.is_file() or path.read_bytes() != text.encode():
-            write_atomically(path, text)
-            written.append(name)
-    return tuple(written)
+    folder = Path(folder)
+    new = {name: text.encode() for name, text in emitted.files.items()}
+    try:
+        old = {name: _content(folder / name) for name in new}
+        known = read_record(folder)
+    except OSError as error:
+        raise ModelerError(
+            f"{error.filename or folder}: cannot be read ({error.strerror}); nothing is written "
+            "over what is not known; choose another folder"
+        ) from error
+    changed = [name for name in new if old[name] != new[name]]
+    if not force:
+        _check(folder, [name for name in changed if old[name] is not None], old, known)
+    record = {name: sums for name, sums in (known or {}).items() if (folder / name).is_file()}
+    sums = {name: frozenset([checksum(content)]) for name, content in new.items()}
+    check_room(folder, sum(len(new[name]) for name in changed))
+    # Both are known while files are replaced, so that a run that was stopped can be repeated.
+    _save(folder, {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}})
+    for name in changed:
+        write_atomically(folder / name, new[name])
+    _save(folder, {**record, **sums})
+    return tuple(changed)
+
+
+def _content(path: Path) -> bytes | None:
+    """Of a file; empty of anything else, None of nothing."""
+    if path.is_file():
+        return path.read_bytes()
+    return b"" if path.exists() else None
+
+
+def _check(
+    folder: Path, changed: Sequence[str], old: dict[str, bytes | None], known: Record | None
+) -> None:
+    """Nothing is lost that somebody wrote by hand."""
+    foreign, edited = [RECORD] if known is None else [], []
+    for name in changed:
+        content = old[name]
+        if not known or name not in known:
+            foreign.append(name)
+        elif content is not None and checksum(content) not in known[name]:
+            edited.append(name)
+    told = []
+    if foreign:
+        told.append(f"{', '.join(sorted(foreign))}, not known to be of an earlier generate")
+    if edited:
+        told.append(f"{', '.join(sorted(edited))}, edited since an earlier generate")
+    if told:
+        raise ModelerError(
+            f"{folder}: would write over {'; and over '.join(told)}; choose another folder, or "
+            "write over them with --force"
+        )
+
+
+def _save(folder: Path, record: Record) -> None:
+    path, text = folder / RECORD, record_text(record)
+    if not path.is_file() or path.read_bytes() != text.encode():
+        write_atomically(path, text)

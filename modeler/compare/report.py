@@ -27,7 +27,7 @@ from modeler.compare.verdict import (
     percent,
     wrong_scale,
 )
-from modeler.core.files import write_atomically
+from modeler.core.files import page_place, write_atomically
 
 _TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
 _REGION_PHRASES = {
@@ -56,9 +56,7 @@ def write_report(path: Path, comparison: Comparison, provenance: Sequence[str] =
     Raises:
         ModelerError: the place cannot be written.
     """
-    path = Path(path)
-    if path.suffix.lower() not in (".html", ".htm"):
-        path = path / "compare.html"
+    path = page_place(path, "compare.html")
     write_atomically(path, report_html(comparison, provenance))
     return path
 

@@ -26,11 +26,9 @@ def build_library(sources: Mapping[str, str]) -> Path:
     """
     tools = find_toolchain()
     folder = cache_folder() / _key(sources, tools)
-    kept = _intact(folder)
-    if kept is not None:
-        return kept
     try:
-        return _build(sources, tools, folder)
+        kept = _intact(folder)
+        return kept if kept is not None else _build(sources, tools, folder)
     except OSError as error:
         raise BuildError(
             f"{folder}: the compiled library cannot be written ({error.strerror}); set "

@@ -272,14 +272,23 @@ def load_folder(folder: Path | str) -> CompiledModel:
         raise ManifestError(
             f"{folder}: no {MANIFEST}; expected a folder that `modeler generate` wrote"
         )
-    spec = module_from_json(manifest.read_text("utf-8"), str(manifest))
+    spec = module_from_json(_content(manifest), str(manifest))
     check_names(spec)
-    files = {
-        name: (folder / name).read_text("utf-8")
-        for name in spec.sources
-        if (folder / name).is_file()
-    }
+    files = {}
+    for name in spec.sources:
+        if (folder / name).is_file():
+            try:
+                files[name] = _content(folder / name).decode()
+            except UnicodeDecodeError:
+                raise ManifestError(f"{folder / name}: no text; generate it again") from None
     return load(spec, files)
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None
 
 
 def _checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:

@@ -27,7 +27,8 @@ _WANTED = (
     ("-ffp-contract=fast",),
     ("-march=native", "-mcpu=native"),
 )
-_ALWAYS = ("-std=c99", "-O2", "-fPIC")
+_ALWAYS = ("-std=c99", "-fPIC")
+_OPTIMISED = "-O2"
 
 
 @dataclass(frozen=True)
@@ -48,36 +49,63 @@ class Toolchain:
 def find_toolchain() -> Toolchain:
     """The compiler named by the environment variable CC, else the first of cc, gcc, clang.
 
+    The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O2,
+    code for this very processor, fused multiply-add.
+
     Raises:
-        BuildError: there is none; says what to install.
+        BuildError: there is none, or it does not know a flag of CFLAGS; says what to do.
     """
     wanted = os.environ.get("CC", "").strip()
     if wanted:
-        command = tuple(shlex.split(wanted))
+        command = _words("CC", wanted)
         if shutil.which(command[0]) is None:
             raise BuildError(
                 f'C compiler: got CC="{wanted}", which is not found; correct it, or {_INSTALL}'
             )
-        return _examined(command)
+        return _examined(command, _own_flags())
     for name in ("cc", "gcc", "clang"):
         if shutil.which(name) is not None:
-            return _examined((name,))
+            return _examined((name,), _own_flags())
     raise BuildError(f"C compiler: none of cc, gcc, clang is found; {_INSTALL}")
 
 
+def _own_flags() -> tuple[str, ...]:
+    return _words("CFLAGS", os.environ.get("CFLAGS", ""))
+
+
+def _words(variable: str, text: str) -> tuple[str, ...]:
+    try:
+        return tuple(shlex.split(text))
+    except ValueError as error:
+        raise BuildError(
+            f'C compiler: got {variable}="{text}" ({error}); expected words as in a shell; '
+            "correct it"
+        ) from None
+
+
 @lru_cache(maxsize=8)
-def _examined(command: tuple[str, ...]) -> Toolchain:
-    flags: list[str] = []
+def _examined(command: tuple[str, ...], own: tuple[str, ...]) -> Toolchain:
+    used = (*_ALWAYS, *(own or (_OPTIMISED, *_known(command))))
+    # The predefined macros name the compiler's version and, with -march=native, this processor.
+    macros = _run(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
+    if own and macros.returncode != 0 and _knows(command, []):
+        said = macros.stderr.strip().partition("\n")[0]
+        raise BuildError(
+            f'C compiler: {shlex.join(command)} refuses CFLAGS="{shlex.join(own)}" ({said}); '
+            "correct it, or leave it empty"
+        )
+    return Toolchain(command, used, macros.stdout)
+
+
+def _known(command: tuple[str, ...]) -> list[str]:
+    """The wanted flags that the compiler knows."""
     favourites = [alternatives[0] for alternatives in _WANTED]
     if _knows(command, favourites):  # one start of the compiler instead of one per flag
-        flags = favourites
-    else:
-        for alternatives in _WANTED:
-            flags += [flag for flag in alternatives if _knows(command, [flag])][:1]
-    used = (*_ALWAYS, *flags)
-    # The predefined macros name the compiler's version and, with -march=native, this processor.
-    macros = _run(command, [*used[:2], *flags, "-dM", "-E", "-x", "c", os.devnull])
-    return Toolchain(command, used, macros.stdout)
+        return favourites
+    flags: list[str] = []
+    for alternatives in _WANTED:
+        flags += [flag for flag in alternatives if _knows(command, [flag])][:1]
+    return flags
 
 
 def _knows(command: Sequence[str], flags: Sequence[str]) -> bool:
@@ -119,4 +147,7 @@ def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:
     result = _run([*tools.command, *tools.flags], arguments)
     if result.returncode != 0:
         words = result.stderr.strip() or f"exit status {result.returncode}, without a word"
-        raise BuildError(f"{shlex.join(tools.command)} refused the emitted code:\n{words}")
+        raise BuildError(
+            f"C compiler: {shlex.join(tools.command)} refused the emitted code:\n{words}\n"
+            "(check it, or name another one in CC)"
+        )

@@ -13,8 +13,10 @@ from functools import cached_property
 from typing import Any
 
 from modeler.core.errors import ManifestError
+from modeler.core.json_text import JsonError, parse_json, shown
+from modeler.core.plain import PlainError, built
 
-FORMAT = 1
+FORMAT = 2
 
 RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 """Hand-written C files that stand beside every emitted module."""
@@ -44,7 +46,7 @@ class FunctionSpec:
     equation: str  # "tau = phi beta"
     inputs: tuple[ArgumentSpec, ...]
     outputs: tuple[ArgumentSpec, ...]
-    additions: int
+    additions: int  # of all that it calls, once each: loops are closed in some turns
     multiplications: int
     status: bool = False  # returns 0 if it could do its work: loops may not close
 
@@ -145,6 +147,7 @@ class ModuleSpec:
     functions: tuple[FunctionSpec, ...]
     closure: ClosureSpec | None = None
     signals: tuple[SignalSpec, ...] = ()
+    code: str = ""  # digest of the sources, their signature left out: see `code_digest`
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -178,8 +181,22 @@ class ModuleSpec:
         return json.dumps(dataclasses.asdict(self), indent=1) + "\n"
 
     def signature(self) -> str:
-        """Hash that the emitted library repeats, so that a stale library is noticed."""
+        """Hash that the emitted library repeats, so that a stale library is noticed.
+
+        Of the whole manifest, and with it of the whole C text: two robots of the same signature
+        have the same C. It is the same on every machine.
+        """
         return hashlib.sha256(self.to_json().encode()).hexdigest()[:16]
+
+
+def code_digest(sources: Mapping[str, str]) -> str:
+    """Digest of the C files of `ModuleSpec.sources`, with an empty text for the signature.
+
+    The signature stands in the C itself, so it is put there last: it covers all the rest.
+    """
+    parts = [part for name in sorted(sources) for part in (name, sources[name])]
+    # Lengths first: no two lists of parts give the same bytes.
+    return hashlib.sha256("".join(f"{len(part)}:{part}" for part in parts).encode()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -195,50 +212,31 @@ class Emitted:
     files: Mapping[str, str]
 
 
-def module_from_json(text: str, where: str) -> ModuleSpec:
+def module_from_json(text: bytes | str, where: str) -> ModuleSpec:
     """Read a manifest back.
 
     Raises:
         ManifestError: not a manifest, or of another format; `where` names the file.
     """
     try:
-        raw = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise ManifestError(f"{where}: not JSON ({error}); generate it again") from None
+        return module_from_plain(parse_json(text), where)
+    except JsonError as error:
+        raise ManifestError(f"{where}: {error}; generate it again") from None
+
+
+def module_from_plain(raw: Any, where: str) -> ModuleSpec:
+    """A manifest from its JSON value.
+
+    Raises:
+        ManifestError: as `module_from_json`.
+    """
     if not isinstance(raw, dict) or "format" not in raw:
         raise ManifestError(f"{where}: not a manifest; expected the output of `modeler generate`")
     if raw["format"] != FORMAT:
         raise ManifestError(
-            f"{where}: manifest format {raw['format']}, expected {FORMAT}; generate it again"
+            f"{where}: manifest format {shown(raw['format'])}, expected {FORMAT}; generate it again"
         )
     try:
-        return _build(ModuleSpec, raw)
-    except (TypeError, KeyError, ValueError) as error:
+        return built(ModuleSpec, raw)
+    except PlainError as error:
         raise ManifestError(f"{where}: damaged manifest ({error}); generate it again") from None
-
-
-_NESTED: dict[str, type] = {
-    "ModuleSpec.symbols": SymbolSpec,
-    "ModuleSpec.joints": JointSpec,
-    "ModuleSpec.standard": ParameterSpec,
-    "ModuleSpec.base": BaseSpec,
-    "ModuleSpec.functions": FunctionSpec,
-    "ModuleSpec.signals": SignalSpec,
-    "FunctionSpec.inputs": ArgumentSpec,
-    "FunctionSpec.outputs": ArgumentSpec,
-    "BaseSpec.terms": TermSpec,
-}
-
-
-def _build(cls: Any, raw: dict[str, Any]) -> Any:
-    values = {}
-    for name, value in raw.items():
-        nested = _NESTED.get(f"{cls.__name__}.{name}")
-        if name == "closure" and value is not None:
-            value = _build(ClosureSpec, value)
-        elif nested is not None:
-            value = tuple(_build(nested, item) for item in value)
-        elif isinstance(value, list):
-            value = tuple(value)
-        values[name] = value
-    return cls(**values)

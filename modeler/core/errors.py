@@ -1,5 +1,8 @@
 """The errors a user may see: one line that says where, got, expected, what to do."""
 
+LONGEST = 1000
+"""Characters of a line that somebody still reads."""
+
 
 class ModelerError(Exception):
     """The input is at fault; the command line prints the message and ends with status 1."""
@@ -35,3 +38,16 @@ class ManifestError(ModelerError):
 
 class LoopError(ModelerError):
     """A kinematic loop leaves too much or too little free, is singular, or cannot close."""
+
+
+def on_one_line(message: str) -> str:
+    """The message as one line: line ends, other control characters and what is endless made short.
+
+    A name of a file may hold anything, and a compiler's own words are many lines.
+    """
+    lines = [line.strip() for line in message.splitlines()]
+    text = " ".join(line for line in lines if line)
+    text = "".join(c if c.isprintable() else "?" for c in text)
+    if len(text) <= LONGEST:
+        return text
+    return f"{text[: LONGEST // 2]} ... {text[-LONGEST // 2 :]}"

@@ -7,13 +7,23 @@ numbers, numpy arrays, sympy, or the expression graph.
 
 import ast
 import math
+import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from modeler.core import rounded
+
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
+_KNOWN = (*FUNCTIONS, "pi")
 _BINARY = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+
+MOST_LETTERS = 4000
+MOST_OPERATIONS = 300
+DEEPEST = 30
+"""Parentheses, functions, powers and signs inside each other. Sums and products are not deep."""
+LARGEST_EXPONENT = 100
 
 
 class ExpressionError(ValueError):
@@ -39,13 +49,8 @@ class Expression:
         return not self.names and self.number() == 0.0
 
     def number(self, values: Mapping[str, float] | None = None) -> float:
-        """Its value in floating point, with `values` for the names."""
-        functions: dict[str, Callable[[Any], Any]] = {
-            "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt,
-            "exp": math.exp, "abs": abs, "tanh": math.tanh,
-            "sign": lambda x: float((x > 0) - (x < 0)),
-        }  # fmt: skip
-        return float(self.fold(values or {}, functions, math.pi, float))
+        """Its value in floating point, with `values` for the names; the same on every machine."""
+        return float(self.fold(values or {}, rounded.FUNCTIONS, math.pi, float, rounded.power))
 
     def fold(
         self,
@@ -53,6 +58,7 @@ class Expression:
         functions: Mapping[str, Callable[[Any], Any]],
         pi: Any,
         constant: Callable[[Fraction], Any],
+        power: Callable[[Any, Any], Any] = operator.pow,
     ) -> Any:
         """Evaluate over any algebra with Python operators.
 
@@ -60,8 +66,8 @@ class Expression:
             values: what stands for each name.
             functions: what stands for each function of `FUNCTIONS` that is used.
             pi: what stands for pi.
-            constant: turns an exact rational number into the algebra's constant. Integer
-                exponents stay Python integers.
+            constant: turns an exact rational number into the algebra's constant.
+            power: what stands for `**`; integer exponents stay Python integers.
         """
 
         def walk(node: ast.expr) -> Any:
@@ -77,7 +83,7 @@ class Expression:
             assert isinstance(node, ast.BinOp)
             left = walk(node.left)
             if isinstance(node.op, ast.Pow):
-                return left ** _exponent(node.right, walk)
+                return power(left, _exponent(node.right, walk))
             right = walk(node.right)
             if isinstance(node.op, ast.Add):
                 return left + right
@@ -100,7 +106,8 @@ def parse(value: str | int | float) -> Expression:
         )
     if isinstance(value, float) and not math.isfinite(value):
         raise ExpressionError(f"got {value!r}; expected a finite number")
-    text = value.strip() if isinstance(value, str) else repr(value)
+    text = value.strip() if isinstance(value, str) else _written(value)
+    _check_text(text)
     try:
         tree = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -108,9 +115,84 @@ def parse(value: str | int | float) -> Expression:
             f'got "{text}", which cannot be read; expected a number or an expression '
             'such as "q1 + pi/2"'
         ) from None
+    _check_size(tree, text)
     names: set[str] = set()
     _check(tree, text, names)
+    _check_exponents(tree, text)
     return Expression(text, frozenset(names), tree)
+
+
+def _written(value: int | float) -> str:
+    try:
+        return repr(value)
+    except ValueError:  # Python prints no integer of more than 4300 digits
+        raise ExpressionError(
+            "got a number of thousands of digits; expected a finite number"
+        ) from None
+
+
+def _check_text(text: str) -> None:
+    """Refuse text that is too long, or too deep in parentheses, before it is parsed."""
+    if len(text) > MOST_LETTERS:
+        raise ExpressionError(
+            f'got "{text}" of {len(text)} letters; expected at most {MOST_LETTERS}: give its '
+            "parts names in [symbols]"
+        )
+    depth = deepest = 0
+    for letter in text:
+        depth += (letter == "(") - (letter == ")")
+        deepest = max(deepest, depth)
+    if deepest > DEEPEST:
+        raise ExpressionError(_too_deep(text))
+
+
+def _too_deep(text: str) -> str:
+    return (
+        f'got "{text}", with parentheses, functions, powers or signs inside each other; expected '
+        f"at most {DEEPEST}: give the inner ones names in [symbols]"
+    )
+
+
+def _check_size(tree: ast.expr, text: str) -> None:
+    """Refuse trees that a recursion over them should not meet; itself without recursion."""
+    count = 0
+    left: list[tuple[ast.AST, int]] = [(tree, 0)]
+    while left:
+        node, depth = left.pop()
+        if depth > DEEPEST:
+            raise ExpressionError(_too_deep(text))
+        if not isinstance(node, ast.Constant | ast.Name):
+            count += 1
+        # The left side of a sum or product is the same sum or product: not deeper.
+        chain = isinstance(node, ast.BinOp) and not isinstance(node.op, ast.Pow)
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.expr):
+                same = chain and child is node.left  # type: ignore[attr-defined]
+                left.append((child, depth + (not same)))
+    if count > MOST_OPERATIONS:
+        raise ExpressionError(
+            f'got "{text}" of {count} operations; expected at most {MOST_OPERATIONS}: give its '
+            "parts names in [symbols]"
+        )
+
+
+def _check_exponents(tree: ast.expr, text: str) -> None:
+    """Refuse exponents without names beyond `LARGEST_EXPONENT`: exact powers would fill memory."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Pow):
+            continue
+        if any(isinstance(n, ast.Name) and n.id not in _KNOWN for n in ast.walk(node.right)):
+            continue
+        try:
+            size = abs(Expression(text, frozenset(), node.right).number())
+        except OverflowError:
+            size = math.inf
+        except (ArithmeticError, ValueError, TypeError):
+            continue  # it has no value: told where its value is asked for
+        if size > LARGEST_EXPONENT:
+            raise ExpressionError(
+                f'got "{text}", with an exponent of {size:.3g}; expected at most {LARGEST_EXPONENT}'
+            )
 
 
 def _check(node: ast.expr, text: str, names: set[str]) -> None:

@@ -1,67 +1,197 @@
-"""Writing files so that nothing is ever half-written."""
+"""Writing files so that nothing is ever half-written, and nothing but a file replaced."""
 
+import contextlib
+import errno
 import os
-import tempfile
+import stat
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from modeler.core.destination import Destination, Kind, destination
 from modeler.core.errors import ModelerError
+
+_CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+
+
+def write_atomically(path: Path, content: bytes | str) -> None:
+    r"""Write `content` to `path`; readers of a file see the old one or the new one.
+
+    A regular file, or none, is written beside its place and renamed: through symbolic links, with
+    the permissions of the old file, or those that the umask leaves to a new one. Devices, pipes
+    and our own open files (/dev/stdout, /dev/fd/N) are written to as they are.
+
+    Text is written as UTF-8 with `\n` line ends on every system; bytes of file names that are no
+    UTF-8 as \udcXX.
+
+    Raises:
+        ModelerError: a folder or socket is there, the file is write-protected, or its folder is
+            missing or not writable; says which.
+        BrokenPipeError: the reader of a pipe has gone.
+    """
+    data = content.encode(errors="backslashreplace") if isinstance(content, str) else content
+    path = Path(path)
+    with _told(path):
+        found = destination(path)
+        if found.kind in (Kind.NEW, Kind.FILE):
+            _replace(found, data)
+        else:
+            _pour(_opened(found), data)
 
 
 def check_writable(path: Path) -> None:
     """Refuse a place that cannot be written, before the work that it is for; nothing is left there.
 
     Raises:
-        ModelerError: it is a folder, or its folder is missing and cannot be made, or is not
-            writable; says which.
+        ModelerError: it is a folder or a socket, or write-protected, or its folder is missing and
+            cannot be made, or is not writable; says which.
     """
     path = Path(path)
-    if path.is_dir():
-        raise ModelerError(f"{path}: is a folder; expected the name of a file to write")
-    made = [folder for folder in path.parents if not folder.exists()]
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        os.close(handle)
-        Path(beside).unlink()
-    except OSError as error:
-        raise _unwritable(path, error) from error
-    finally:
-        for folder in made:
-            if folder.exists():
-                folder.rmdir()
+    with _told(path):
+        found = destination(path)
+        if found.kind is Kind.DESCRIPTOR:
+            _check_descriptor(found.descriptor)
+            return
+        _check_access(found)
+        if found.kind is not Kind.NODE:
+            _check_folder(found.place.parent)
 
 
-def write_atomically(path: Path, content: bytes | str) -> None:
-    r"""Write `content` beside `path`, then rename: readers see the old file or the new one.
-
-    Text is written as UTF-8 with `\n` line ends on every system.
+def check_folder_writable(folder: Path) -> None:
+    """Refuse a folder that cannot be made, or that new files cannot be put into; leaves nothing.
 
     Raises:
-        ModelerError: the folder is missing or not writable; says which.
+        ModelerError: says why.
     """
-    data = content.encode() if isinstance(content, str) else content
+    folder = Path(folder)
+    with _told(folder):
+        _check_folder(Path(os.path.realpath(folder)))
+
+
+def check_room(folder: Path, size: int) -> None:
+    """Refuse a folder into which so many bytes do not fit, before the first of several files.
+
+    Raises:
+        ModelerError: says why; nothing is left there.
+    """
+    folder = Path(folder)
+    with _told(folder):
+        place = Path(os.path.realpath(folder))
+        there = next(one for one in (place, *place.parents) if one.exists())
+        beside = _beside(there)
+        try:
+            _pour(os.open(beside, _CREATE, 0o600), bytes(size))
+        finally:
+            beside.unlink(missing_ok=True)
+
+
+def page_place(path: Path, name: str) -> Path:
+    """Where a page goes that is given as an `.html` file, as a pipe or device, or as a folder.
+
+    In a folder, which need not be there yet, it is called `name`.
+    """
     path = Path(path)
+    if path.suffix.lower() in (".html", ".htm"):
+        return path
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise _unwritable(path, error) from error
+        found = destination(path)
+    except (ModelerError, OSError):
+        return path / name
+    return path if found.kind in (Kind.NODE, Kind.DESCRIPTOR) else path / name
+
+
+@contextlib.contextmanager
+def _told(path: Path) -> Iterator[None]:
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-        Path(beside).chmod(0o644)
-        Path(beside).replace(path)
+        yield
+    except BrokenPipeError:
+        raise
     except OSError as error:
-        Path(beside).unlink(missing_ok=True)
+        what = error.strerror or str(error)
         raise ModelerError(
-            f"{path}: cannot be written ({error.strerror}); choose another place"
+            f"{path}: cannot be written ({what}); choose a place you may write to"
         ) from error
+
+
+def _replace(found: Destination, data: bytes) -> None:
+    place = found.place
+    place.parent.mkdir(parents=True, exist_ok=True)
+    _check_access(found)
+    beside = _beside(place.parent)
+    try:
+        # What replaces a private file is private from the start.
+        handle = os.open(beside, _CREATE, 0o666 if found.status is None else 0o600)
+        _pour(handle, data)
+        if found.status is not None:
+            _make_like(beside, found.status)
+        beside.replace(place)
     except BaseException:
-        Path(beside).unlink(missing_ok=True)
+        beside.unlink(missing_ok=True)
         raise
 
 
-def _unwritable(path: Path, error: OSError) -> ModelerError:
-    return ModelerError(
-        f"{path}: cannot be written ({error.strerror}); choose a folder you may write to"
-    )
+def _beside(folder: Path) -> Path:
+    """A name that nobody has, short enough beside any other."""
+    return folder / f".modeler-{os.urandom(8).hex()}"
+
+
+def _make_like(path: Path, status: os.stat_result) -> None:
+    """Permissions of the old file; and its owner and group, where we may."""
+    chown: Callable[[Path, int, int], None] | None = getattr(os, "chown", None)
+    if chown is not None:
+        for uid, gid in ((-1, status.st_gid), (status.st_uid, -1)):
+            with contextlib.suppress(OSError):
+                chown(path, uid, gid)
+    path.chmod(stat.S_IMODE(status.st_mode) & 0o777)
+
+
+def _opened(found: Destination) -> int:
+    if found.kind is Kind.NODE:
+        return os.open(found.place, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOCTTY", 0))
+    for stream in (sys.stdout, sys.stderr):  # what was printed before comes before
+        if stream is not None:
+            stream.flush()
+    return os.dup(found.descriptor)
+
+
+def _pour(handle: int, data: bytes) -> None:
+    """Write all and close."""
+    try:
+        left = memoryview(data)
+        while left:
+            left = left[os.write(handle, left) :]
+    finally:
+        os.close(handle)
+
+
+def _check_access(found: Destination) -> None:
+    if found.status is not None and not os.access(found.place, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
+def _check_descriptor(number: int) -> None:
+    import fcntl  # where files have numbers in the file system, there is fcntl
+
+    if fcntl.fcntl(number, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDONLY:
+        raise OSError(errno.EBADF, "open for reading only")
+
+
+def _check_folder(folder: Path) -> None:
+    """Try the folder, or the nearest one that there is, with a file that has no name."""
+    there = next(place for place in (folder, *folder.parents) if place.exists())
+    if not there.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+    nameless = getattr(os, "O_TMPFILE", None)
+    if nameless is not None:
+        try:
+            os.close(os.open(there, nameless | os.O_WRONLY, 0o600))
+            return
+        except OSError as error:
+            unknown = (errno.EOPNOTSUPP, errno.EISDIR, errno.ENOENT, errno.EINVAL)
+            if error.errno not in unknown:
+                raise
+    beside = _beside(there)
+    try:
+        os.close(os.open(beside, _CREATE, 0o600))
+    finally:
+        beside.unlink(missing_ok=True)

@@ -6,7 +6,6 @@ import numpy as np
 
 from modeler.diagnose.blind import blind_spots
 from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.channels import Fault
 from modeler.diagnose.closure import CLOSED, closure
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
@@ -15,6 +14,7 @@ from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.plausible import objection
+from modeler.diagnose.profile import profile_of
 from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
 from modeler.diagnose.search import Search, Step
@@ -22,9 +22,10 @@ from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import systematic_share
 from modeler.diagnose.timing import instrumental
-from modeler.diagnose.values import shape_units, values_of
+from modeler.diagnose.values import named_intervals, shape_units, values_of
 from modeler.effects import RIPPLES, Acts
 from modeler.fit import IdentifiedModel
+from modeler.observation.channels import Fault
 
 LOST = 1.0
 """Held-out error of a joint from which on the model says nothing about that motion."""
@@ -154,7 +155,11 @@ def _finding(
     values, deviations = found.end.values[place], judged.deviations * _left(found, step, touched)
     if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
         values, deviations = instrumental(step.before, pick)
+    along = profile_of(found.end, place)
+    if along is not None:
+        deviations = along.deviations()
     named = values_of(found.end, pick, values, deviations)
+    intervals = {} if along is None else named_intervals(along, named)
     parameters = named.value | dict(pick.shapes)
     start, end = (finite(over(found.end, touched, error)) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
@@ -166,7 +171,8 @@ def _finding(
         error_before=start,
         error_after=end,
         parameters=parameters,
-        sigmas=named.deviation,
+        sigmas=named.deviation | ({} if along is None else along.shape_deviations()),
+        intervals=intervals,
         units=named.unit | shape_units(found.end, pick),
         ties=ties,
         evidence=evidence(step, start, end),

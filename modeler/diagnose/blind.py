@@ -27,6 +27,7 @@ def blind_spots(found: Search) -> tuple[Key, ...]:
         hidden.append(("payload", None))
     hidden += [key for key in _unmoved(found.start) if not ruled(*key)]
     named = {step.pick.key for step in found.steps}
+    named |= {tie.candidate.key for step in found.steps for tie in step.ties}
     kept = [key for key in dict.fromkeys(hidden) if key not in named]
     assert all(effect_named(name, found.start.data.known.catalogue) is not None for name, _ in kept)
     return tuple(kept)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.contract import JointSpec, ModuleSpec
-from modeler.effects import CATALOGUE, RIPPLES, Acts, Effect, Form, Shape
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, RIPPLES, Acts, Effect, Form, Shape
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,12 @@ class Candidate:
     def local(self) -> bool:
         """True if it enters the torque of its own joint only."""
         return self.effect.acts is Acts.JOINT
+
+    @property
+    def scaled(self) -> int:
+        """Index of the joint whose scale its shapes have; 0 for what sits on no joint of q."""
+        of_joints = (Acts.JOINT, Acts.MOTOR, Acts.POSITION)
+        return max(self.index, 0) if self.effect.acts in of_joints else 0
 
     def parameter_names(self) -> list[str]:
         """Of its columns, as in a robot file."""
@@ -199,7 +205,7 @@ def _passive(
     spec: ModuleSpec, effect: Effect, present: Set[tuple[str, str]]
 ) -> Iterator[Candidate]:
     assert spec.closure is not None
-    rubbing = {joint for of, joint in present if of in ("viscous", "coulomb", effect.id)}
+    rubbing = {joint for of, joint in present if of in (*PASSIVE_FRICTION_IS, effect.id)}
     driven = {*spec.closure.given, *spec.closure.platform}
     for place, name in enumerate(spec.closure.variables):
         if place not in driven and name not in rubbing:

@@ -3,7 +3,6 @@
 import numpy as np
 
 from modeler.diagnose.state import State
-from modeler.observation import DataReport
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -29,36 +28,13 @@ def data_lines(state: State) -> tuple[str, ...]:
         state: the model as given.
     """
     observation = state.data.observation
-    lines = log_lines(observation.report)
+    lines = observation.report.doubts()
     total = length(state)
     if total < SHORT:
         lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
     for j in range(len(observation.joints)):
         lines += _motion(state, j)
     return (*lines, *_slow(state), *_noisy(state))
-
-
-def log_lines(report: DataReport) -> list[str]:
-    """What reading the logs brought to light."""
-    lines = []
-    for log in report.logs:
-        for column, count in log.missing.items():
-            lines.append(
-                f"{log.name}: {column} has no value in {count} of {log.rows} rows; they are not "
-                "used, but look why the logger left them out"
-            )
-        for joint, count in log.saturated.items():
-            lines.append(
-                f"{log.name}: the torque of joint {joint} is clipped in {count} of {log.rows} "
-                "rows; they are not used, but drive slower or with less load"
-            )
-        if log.contradicted:
-            lines.append(
-                f"{log.name}: the logged speeds or accelerations are not those of the positions "
-                f"in {log.contradicted} samples; they are not used, but check these channels"
-            )
-        lines += [f"{log.name}: {note}" for note in log.notes]
-    return lines
 
 
 def _motion(state: State, j: int) -> list[str]:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from modeler.core.errors import DataError
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.candidates import Known
-from modeler.diagnose.channels import Fault, faults
 from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
@@ -22,6 +22,7 @@ from modeler.diagnose.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
 from modeler.observation import Log, Observation
+from modeler.observation.channels import Fault, faults
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -101,7 +102,12 @@ def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]
     for entry in without:
         name, at, joint = entry.partition("@")
         effect = effect_named(name, catalogue)
-        found.append(f"{effect.id if effect else name}{at}{joint}")
+        if effect is None:
+            raise DataError(
+                f"without {entry}: no such effect; expected one of "
+                f"{', '.join(known.id for known in catalogue)}"
+            )
+        found.append(f"{effect.id}{at}{joint}")
     return tuple(found)
 
 

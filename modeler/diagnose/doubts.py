@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from modeler.diagnose.channels import Fault
-from modeler.diagnose.data_checks import data_lines, log_lines
+from modeler.diagnose.data_checks import data_lines
 from modeler.diagnose.late import late_lines
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import Data, State
 from modeler.fit import IdentifiedModel
+from modeler.observation.channels import Fault
 
 
 def doubts(
@@ -26,7 +26,7 @@ def doubts(
         lines += late_lines(found)
     lines += [*_moved(model, found.start.data), *data_lines(found.start)]
     if other is not None:
-        lines += [f"held out: {line}" for line in log_lines(other.observation.report)]
+        lines += [f"held out: {line}" for line in other.observation.report.doubts()]
         lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
 

@@ -172,7 +172,8 @@ def _believed(state: State, item: Judged) -> bool:
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
-    What only mends a law in the model comes last, before it what has a rare sign.
+    What only mends a law in the model comes last, before it what has a rare sign. A load is where
+    loads are carried, rather than on another link.
 
     A timing-like effect may stand for another timing-like one only.
     """
@@ -183,10 +184,13 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
         and (best.mends or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
-    order = sorted(
-        [best, *near],
-        key=lambda j: (j.mends, j.unlikely, _numbers(j.candidate), -float(j.drop.sum())),
-    )
+    carried = any(j.candidate.effect.id == "payload" for j in [best, *near])
+
+    def place(j: Judged) -> tuple[bool, bool, bool, float, float]:
+        astray = carried and j.candidate.effect.id == "link_inertia"
+        return j.mends, j.unlikely, astray, _numbers(j.candidate), -float(j.drop.sum())
+
+    order = sorted([best, *near], key=place)
     return next(
         j
         for j in order

@@ -72,7 +72,7 @@ def _limits(
     state: State, candidate: Candidate, smooth: Sequence[Shape]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Coded limits of the shapes on the candidate's joint."""
-    scale = state.scales[max(candidate.index, 0)]
+    scale = state.scales[candidate.scaled]
     if smooth[0].scale == "waves":
         return np.zeros(1), np.full(1, np.inf)
     ends = [[_coded(shape, scale.value(shape, end)) for end in shape.limits] for shape in smooth]

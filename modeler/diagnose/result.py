@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,8 @@ class Finding:
         gain: expected fall of the residual variance of its joints on motion not used for the fit.
         error_before, error_after: relative error of its joints without and with it, held out.
         parameters: its parameters and shapes by name, SI.
-        sigmas: standard deviations of the parameters.
+        sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
+            hold for all shapes that the data do not refuse.
         units: of the parameters and shapes.
         ties: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
@@ -38,6 +39,7 @@ class Finding:
             contacts and play, which are no columns.
         refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
+        intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
     """
 
     effect: str
@@ -53,6 +55,7 @@ class Finding:
     closure: float | None
     refines: bool
     objection: str = ""
+    intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -64,6 +67,7 @@ class Finding:
             "error_after": self.error_after,
             "parameters": dict(self.parameters),
             "sigmas": dict(self.sigmas),
+            "intervals": {name: list(ends) for name, ends in self.intervals.items()},
             "units": dict(self.units),
             "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
             "evidence": self.evidence,

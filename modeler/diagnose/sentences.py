@@ -5,6 +5,7 @@ import dataclasses
 from modeler.diagnose.noise import knocking
 from modeler.diagnose.result import Diagnosis, Finding, Key
 from modeler.diagnose.search import Step
+from modeler.diagnose.values import told_spread
 from modeler.effects import effect_named
 
 TOLD = 0.15
@@ -170,9 +171,9 @@ def _effect_line(finding: Finding) -> str:
 
 
 def _spread(finding: Finding, name: str) -> str:
-    """The standard deviation behind a value, where there is one."""
-    sigma = finding.sigmas.get(name, 0.0)
-    return f" +- {sigma:.2g}" if sigma > 0.0 else ""
+    """The standard deviation or the interval behind a value, where there is one."""
+    sigma, interval = finding.sigmas.get(name, 0.0), finding.intervals.get(name)
+    return told_spread(finding.parameters[name], sigma, interval)
 
 
 def unit(finding: Finding, name: str) -> str:

@@ -6,9 +6,13 @@ import numpy as np
 
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.columns import body_parameters
+from modeler.diagnose.profile import Profile
 from modeler.diagnose.state import State
 from modeler.diagnose.tilt import tilt_basis
 from modeler.effects import Acts
+
+LOPSIDED = 2.0
+"""Ratio of the sides of an interval above which one standard deviation does not describe it."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,22 @@ def values_of(state: State, pick: Candidate, values: np.ndarray, deviations: np.
         dict(zip(units, map(float, deviations), strict=False)),
         units,
     )
+
+
+def named_intervals(along: Profile, named: Values) -> dict[str, tuple[float, float]]:
+    """95 % intervals of the parameters and shapes of an effect, by name."""
+    own = zip(named.value, along.intervals(), strict=False)
+    found = {name: (float(low), float(high)) for name, (low, high) in own}
+    return found | along.shape_intervals()
+
+
+def told_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
+    """What stands behind a value: " +- sigma", or where that says little " (low to high)"."""
+    if interval is not None and interval[0] < interval[1]:
+        down, up = value - interval[0], interval[1] - value
+        if max(down, up) > LOPSIDED * min(down, up):
+            return f" ({interval[0]:.3g} to {interval[1]:.3g})"
+    return f" +- {sigma:.2g}" if sigma > 0.0 else ""
 
 
 def _units(state: State, pick: Candidate) -> dict[str, str]:

@@ -2,6 +2,8 @@
 
 from modeler.effects.catalogue import CATALOGUE as CATALOGUE
 from modeler.effects.catalogue import ENCODERS as ENCODERS
+from modeler.effects.catalogue import PASSIVE_FRICTION as PASSIVE_FRICTION
+from modeler.effects.catalogue import PASSIVE_FRICTION_IS as PASSIVE_FRICTION_IS
 from modeler.effects.catalogue import RIPPLES as RIPPLES
 from modeler.effects.catalogue import effect_named as effect_named
 from modeler.effects.effect import VARIABLES as VARIABLES

@@ -17,6 +17,10 @@ ENCODERS = ("encoder_offset", "encoder_eccentricity")
 RIPPLES = ("motor_ripple", "joint_ripple")
 """Ids of effects that a joint may have several times: their orders come from the spectrum."""
 
+PASSIVE_FRICTION = "passive_friction"
+PASSIVE_FRICTION_IS = ("viscous", "coulomb")
+"""What friction of a joint without motor is made of: a robot file that names it has these two."""
+
 
 def effect_named(name: str, among: Sequence[Effect] = CATALOGUE) -> Effect | None:
     """The effect with that id or alias; None if there is none.

@@ -236,7 +236,7 @@ class Effect:
     @property
     def written(self) -> bool:
         """True if a robot file may name it: its columns are functions of the joints' motion."""
-        acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION)
+        acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
         names = frozenset().union(*(form.names for form in self.forms))
         remembers = any(form.memory and form.memory.kind != "slip" for form in self.forms)
         moved = self.acts is Acts.POSITION and not names.isdisjoint({"load", "z"})

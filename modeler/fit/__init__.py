@@ -1,6 +1,5 @@
 """Estimates of the base parameters, their certainty, and the model file."""
 
-from modeler.fit.doubts import doubts as doubts
 from modeler.fit.essential import Essential as Essential
 from modeler.fit.identify import identify as identify
 from modeler.fit.least_squares import Method as Method
@@ -15,3 +14,5 @@ from modeler.fit.payload import identify_with_payloads as identify_with_payloads
 from modeler.fit.result import FitResult as FitResult
 from modeler.fit.result import JointFit as JointFit
 from modeler.fit.result import ParameterEstimate as ParameterEstimate
+from modeler.fit.result import Verdict as Verdict
+from modeler.fit.verdict import with_verdict as with_verdict

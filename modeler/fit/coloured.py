@@ -70,7 +70,7 @@ def coloured(
         sample = observation.row_sample[own]
         r = autocorrelation(residual[own], sample, observation.segment)
         rows = W[own] @ C / estimate.sigma[j]
-        extra += _repeated(rows, r, sample, observation.segment)
+        extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:
             memory.append((joint.name, told * _spacing(observation)))
@@ -79,7 +79,7 @@ def coloured(
     return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory))
 
 
-def _repeated(
+def repeated(
     rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
 ) -> np.ndarray:
     """(c,) 2 sum_k r(k) sum_t rows(t) rows(t + k)."""

@@ -1,37 +1,198 @@
 """What a fit found that physics does not allow, or that does not deserve trust: in sentences."""
 
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
 from modeler.core.contract import BaseSpec, ModuleSpec
+from modeler.fit.crossed import Crossed
 from modeler.fit.result import FitResult
 
 _FAR = 3.0  # standard deviations below zero
-_LITTLE = 0.3  # relative error above which a model does not describe its own data
+
+LITTLE = 0.3
+"""Relative error above which a model does not describe a joint: 9 % of the torque's variance."""
+
+HALF = 0.5**0.5
+"""Relative error above which more of a joint's torque is left, in variance, than is described."""
+
+WIDE = 2.0
+"""Ratio of the error on left-out motion to that on fitted motion above which rows are too few."""
+
+STRUCTURE = 0.1
+"""Rms of what is left and lasts, over that of the torque, above which values carry some of it."""
+
+MOST = 0.5
+"""Share of the parameters that logs may leave open; beyond it they are a glimpse of a motion."""
+
+_TORQUES = "check units, signs and columns of the log, the table, and the effects in the robot file"
 
 
-def doubts(spec: ModuleSpec, result: FitResult) -> tuple[str, ...]:
-    """Sentences on impossible values and on torques that the model does not describe.
+class Told(Protocol):
+    """A finding about the logs that another stage makes: a line, and whether it is certain."""
+
+    @property
+    def line(self) -> str:
+        """Where, what, and what to do."""
+
+    @property
+    def certain(self) -> bool:
+        """True if no physics can look like it."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Why a fit may not be what it looks like.
+
+    Attributes:
+        line: where and what; after the last semicolon what to do.
+        certain: True if the model is not usable for it.
+        values: True if it leaves the prediction of torques of like motion untouched, and only the
+            values of parameters are in doubt.
+    """
+
+    line: str
+    certain: bool = False
+    values: bool = False
+
+
+def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
+    """Values below zero that physics does not allow, whatever the other parameters are.
 
     A base parameter cannot be negative if all its terms are parameters that cannot be, with
     coefficients that are not: friction, rotor inertias, moments of inertia, masses.
     """
-    found = []
     possible = {parameter.name for parameter in spec.standard if parameter.nonnegative}
-    for base, estimate in zip(spec.base, result.parameters, strict=True):
-        far = estimate.sigma is not None and estimate.value < -_FAR * estimate.sigma
-        if far and _nonnegative(base, possible):
-            found.append(
-                f"{base.name} = {estimate.value:.4g} {base.unit} is negative, which physics does "
-                "not allow: a sign, a unit or the order of columns in the log may be wrong, or an "
-                "effect is missing that this parameter stands in for"
-            )
-    for joint in result.joints:
-        if joint.relative_error is not None and joint.relative_error > _LITTLE:
-            found.append(
-                f"joint {joint.name}: {100.0 * joint.relative_error:.0f} % of the torque is not "
-                "described even on the data of the fit; check units, signs and columns of the log, "
-                "the table, and the effects in the robot file"
-            )
-    return tuple(found)
+    return [
+        Doubt(
+            f"{base.name} = {estimate.value:.4g} {base.unit} is negative, which physics does "
+            "not allow: a sign, a unit or the order of columns in the log may be wrong, or an "
+            "effect is missing that this parameter stands in for; let `modeler diagnose` look",
+            values=True,
+        )
+        for base, estimate in zip(spec.base, result.parameters, strict=True)
+        if estimate.sigma is not None
+        and estimate.value < -_FAR * estimate.sigma
+        and _nonnegative(base, possible)
+    ]
 
 
 def _nonnegative(base: BaseSpec, possible: set[str]) -> bool:
     return all(term.value >= 0.0 and term.parameter in possible for term in base.terms)
+
+
+def undescribed(result: FitResult) -> list[Doubt]:
+    """Joints whose torques the model does not describe, even where it was fitted."""
+    return [
+        Doubt(
+            f"joint {joint.name}: {100.0 * joint.relative_error:.0f} % of the torque is not "
+            f"described even on the data of the fit; {_TORQUES}; `modeler diagnose` names what is "
+            "missing",
+            certain=joint.relative_error > HALF,
+            values=True,
+        )
+        for joint in result.joints
+        if joint.relative_error is not None and joint.relative_error > LITTLE
+    ]
+
+
+def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
+    """Joints whose residual is so large, and so little noise, that values must carry some of it.
+
+    Args:
+        result: of the fit.
+        lasting: (n,) what of the residual is the same in the next row, rms over that of the torque.
+    """
+    large = {
+        joint.name: float(share)
+        for joint, share in zip(result.joints, lasting, strict=True)
+        if share > STRUCTURE and (joint.relative_error or 0.0) <= LITTLE  # else it is told already
+    }
+    if not large:
+        return []
+    return [
+        Doubt(
+            f"joint {', '.join(large)}: up to {100.0 * max(large.values()):.2g} % of the "
+            "torque is left and is no noise: an effect is missing, and the values of others stand "
+            "in for it; `modeler diagnose` names it",
+            values=True,
+        )
+    ]
+
+
+def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
+    """Joints whose torques the fit does not predict where it was not fitted: rows are too few."""
+    lost = [
+        (joint.name, error)
+        for joint, error in zip(result.joints, seen.errors, strict=True)
+        if joint.relative_error is not None
+        and np.isfinite(error)
+        and error > max(LITTLE, WIDE * joint.relative_error)
+    ]
+    if not lost:
+        return []
+    names = ", ".join(name for name, _ in lost)
+    much = max(error for _, error in lost)
+    miss = "all of the torque" if much >= 1.0 else f"up to {100.0 * much:.0f} % of the torque"
+    swings = f"swings of the motion ({seen.swing:.2g} s each)"
+    moved = (
+        f"the logs hold less than two {swings}"
+        if seen.stretches < 2
+        else f"of {seen.stretches} {swings}, each is foretold from the others with an error of "
+        f"{miss}"
+    )
+    return [
+        Doubt(
+            f"joint {names}: not enough data for {len(result.parameters)} parameters: {moved}; "
+            "record a longer motion of all joints, at many speeds and poses",
+            certain=True,
+        )
+    ]
+
+
+def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> list[Doubt]:
+    """Parameters that could be anything: only their sums with others are known.
+
+    Args:
+        spec: the robot.
+        result: of the fit.
+        spread: (c,) one standard deviation of each parameter, as torque over that of the joint
+            that feels it most.
+    """
+    vague = [base.name for base, share in zip(spec.base, spread, strict=True) if share > 1.0]
+    aside = [p.name for p in result.parameters if p.sigma is None]
+    unknown, count = len({*vague, *aside}), len(result.parameters)
+    if unknown > MOST * count:
+        return [
+            Doubt(
+                f"not enough data for {count} parameters: {unknown} of them are not told by these "
+                f"logs ({_some([*aside, *vague])}); record a longer motion of all joints, at many "
+                "speeds and poses",
+                certain=True,
+            )
+        ]
+    found = []
+    if vague:
+        found.append(
+            Doubt(
+                f"{_some(vague)}: one sigma is more than the whole torque of a joint, so only sums "
+                "with other parameters are known, not the values; record poses and accelerations "
+                "that the logs lack",
+                values=True,
+            )
+        )
+    if aside:
+        found.append(
+            Doubt(
+                f"{_some(aside)}: not told by these logs and set aside; record a motion that moves "
+                "all joints over a wide range",
+                values=True,
+            )
+        )
+    return found
+
+
+def _some(names: list[str]) -> str:
+    rest = f" and {len(names) - 5} more" if len(names) > 5 else ""
+    return ", ".join(names[:5]) + rest

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 
@@ -43,8 +44,10 @@ def identify(observation: Observation, method: Method = "weighted") -> FitResult
         method: "weighted" (per joint, iterated) or "ordinary".
 
     Raises:
-        DataError: fewer rows than parameters, or no torque at all.
+        DataError: fewer rows than parameters, no torque at all, or no such method.
     """
+    if method not in get_args(Method):
+        raise DataError(f'method is "{method}"; expected {" or ".join(get_args(Method))}')
     return fit_equations(observation, base_equations(observation), method)
 
 

@@ -1,14 +1,12 @@
 """Ordinary and weighted least squares with their covariance."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
+from modeler.core.choices import Method as Method
 from modeler.fit.compressed import Compressed
 from modeler.fit.rank import Rank, independent_columns
-
-Method = Literal["ordinary", "weighted"]
 
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights

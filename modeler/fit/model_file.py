@@ -2,15 +2,18 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modeler.core.contract import ModuleSpec, module_from_json
+from modeler.core.contract import ModuleSpec, module_from_plain
 from modeler.core.errors import ManifestError
 from modeler.core.files import write_atomically
+from modeler.core.json_text import JsonError, parse_json, shown
+from modeler.core.plain import PlainError, check_fields, plain
+from modeler.fit.integrity import CHECKSUMS, check_checksums, check_estimate, checksums
 from modeler.fit.result import FitResult, fit_from_json
 from modeler.observation import DataReport, Log, Processing
 from modeler.observation.log import shared_rows
@@ -18,7 +21,7 @@ from modeler.observation.log import shared_rows
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
-FORMAT = 2
+FORMAT = 3
 KIND = "modeler model"
 
 
@@ -59,6 +62,8 @@ class Addition:
         held_out: names of the held-out logs.
         robot_text: the robot file with it.
         delay: s, of the processing with it.
+        shape_sigmas: standard deviations of the shapes.
+        shape_intervals: 95 % intervals of the shapes.
     """
 
     effect: str
@@ -69,6 +74,8 @@ class Addition:
     held_out: tuple[str, ...]
     robot_text: str
     delay: float = 0.0
+    shape_sigmas: Mapping[str, float] = field(default_factory=dict)
+    shape_intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data, without the robot file."""
@@ -78,6 +85,8 @@ class Addition:
             "error": self.error,
             "training_error": self.training_error,
             "shapes": dict(self.shapes),
+            "shape_sigmas": dict(self.shape_sigmas),
+            "shape_intervals": {name: list(ends) for name, ends in self.shape_intervals.items()},
             "held_out": list(self.held_out),
         }
 
@@ -117,6 +126,11 @@ class IdentifiedModel:
         """How the fitted data were processed; use it for held-out logs."""
         return self.fit.processing
 
+    @property
+    def warning(self) -> list[str]:
+        """A line if its fit was found not usable."""
+        return [] if self.fit.verdict is None else self.fit.verdict.warning()
+
     def compile(self) -> "CompiledModel":
         """The compiled robot.
 
@@ -135,16 +149,6 @@ def provenance(report: DataReport) -> tuple[LogProvenance, ...]:
         LogProvenance(log.name, log.rows, log.samples, log.content, *log.span)
         for log in report.logs
     )
-
-
-def _provenance_from_json(raw: Any) -> LogProvenance:
-    log = LogProvenance(**raw)
-    texts, numbers = (log.name, log.content), (log.rows, log.samples, log.start, log.end)
-    if not all(isinstance(value, str) for value in texts):
-        raise ValueError(f"log {log.name!r}: its name and content are texts")
-    if not all(isinstance(value, int | float) for value in numbers):
-        raise ValueError(f"log {log.name}: its rows, samples and times are numbers")
-    return log
 
 
 def save_model(path: str | Path, model: IdentifiedModel) -> None:
@@ -166,75 +170,73 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
         "manifest": json.loads(model.spec.to_json()),
         "sources": dict(model.sources),
     }
+    content = json.loads(json.dumps(content, allow_nan=False))  # as it will be read back
+    content[CHECKSUMS] = checksums(content)
     write_atomically(Path(path), json.dumps(content, indent=1, allow_nan=False) + "\n")
-
-
-def _check_values(fit: FitResult, path: Path) -> None:
-    for p in fit.parameters:
-        if not isinstance(p.value, (int, float)) or not np.isfinite(p.value):
-            raise ManifestError(
-                f"{path}: the value of {p.name} is {p.value!r}; expected a finite number; fit the "
-                "model again"
-            )
 
 
 def load_model(path: str | Path) -> IdentifiedModel:
     """Read a model file.
 
     Raises:
-        ManifestError: missing, not a model file, of another format, or damaged.
+        ManifestError: missing, not a model file, of another format, damaged, or changed since it
+            was saved.
     """
-    path = Path(path)
-    raw = _read(path)
-    spec = module_from_json(json.dumps(_entry(raw, "manifest", dict, path)), f"{path}, manifest")
-    if _entry(raw, "signature", str, path) != spec.signature():
+    where = str(path)
+    raw = _read(Path(path))
+    check_checksums(raw, where)
+    spec = module_from_plain(_entry(raw, "manifest", Any, where), f"{where}, manifest")
+    if _entry(raw, "signature", str, where) != spec.signature():
         raise ManifestError(
-            f"{path}: the manifest does not match its signature, so it was changed after it was "
+            f"{where}: the manifest does not match its signature, so it was changed after it was "
             "saved; fit the model again"
         )
-    values, given = _entry(raw, "covariance", list, path), _entry(raw, "logs", list, path)
-    fitted = _entry(raw, "fit", dict, path)
-    try:
-        covariance = np.array(values, dtype=float)
-        history = tuple(_addition(entry) for entry in raw.get("history", []))
-        logs = tuple(_provenance_from_json(entry) for entry in given)
-        fit = fit_from_json(fitted, covariance)
-    except (TypeError, ValueError, KeyError) as error:
-        raise ManifestError(f"{path}: damaged ({error}); fit the model again") from None
-    except ManifestError as error:
-        raise ManifestError(f"{path}: {error}") from None
+    fit = _fit(raw, where)
     expected = [base.name for base in spec.base]
-    if [p.name for p in fit.parameters] != expected or covariance.shape != (len(expected),) * 2:
+    if (
+        [p.name for p in fit.parameters] != expected
+        or fit.covariance.shape != (len(expected),) * 2
+        or spec.robot != _entry(raw, "robot", str, where)
+    ):
         raise ManifestError(
-            f"{path}: the values are not those of the {len(expected)} base parameters of its "
+            f"{where}: the values are not those of the {len(expected)} base parameters of its "
             "manifest; fit the model again"
         )
-    _check_values(fit, path)
+    check_estimate(fit, where)
     return IdentifiedModel(
-        robot_text=_entry(raw, "robot_text", str, path),
+        robot_text=_entry(raw, "robot_text", str, where),
         spec=spec,
-        sources=_entry(raw, "sources", dict, path),
+        sources=_entry(raw, "sources", Mapping[str, str], where),
         fit=fit,
-        logs=logs,
-        history=history,
+        logs=_entry(raw, "logs", tuple[LogProvenance, ...], where),
+        history=_entry(raw, "history", tuple[Addition, ...], where),
     )
 
 
-def _addition(raw: Any) -> Addition:
-    step = Addition(**{**raw, "held_out": tuple(raw["held_out"])})
-    if not isinstance(step.robot_text, str) or not isinstance(step.error, int | float):
-        raise ValueError("a step of the history is not as saved")
-    return step
+def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
+    """The estimate, every entry of the type that its class declares."""
+    rows = _entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
+    fitted = _entry(raw, "fit", Mapping[str, Any], where)
+    if any(len(row) != len(rows) for row in rows):
+        raise ManifestError(f"{where}: damaged, covariance is not square; fit the model again")
+    try:
+        fit = fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
+        check_fields(fit)
+    except PlainError as error:
+        raise ManifestError(f"{where}: the fit is damaged ({error}); fit the model again") from None
+    except ManifestError as error:
+        raise ManifestError(f"{where}: {error}") from None
+    return fit
 
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        raw = json.loads(path.read_text(encoding="utf-8"))
+        raw = parse_json(path.read_bytes())
     except OSError as error:
         raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    except (json.JSONDecodeError, UnicodeDecodeError):
+    except JsonError as error:
         raise ManifestError(
-            f"{path}: not a model file, or cut off; expected the output of `modeler fit --out`"
+            f"{path}: not a model file: it {error}; expected the output of `modeler fit --out`"
         ) from None
     if not isinstance(raw, dict) or raw.get("kind") != KIND:
         raise ManifestError(
@@ -242,16 +244,16 @@ def _read(path: Path) -> dict[str, Any]:
         )
     if raw.get("format") != FORMAT:
         raise ManifestError(
-            f"{path}: model format {raw.get('format')}, this version reads {FORMAT}; fit the "
-            "model again"
+            f"{path}: model format {shown(raw.get('format'))}, this version reads {FORMAT}; fit "
+            "the model again"
         )
     return raw
 
 
-def _entry(raw: Mapping[str, Any], name: str, kind: type, path: Path) -> Any:
-    if not isinstance(raw.get(name), kind):
-        raise ManifestError(
-            f"{path}: damaged, {name} is {'missing' if name not in raw else 'not as saved'}; fit "
-            "the model again"
-        )
-    return raw[name]
+def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
+    if name not in raw:
+        raise ManifestError(f"{where}: damaged, {name} is missing; fit the model again")
+    try:
+        return plain(kind, raw[name], name)
+    except PlainError as error:
+        raise ManifestError(f"{where}: damaged, {error}; fit the model again") from None

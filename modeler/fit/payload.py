@@ -22,6 +22,10 @@ _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 _TOLERANCE = 1e-8  # what is left of a column, as a share of its length, counts as zero
 
 
+LARGEST_MASS = 1e6
+"""kg. Nothing that a robot carries weighs more."""
+
+
 @dataclass(frozen=True)
 class Payload:
     """A load that is fixed on a link during some logs.
@@ -111,8 +115,11 @@ def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[
                 f"payload {payload.name}: no link {payload.link}; {model.spec.robot} has "
                 f"{', '.join(sorted(links))}"
             )
-        if payload.mass is not None and not payload.mass > 0.0:
-            raise DataError(f"payload {payload.name}: mass {payload.mass} kg; expected above 0")
+        if payload.mass is not None and not 0.0 < payload.mass <= LARGEST_MASS:
+            raise DataError(
+                f"payload {payload.name}: mass {payload.mass} kg; expected above 0 and at most "
+                f"{LARGEST_MASS:g}"
+            )
         loaded |= set(payload.logs)
     if len({payload.name for payload in payloads}) < len(payloads):
         raise DataError("two payloads have the same name; give each its own")

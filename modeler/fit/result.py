@@ -21,6 +21,7 @@ class ParameterEstimate:
         sigma: standard deviation; None if it was set aside.
         essential: False if the model does as well without it.
         status: "estimated" | "set aside".
+        interval: 95 %, of parameters of an effect whose shapes were fitted too; None for others.
     """
 
     name: str
@@ -29,6 +30,7 @@ class ParameterEstimate:
     sigma: float | None
     essential: bool
     status: str
+    interval: tuple[float, float] | None = None
 
     @property
     def relative_sigma_percent(self) -> float | None:
@@ -47,6 +49,7 @@ class ParameterEstimate:
             "essential": self.essential,
             "unit": self.unit,
             "status": self.status,
+            "interval": None if self.interval is None else list(self.interval),
         }
 
 
@@ -71,6 +74,28 @@ class JointFit:
     sigma: float
 
 
+@dataclass(frozen=True)
+class Verdict:
+    """How a fit ends.
+
+    Attributes:
+        usable: True if it predicts the torques of motion like that of its logs.
+        usable_for: "physics" (its values are those of a machine: simulation, control, other
+            motion), "like motion" (torques of motion like that of its logs), "nothing".
+        line: for people: usable or not, why, what to do.
+        doubts: all that speaks against it.
+    """
+
+    usable: bool
+    usable_for: str
+    line: str
+    doubts: tuple[str, ...]
+
+    def warning(self) -> list[str]:
+        """A line for whoever uses a model that is not usable; none for one that is."""
+        return [] if self.usable else [f"the fit of this model is {self.line}"]
+
+
 @dataclass(frozen=True, eq=False)
 class FitResult:
     """A fitted model.
@@ -91,6 +116,7 @@ class FitResult:
         loads: parameters of payloads, named `M6_load`; empty without payloads.
         sentences: what a reader must know, plain text.
         processing: with all choices filled in; use it for held-out logs.
+        verdict: usable or not; None if nobody has judged it.
     """
 
     robot: str
@@ -108,6 +134,7 @@ class FitResult:
     loads: tuple[ParameterEstimate, ...]
     sentences: tuple[str, ...]
     processing: Processing
+    verdict: Verdict | None = None
 
     @property
     def beta(self) -> np.ndarray:
@@ -138,7 +165,11 @@ class FitResult:
             error = joint.relative_error
             share_text = "-" if error is None else f"{100.0 * error:.2f} %"
             lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
-        return lines + list(self.sentences)
+        lines += self.sentences
+        if self.verdict is not None:
+            others = (line for line in self.verdict.doubts if line not in self.verdict.line)
+            lines += [*(f"doubt: {line}" for line in others), self.verdict.line]
+        return lines
 
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
@@ -166,6 +197,7 @@ class FitResult:
             "loads": [parameter.to_json() for parameter in self.loads],
             "sentences": list(self.sentences),
             "processing": self.processing.to_json(),
+            **_verdict_to_json(self.verdict),
         }
 
 
@@ -192,14 +224,40 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             loads=tuple(_parameter(entry) for entry in raw["loads"]),
             sentences=tuple(raw["sentences"]),
             processing=processing_from_json(raw["processing"]),
+            verdict=_verdict_from_json(raw),
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
 
 
+def _verdict_to_json(verdict: Verdict | None) -> dict[str, Any]:
+    if verdict is None:
+        return {"usable": None, "usable_for": None, "verdict": None, "doubts": []}
+    return {
+        "usable": verdict.usable,
+        "usable_for": verdict.usable_for,
+        "verdict": verdict.line,
+        "doubts": list(verdict.doubts),
+    }
+
+
+def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
+    """None where nobody has judged the fit, as in files of earlier versions."""
+    usable, line, doubts = raw.get("usable"), raw.get("verdict"), raw.get("doubts", [])
+    if usable is None:
+        return None
+    if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
+        raise ValueError("its verdict is not as saved")
+    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
+
+
 def _parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
     fields = {k: v for k, v in entry.items() if k != "relative_sigma_percent"}
-    return ParameterEstimate(**fields)
+    interval = fields.pop("interval", None)
+    if interval is not None:
+        low, high = interval
+        interval = float(low), float(high)
+    return ParameterEstimate(**fields, interval=interval)
 
 
 def _finite(value: float) -> float | None:

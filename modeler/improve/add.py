@@ -1,4 +1,4 @@
-"""One effect more: described, derived, emitted, fitted, and judged on other motion."""
+"""One effect more: described, derived, emitted, fitted, and with_verdict on other motion."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -14,16 +14,18 @@ from modeler.core.errors import DataError
 from modeler.derivation import derive, generate
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.candidates import Candidate, Known
+from modeler.diagnose.columns import body_parameters
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import surveyed
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.timing import instrumental
 from modeler.effects import Acts, Effect
-from modeler.fit import Addition, IdentifiedModel, identify, provenance
+from modeler.fit import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.improve.rows import Logs, Rows, rows_of
+from modeler.improve.sure import with_shapes
 from modeler.observation import Observation
 from modeler.observation.torque import model_torque
 from modeler.robot import robot_from_text
@@ -71,18 +73,21 @@ def add_effect(
 
 def add_findings(
     model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: Logs
-) -> IdentifiedModel:
-    """The model with the effects of a diagnosis, one after the other.
+) -> tuple[IdentifiedModel, tuple[str, ...]]:
+    """The model with the effects of a diagnosis, one after the other; why others are left out.
 
-    Effects that cannot be added are left out.
+    A reason is one line that names the effect and its joint.
     """
+    left_out = []
     for finding in findings:
         try:
             model = add_effect(model, compiled, finding.effect, finding.joint, logs)
-        except DataError:
+        except DataError as error:
+            place = f", joint {finding.joint}" if finding.joint is not None else ""
+            left_out.append(f"left out: {finding.effect}{place} ({error})")
             continue
         compiled = load(model.spec, model.sources)
-    return model
+    return model, tuple(left_out)
 
 
 def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
@@ -92,13 +97,13 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
         DataError: none was added.
     """
     if len(model.history) < 2:
-        raise DataError("undo: no effect was added to this model")
+        raise DataError("undo: no effect was added to this model; name one to add")
     before = model.history[-2]
     processing = dataclasses.replace(model.processing, delay=before.delay)
-    fitted, _ = _fitted(
+    fitted, rows = _fitted(
         before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
     )
-    return dataclasses.replace(fitted, history=model.history[:-1])
+    return _finished(fitted, model.history[:-1], rows)
 
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
@@ -123,14 +128,24 @@ def _added(
 ) -> IdentifiedModel:
     history = model.history or (_step(model, None, rows),)
     if pick.effect.acts is Acts.LINK:
-        better, seen = _loaded(model, rows.compiled, pick, values), rows
+        felt = [p.name for p in body_parameters(pick, state.rows.signals[0])]
+        better, seen = _loaded(model, rows.compiled, felt, values), rows
     elif pick.effect.acts is Acts.TORQUE:
         delay = model.processing.delay + float(values[0])
         processing = dataclasses.replace(model.processing, delay=delay)
         better, seen = _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
     else:
         better, seen = _fitted(described(model.robot_text, pick, values, state.reference), rows.of)
-    return dataclasses.replace(better, history=(*history, _step(better, pick, seen)))
+    return _finished(better, (*history, _step(better, pick, seen)), seen)
+
+
+def _finished(model: IdentifiedModel, history: Sequence[Addition], rows: Rows) -> IdentifiedModel:
+    """The model with its history, the spread along its shapes, and its verdict."""
+    model = dataclasses.replace(model, history=tuple(history))
+    wide = analysed(rows.compiled, rows.logs.fitted, model.processing, prepared=rows.prepared[0])
+    model = with_shapes(model, rows.compiled, wide)
+    fit = with_verdict(rows.compiled, rows.fitted, model.fit)
+    return dataclasses.replace(model, fit=fit)
 
 
 def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> tuple[IdentifiedModel, Rows]:
@@ -143,13 +158,9 @@ def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> tuple[Identifie
 
 
 def _loaded(
-    model: IdentifiedModel, compiled: CompiledModel, pick: Candidate, values: np.ndarray
+    model: IdentifiedModel, compiled: CompiledModel, felt: Sequence[str], values: np.ndarray
 ) -> IdentifiedModel:
     """The model with a body more on a link: its base parameters, nothing else."""
-    standard = [p for p in model.spec.standard if p.effect == "rigid_body"]
-    links = list(dict.fromkeys(p.joint for p in standard))
-    own = [p.name for p in standard if p.joint == links[pick.index]]
-    felt = _felt(compiled, [p.name for p in model.spec.standard], own)
     chi = np.zeros(len(model.spec.standard))
     for name, value in zip(felt, values, strict=True):
         chi[[p.name for p in model.spec.standard].index(name)] = value
@@ -157,16 +168,6 @@ def _loaded(
     pairs = zip(model.fit.parameters, beta, strict=True)
     parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
     return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))
-
-
-def _felt(compiled: CompiledModel, names: Sequence[str], own: Sequence[str]) -> list[str]:
-    """Those of the link's parameters that any joint feels, in the order of their columns."""
-    generator = np.random.default_rng(0)
-    joints = len(compiled.spec.joints)
-    q, qd, qdd = generator.uniform(-1.0, 1.0, (3, 50, joints))
-    signals = np.zeros((50, len(compiled.spec.signals))) if compiled.spec.signals else None
-    phi = compiled.regressor(q, qd, qdd, signals)
-    return [n for n in own if np.abs(phi[:, :, list(names).index(n)]).max() > 1e-12]
 
 
 def _step(model: IdentifiedModel, pick: Candidate | None, rows: Rows) -> Addition:

@@ -6,7 +6,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.signals import Reference
 from modeler.diagnose.tilt import tilt_basis
-from modeler.effects import Acts, Effect
+from modeler.effects import PASSIVE_FRICTION_IS, Acts, Effect
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
 
@@ -40,9 +40,9 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: Referen
 def _passive(text: str, joint: str) -> str:
     """The file with viscous and Coulomb friction on a joint without motor."""
     robot = robot_from_text(text, "robot of the model")
-    having = {use.effect: use.joints for use in robot.effects}
-    for effect in ("viscous", "coulomb"):
-        text = with_effect(text, effect, joint, {}, having.get(effect, ()))
+    everyone = [row.name for row in robot.moving if row.actuated]
+    for effect in PASSIVE_FRICTION_IS:
+        text = with_effect(text, effect, joint, {}, everyone)
     return text
 
 

@@ -1,6 +1,7 @@
 """What the user should know of an effect that was added, beside its error."""
 
 from modeler.diagnose.sentences import percent, where
+from modeler.diagnose.values import told_spread
 from modeler.effects import Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel
 from modeler.robot import robot_from_text
@@ -16,14 +17,21 @@ def added(model: IdentifiedModel) -> list[str]:
     own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (last.effect, last.joint)}
     base = {b.name for b in model.spec.base if b.column_of in own}
     lines = [
-        f"{p.name} = {p.value:.5g} +- {p.sigma or 0.0:.2g} {p.unit}"
+        f"{p.name} = {p.value:.5g}{told_spread(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
         for p in model.fit.parameters if p.name in base
     ]  # fmt: skip
     if lines and last.shapes:
         units = _units(model, last)
-        texts = [f"{k} = {v:.4g}{units.get(k, '')}" for k, v in last.shapes.items()]
+        texts = [
+            f"{k} = {v:.4g}{_spread(last, k)}{units.get(k, '')}" for k, v in last.shapes.items()
+        ]
         lines.append("with " + ", ".join(texts))
     return lines
+
+
+def _spread(step: Addition, name: str) -> str:
+    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
+    return told_spread(step.shapes[name], sigma, interval)
 
 
 def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:

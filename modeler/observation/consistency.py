@@ -2,12 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.observation.difference_windows import Column, Windows, size_of, windows_of
+from modeler.observation.lateness import AS_LOGGED, HARM, POSITIONS, Late, lateness
 from modeler.observation.log import Log
+from modeler.observation.resolution import resolution
 from modeler.observation.segments import Piece
 from modeler.observation.weighted_median import weighted_median
 
@@ -23,12 +25,8 @@ STEPS = 5.0
 WRONG = 0.5
 """Disagreeing by this share on average while it moves, a column is wrong throughout."""
 
-_LEAST_HALF = 3  # samples: a leap of the acceleration then weighs 1/12 of itself at most
 _CLEAR = 10.0  # times its noise is what the lower signal must change by over a window to judge it
-_TOLD = 0.75  # steps; a leap between two samples already looks half a step early or late
 _DEGREES = 180.0 / np.pi
-
-Column = Literal["qd", "qdd"]
 
 
 @dataclass(frozen=True)
@@ -67,28 +65,30 @@ class Consistency:
     Attributes:
         bad: (n,) True at contradicted samples, for each piece.
         contradictions: by column.
-        notes: delays, one sentence each.
+        late: delays.
+        used: what becomes of late columns, in words.
     """
 
     bad: tuple[np.ndarray, ...]
     contradictions: tuple[Contradiction, ...]
-    notes: tuple[str, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class _Windows:
-    """Window means of one piece: logged derivative and difference quotient, (n - 2m, joints)."""
-
-    time: np.ndarray
-    step: float
-    half: int
-    logged: np.ndarray
-    quotient: np.ndarray
-    slope: np.ndarray  # of the logged derivative, for its delay
+    late: tuple[Late, ...] = ()
+    used: str = AS_LOGGED
 
     @property
-    def error(self) -> np.ndarray:
-        return self.logged - self.quotient
+    def notes(self) -> tuple[str, ...]:
+        """The delays, one sentence each."""
+        return tuple(late.sentence(self.used) for late in self.late)
+
+    @property
+    def harmful(self) -> bool:
+        """True if a delay is large enough to spoil what is made of the column."""
+        return any(late.share > HARM for late in self.late)
+
+
+def without_late(check: Consistency, pieces: Sequence[Piece]) -> Consistency:
+    """The check where positions are differentiated: nothing is contradicted, the delay is told."""
+    bad = tuple(np.zeros(len(piece.time), dtype=bool) for piece in pieces)
+    return Consistency(bad, (), check.late, POSITIONS)
 
 
 def consistency(
@@ -108,7 +108,7 @@ def consistency(
     - a quarter of the joint's derivative, sqrt(sum d^4 / sum d^2): its size while it moves,
     - 5 resolution steps of the lower signal, divided by T.
     Noise and rounding stay below the first and the last, discretisation below the second. A delay
-    common to the joints is taken out before and told from 3/4 of a sample on.
+    of a joint, or of all alike, is taken out before and told from 3/4 of a sample on.
 
     Args:
         log: as read: resampling hides the resolution of its columns.
@@ -121,17 +121,16 @@ def consistency(
     """
     bad = [np.zeros(len(piece.time), dtype=bool) for piece in pieces]
     found: list[Contradiction] = []
-    notes: list[str] = []
+    late: list[Late] = []
     levels: tuple[tuple[Column, str], ...] = (("qd", "q"), ("qdd", "qd"))
     for column, lower in levels:
         if not pieces or getattr(pieces[0], column) is None:
             break
-        delay = _delay(pieces, column, lower, parallel_cutoff)
-        if delay:
-            notes.append(_delay_sentence(column, lower, delay, pieces[0].step))
-        windows = [_windows(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
+        found_late, delay = lateness(pieces, log.joints, column, lower, parallel_cutoff)
+        late += found_late
+        windows = [windows_of(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
         for j, joint in enumerate(log.joints):
-            step = _resolution(getattr(log, lower)[:, j])
+            step = resolution(getattr(log, lower)[:, j])
             noises = [white_noise(getattr(piece, lower)[:, j]) for piece in pieces]
             noise = max(step, float(np.median(noises)))
             if refuse:
@@ -142,51 +141,11 @@ def consistency(
                 found.append(_contradiction(names, windows, flags, limit, j))
             for mask, flag, part in zip(bad, flags, windows, strict=True):
                 mask |= np.pad(flag, part.half, mode="edge")
-    return Consistency(tuple(bad), tuple(found), tuple(notes))
-
-
-def _windows(piece: Piece, column: Column, lower: str, cutoff: float, delay: float) -> _Windows:
-    below, logged = getattr(piece, lower), getattr(piece, column)
-    if delay:
-        later = piece.time + delay
-        logged = np.column_stack([np.interp(later, piece.time, v) for v in logged.T])
-    half = max(_LEAST_HALF, round(0.5 / (cutoff * piece.step)) if cutoff else 0)
-    half = min(half, (len(piece.time) - 1) // 2)
-    length = 2 * half * piece.step
-    trapezoids = 0.5 * piece.step * (logged[1:] + logged[:-1])
-    integral = np.concatenate([np.zeros((1, logged.shape[1])), np.cumsum(trapezoids, axis=0)])
-    mean, quotient, slope = (
-        (v[2 * half :] - v[: -2 * half]) / length for v in (integral, below, logged)
-    )
-    return _Windows(piece.time[half:-half], piece.step, half, mean, quotient, slope)
-
-
-def _delay(pieces: Sequence[Piece], column: Column, lower: str, cutoff: float) -> float:
-    """Seconds by which a logged derivative lags, all joints; 0 if small or not to be told.
-
-    Least absolute values of error + delay slope, every joint in its own size: gross errors of a
-    few samples do not move it. Believed where it halves the sum of the errors.
-    """
-    delay, before = 0.0, 0.0
-    for turn in range(3):  # the equation is linear for small delays only
-        windows = [_windows(piece, column, lower, cutoff, delay) for piece in pieces]
-        error = np.concatenate([part.error for part in windows])
-        slope = np.concatenate([part.slope for part in windows])
-        size = _size(np.concatenate([part.quotient for part in windows]))
-        kept = size > 0.0
-        error, slope = (v[:, kept] / size[kept] for v in (error, slope))
-        before = before if turn else float(np.sum(np.abs(error)))
-        there = slope != 0.0
-        if not there.any():
-            return 0.0
-        delay += weighted_median(-error[there] / slope[there], np.abs(slope[there]))
-    after = float(np.sum(np.abs(error)))
-    told = abs(delay) >= _TOLD * pieces[0].step and after <= 0.5 * before
-    return delay if told else 0.0
+    return Consistency(tuple(bad), tuple(found), tuple(late))
 
 
 def _contradicted(
-    windows: Sequence[_Windows], resolution: float, j: int
+    windows: Sequence[Windows], resolution: float, j: int
 ) -> tuple[list[np.ndarray], float]:
     """Windows of joint j beyond the limit, by piece; and the limit of a window of full length."""
     full = max(part.half for part in windows)
@@ -194,7 +153,7 @@ def _contradicted(
     noisier = [full / part.half for part in windows]
     scaled = [part.error[:, j] / n for part, n in zip(windows, noisier, strict=True)]
     scatter = 1.4826 * float(np.median(np.abs(np.concatenate(scaled))))
-    size = float(_size(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
+    size = float(size_of(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
     length = 2 * full * windows[0].step
     random = max(SCATTERS * scatter, STEPS * resolution / length)
     flags = [
@@ -206,7 +165,7 @@ def _contradicted(
 
 def _contradiction(
     names: tuple[str, str],
-    windows: Sequence[_Windows],
+    windows: Sequence[Windows],
     flags: Sequence[np.ndarray],
     limit: float,
     j: int,
@@ -228,7 +187,7 @@ def _contradiction(
 
 
 def _refuse_wrong(
-    log: Log, levels: tuple[Column, str], j: int, windows: Sequence[_Windows], noise: float
+    log: Log, levels: tuple[Column, str], j: int, windows: Sequence[Windows], noise: float
 ) -> None:
     """Raises DataError if the column of joint j is no derivative of the one below it at all.
 
@@ -238,7 +197,7 @@ def _refuse_wrong(
     joints = log.joints
     quotients = np.concatenate([part.quotient for part in windows])
     logged = np.concatenate([part.logged[:, j] for part in windows])
-    size = _size(quotients)
+    size = size_of(quotients)
     length = 2 * min(part.half for part in windows) * windows[0].step
     if size[j] * length <= _CLEAR * noise:
         return  # it hardly moves: nothing to compare with
@@ -280,29 +239,6 @@ def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
     return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
 
 
-def _size(values: np.ndarray) -> np.ndarray:
-    """(joints,) of (n, joints): root mean square weighted by energy, so long rests do not count."""
-    total = np.sum(values**2, axis=0)
-    return np.sqrt(np.sum(values**4, axis=0) / np.where(total > 0.0, total, 1.0))
-
-
 def white_noise(values: np.ndarray) -> float:
     """Standard deviation of white noise on a smooth signal, from its third differences."""
     return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / np.sqrt(20.0)
-
-
-def _resolution(values: np.ndarray) -> float:
-    """Smallest step between two values; those of the arithmetic do not count."""
-    levels = np.unique(values[np.isfinite(values)])
-    gaps = np.diff(levels)
-    gaps = gaps[gaps > 1e-9 * np.max(np.abs(levels))]
-    return float(gaps.min()) if gaps.size else 0.0
-
-
-def _delay_sentence(column: str, lower: str, delay: float, step: float) -> str:
-    way = "lags behind" if delay > 0.0 else "runs ahead of"
-    return (
-        f"{column} {way} the derivative of {lower} by {abs(delay):.3g} s "
-        f"({abs(delay) / step:.2g} samples) in all joints; used as logged; fit with "
-        "--derivatives position to avoid it"
-    )

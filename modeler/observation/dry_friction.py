@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.core.errors import LoopError
 from modeler.observation.motion import Segment
 from modeler.observation.processing import Processing
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 _TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
+_HALVED = 10  # times, from positions anywhere to 1e-3 of home
 _IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
 
 
@@ -46,8 +48,7 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
     leaps for the joints its shaft turns with, by the shaft's coefficient on the rows it acts on.
     """
     joints = len(model.spec.joints)
-    generator = np.random.default_rng(1)
-    state = np.tile(generator.uniform(0.2, 1.0, (1, joints)), (joints, 1))
+    state = np.tile(_anywhere(model), (joints, 1))
     creep = _CREEP * np.eye(joints)
     still = np.zeros((joints, joints))
     signals = np.full((joints, len(model.spec.signals)), 0.5) if model.spec.signals else None
@@ -70,6 +71,23 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
         names = "+".join(model.spec.joints[j].name for j in moved)
         found[key] = Shaft(names, key, acted, model.spec.joints[moved[0]].unit)
     return tuple(found.values())
+
+
+def _anywhere(model: "CompiledModel") -> np.ndarray:
+    """(joints,) positions, none of them special; of a robot with loops as near home as closes."""
+    joints, closure = len(model.spec.joints), model.spec.closure
+    state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
+    if closure is None:
+        return state
+    home = np.asarray(closure.home)[list(closure.given)]
+    for halved in range(_HALVED):
+        near = home + 0.5**halved * (state - home)
+        try:
+            model.coupling(near[None])
+        except LoopError:
+            continue
+        return near
+    return home
 
 
 def with_every_joint(model: "CompiledModel") -> tuple[Shaft, ...]:

@@ -20,7 +20,7 @@ _EDGE_PERIODS = 2.5
 
 
 EDGE = "lie within the start-up of the position filter at the ends of a piece"
-MISSING = "have no measured position or torque"
+MISSING = "have no measured position or torque, or a damaged one"
 BRIDGES = "lie beside missing positions, as near as the position filter reaches"
 CONTRADICTED = "have impossible derivatives, or lie as near to them as the position filter reaches"
 SATURATED = "have a torque at its limit"

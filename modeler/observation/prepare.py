@@ -9,7 +9,8 @@ import numpy as np
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.band import Spectrum, choose_cutoffs, velocity_energy, what_rings
-from modeler.observation.consistency import Consistency, consistency
+from modeler.observation.consistency import Consistency, consistency, without_late
+from modeler.observation.damage import Damage, repaired
 from modeler.observation.derivatives import quieter, without_velocities
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
@@ -34,6 +35,7 @@ class Prepared:
         dropped: rows in pieces that were all edge, by log.
         checks: of the logged derivatives, by log; None where positions are differentiated.
         rings: sentences on joints that ring, by log.
+        damages: values that no robot can have made, by log.
     """
 
     processing: Processing
@@ -45,16 +47,20 @@ class Prepared:
     dropped: tuple[int, ...]
     checks: tuple[Consistency | None, ...]
     rings: tuple[tuple[str, ...], ...]
+    damages: tuple[tuple[Damage, ...], ...]
 
 
 def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
-    """Split, resample, choose the cut-offs, filter and differentiate.
+    """Mend, split, resample, choose the cut-offs, filter and differentiate.
 
     Raises:
         DataError: no logs, a log of another robot, a value that cannot be, nothing long enough to
             differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
+    mended = [repaired(log, spec) for log in logs]
+    if not processing.keep_damaged:
+        logs = [log for log, _ in mended]
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
     split_logs = [split(log, run, logged[run]) for run, log in enumerate(logs)]
     pieces = [piece for found, _ in split_logs for piece in found]
@@ -75,6 +81,11 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
     if processing.derivatives == "auto" and quieter(read, chosen.position_cutoff or 0.0):
         found = [without_velocities(own) for own in found]
         logged, checks = [False] * len(logs), [None] * len(logs)
+    if processing.derivatives == "auto" and not chosen.keep_contradicted:
+        for run, check in enumerate(checks):
+            if check is not None and check.harmful:
+                found[run], logged[run] = without_velocities(found[run]), False
+                checks[run] = without_late(check, found[run])
     if not chosen.keep_contradicted:
         found = [_believed(own, check) for own, check in zip(found, checks, strict=True)]
     segments: list[Segment] = []
@@ -98,7 +109,8 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         pieces=tuple(found),
         splits=tuple(report for _, report in split_logs),
         derivatives=tuple(
-            _source(log, use, processing.derivatives) for log, use in zip(logs, logged, strict=True)
+            _source(log, use, processing.derivatives, check)
+            for log, use, check in zip(logs, logged, checks, strict=True)
         ),
         dropped=tuple(dropped),
         checks=tuple(checks),
@@ -106,6 +118,7 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
             _rings(spec, [s for p, s in zip(pieces, spectra, strict=True) if p.run == run])
             for run in range(len(logs))
         ),
+        damages=tuple(damages for _, damages in mended),
     )
 
 
@@ -152,6 +165,7 @@ def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Non
 
 def _check_cutoff(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
     """A filter above half the sampling rate does not exist; one that is not needed may be any."""
+    _check_windows(logs, pieces, processing)
     given = processing.position_cutoff or 0.0
     for piece in pieces:
         rate = 1.0 / piece.step
@@ -163,6 +177,31 @@ def _check_cutoff(logs: Sequence[Log], pieces: Sequence[Piece], processing: Proc
                 f"{0.5 * rate:.4g} Hz; give `modeler fit` a lower --cutoff, or sample faster"
                 + "".join(f"; {log.name}: {note}" for note in log.notes)
             )
+
+
+def _check_windows(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
+    """A filter that averages over more than the motion leaves one row of it, however long it takes.
+
+    The longest piece holds at least a period of either cut-off, and two rows.
+    """
+    longest = max(pieces, key=lambda piece: len(piece.time))
+    name, samples = logs[longest.run].name, len(longest.time)
+    lowest = 1.0 / (samples * longest.step)
+    for option in ("position", "parallel"):
+        cutoff = getattr(processing, f"{option}_cutoff")
+        if cutoff is not None and 0.0 < cutoff < lowest:
+            flag = "--cutoff" if option == "position" else "--parallel-cutoff"
+            raise DataError(
+                f"{name}: {option} filter ({flag}) of {cutoff:g} Hz, whose period is longer than "
+                f"the longest motion without a gap, {1.0 / lowest:.4g} s; expected more than "
+                f"{lowest:.2g} Hz; give a higher {flag}, or leave it out"
+            )
+    if processing.decimation is not None and 2 * processing.decimation > samples:
+        raise DataError(
+            f"{name}: one row of {processing.decimation} samples (--decimate) from {samples} "
+            f"samples without a gap; expected at most {samples // 2}; give a lower --decimate, or "
+            "leave it out"
+        )
 
 
 def _check_size(log: Log, spec: ModuleSpec) -> None:
@@ -180,10 +219,12 @@ def _check_size(log: Log, spec: ModuleSpec) -> None:
             )
 
 
-def _source(log: Log, logged: bool, asked: str) -> str:
+def _source(log: Log, logged: bool, asked: str, check: Consistency | None) -> str:
     if not logged:
         noisy = log.qd is not None and log.qdd is None and asked == "auto"
         why = ", whose noise is less than that of the logged qd" if noisy else ""
+        if check is not None:
+            why = ", as logged derivatives come late"
         return f"qd and qdd by differentiating q{why}"
     return "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
 

@@ -3,11 +3,10 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
+from modeler.core.choices import LOW_SPEED, Derivatives
 from modeler.core.errors import DataError
-
-Derivatives = Literal["auto", "log", "position"]
 
 
 @dataclass(frozen=True)
@@ -30,6 +29,8 @@ class Processing:
         keep_saturated: use rows whose torque is stuck at the drive's limit.
         keep_contradicted: use samples whose logged qd or qdd is not the derivative of q or qd,
             and do not refuse columns that are wrong throughout.
+        keep_damaged: use values that no robot can have made (leaps, spikes, repeated positions) as
+            they were logged.
         delay: s by which torques are logged before the motion that they belong to; they are moved
             later by it.
         edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
@@ -40,24 +41,32 @@ class Processing:
     parallel_cutoff: float | None = None
     decimation: int | None = None
     derivatives: Derivatives = "auto"
-    low_speed: float = 0.02
+    low_speed: float = LOW_SPEED
     speed_floors: Mapping[str, float] | None = None
     keep_saturated: bool = False
     edge: float | None = None
     keep_contradicted: bool = False
+    keep_damaged: bool = False
     delay: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):
             value = getattr(self, name)
-            if value is not None and not 0.0 <= value < float("inf"):
+            if value is not None and not (_is_number(value) and 0.0 <= value < float("inf")):
                 raise DataError(f"{name} is {value}; expected a number that is not negative")
-        if not abs(self.delay) < 1.0:
+        if not (_is_number(self.delay) and abs(self.delay) < 1.0):
             raise DataError(f"delay is {self.delay}; expected less than 1 s either way")
         if self.low_speed >= 1.0:
             raise DataError(f"low_speed is {self.low_speed}; expected a fraction below 1")
-        if self.decimation is not None and self.decimation < 1:
+        if self.decimation is not None and not (
+            isinstance(self.decimation, int) and self.decimation >= 1
+        ):
             raise DataError(f"decimation is {self.decimation}; expected a whole number from 1")
+        if not isinstance(self.speed_floors, Mapping | None):
+            raise DataError(
+                f"speed_floors is {self.speed_floors}; expected a speed by joint, as in "
+                '{"1": 0.1}'
+            )
         if self.derivatives not in get_args(Derivatives):
             raise DataError(
                 f'derivatives is "{self.derivatives}"; expected {", ".join(get_args(Derivatives))}'
@@ -72,6 +81,10 @@ class Processing:
                 for name, floor in self.speed_floors.items()
             }
         return raw
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def processing_from_json(raw: Mapping[str, Any]) -> Processing:

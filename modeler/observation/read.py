@@ -10,6 +10,7 @@ from modeler.observation.log import Log, fingerprint
 from modeler.observation.table import Table
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
+_SHORTEST_STEP, _LONGEST_STEP = 1e-7, 1e7  # s; beyond, squares of it say nothing any more
 _FAR = 30.0  # rad; nearly five turns: more likely degrees
 
 
@@ -70,6 +71,12 @@ def _time(table: Table) -> np.ndarray:
             f"{table.path}: column time, row {row + 1}: {time[row]:.9g} s after "
             f"{time[row - 1]:.9g} s; expected increasing time; delete repeated rows, or sort "
             "and split the file where the clock restarts"
+        )
+    step = float(np.median(np.diff(time)))
+    if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
+        raise DataError(
+            f"{table.path}: column time: median step of {step:.3g} s; expected {_SHORTEST_STEP:g} "
+            f"to {_LONGEST_STEP:g} s; write the time in seconds"
         )
     return time
 
@@ -181,12 +188,17 @@ def _doubts(time: np.ndarray, q: np.ndarray, tau: np.ndarray, spec: ModuleSpec) 
         found.append(f"median time step {step:.3g} s: is the column in seconds?")
     for index, joint in enumerate(spec.joints):
         values = q[np.isfinite(q[:, index]), index]
-        if joint.kind == "revolute" and values.size and np.ptp(values) > _FAR:
-            found.append(f"q{joint.name} spans {np.ptp(values):.4g}: is it in rad?")
+        if joint.kind == "revolute" and values.size and _span(values) > _FAR:
+            found.append(f"q{joint.name} spans {_span(values):.4g}: is it in rad?")
         torque = tau[np.isfinite(tau[:, index]), index]
-        if joint.actuated and torque.size and np.ptp(torque) == 0.0:
+        if joint.actuated and torque.size and _span(torque) == 0.0:
             found.append(f"the torque of joint {joint.name} never changes: is it connected?")
     return found
+
+
+def _span(values: np.ndarray) -> float:
+    """From the least to the largest; infinite where that is beyond all numbers."""
+    return float(values.max()) - float(values.min())
 
 
 def _check_measured(path: Path, log: Log, spec: ModuleSpec) -> None:

@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
+from modeler.observation.damage import Damage
 from modeler.observation.processing import Processing
+from modeler.observation.segments import JITTER
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,7 @@ class LogReport:
         notes: sentences.
         contradictions: logged derivatives that cannot be, by column.
         contradicted: samples that any of them makes unusable.
+        damages: values that no robot can have made, by column and kind.
         content: fingerprint of the file's measurements.
         span: first and last time, s.
     """
@@ -50,6 +53,7 @@ class LogReport:
     notes: tuple[str, ...]
     contradictions: tuple[Contradiction, ...] = ()
     contradicted: int = 0
+    damages: tuple[Damage, ...] = ()
     content: str = ""
     span: tuple[float, float] = (0.0, 0.0)
 
@@ -62,7 +66,7 @@ class LogReport:
         if self.gaps or self.pieces != 1:
             gap = f", {self.gaps} gaps up to {self.longest_gap:.3g} s" if self.gaps else ""
             text.append(f"  {self.pieces} pieces{gap}; no filter runs across their ends")
-        if self.resampled:
+        if self.resampled and self.jitter > JITTER:  # else a few rows were bridged
             text.append(
                 f"  time steps vary by up to {100.0 * self.jitter:.3g} %: {self.resampled} of "
                 f"{self.pieces} pieces resampled on a uniform grid"
@@ -73,10 +77,31 @@ class LogReport:
             text.append(f"  {column}: {count} rows without a value; bridged, not used for the fit")
         for joint, count in self.saturated.items():
             text.append(f"  joint {joint}: torque stuck at its limit in {count} rows")
+        text += [f"  {damage.line}" for damage in self.damages]
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {found.line()}" for found in self.contradictions]
         return text + [f"  {note}" for note in self.notes]
+
+    def doubts(self) -> list[str]:
+        """What is wrong with the measurements, one sentence each, with the name of the file."""
+        found = [
+            f"{column} has no value in {count} of {self.rows} rows; they are not used, but look "
+            "why the logger left them out"
+            for column, count in self.missing.items()
+        ]
+        found += [damage.line for damage in self.damages]
+        found += [
+            f"the torque of joint {joint} is clipped in {count} of {self.rows} rows; they are not "
+            "used, but drive slower or with less load"
+            for joint, count in self.saturated.items()
+        ]
+        if self.contradicted:
+            found.append(
+                "the logged speeds or accelerations are not those of the positions in "
+                f"{self.contradicted} samples; they are not used, but check these channels"
+            )
+        return [f"{self.name}: {line}" for line in (*found, *self.notes)]
 
 
 @dataclass(frozen=True)
@@ -145,6 +170,10 @@ class DataReport:
     logs: tuple[LogReport, ...]
     joints: tuple[JointReport, ...]
 
+    def doubts(self) -> list[str]:
+        """What is wrong with the measurements of all logs, one sentence each."""
+        return [line for log in self.logs for line in log.doubts()]
+
     def summary(self) -> list[str]:
         """Lines of text for people."""
         lines = [line for log in self.logs for line in log.lines()]
@@ -152,6 +181,13 @@ class DataReport:
         if any(log.saturated for log in self.logs):
             used = "used" if self.processing.keep_saturated else "not used"
             lines.append(f"rows with a torque at its limit are {used}")
+        if any(log.damages for log in self.logs):
+            lines.append(
+                "values that no robot can have made are used as logged"
+                if self.processing.keep_damaged
+                else "values that no robot can have made are mended or left out, as told above; "
+                "--keep-damaged takes them as logged"
+            )
         if any(log.contradicted for log in self.logs):
             used = "used" if self.processing.keep_contradicted else "not used"
             lines.append(

@@ -13,6 +13,7 @@ RATE = 2.5
 """Rows per period of the cut-off: neighbours then correlate by 0.1."""
 
 _REACH = 3.0  # standard deviations
+_NONE = 0.02  # samples; neighbours' weights are 0 in double precision below
 LEAST_WEIGHT = 0.5
 """A row is used if at least this share of its weights falls on usable samples."""
 
@@ -91,7 +92,7 @@ def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | 
     if decimation is None:
         decimation = max(1, round(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
-    reach = int(np.ceil(_REACH * spread))
+    reach = int(np.ceil(_REACH * spread)) if spread > _NONE else 0
     offsets = np.arange(-reach, reach + 1)
     bell = np.exp(-0.5 * (offsets / spread) ** 2) if reach else np.ones(1)
     bell = bell / bell.sum()
@@ -115,7 +116,7 @@ def moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
         cutoff: Hz at -3 dB; 0 for none.
     """
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
-    reach = int(np.ceil(_REACH * spread))
-    if reach == 0:
+    if spread <= _NONE:
         return values
+    reach = int(np.ceil(_REACH * spread))
     return np.asarray(gaussian_filter1d(values, spread, axis=0, mode="constant", radius=reach))

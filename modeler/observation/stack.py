@@ -71,6 +71,7 @@ def observed(
                 [joint.line() for joint in report.joints]
                 + [f"{log.name}: {note}" for log in logs for note in log.notes]
             )
+            + "; check these columns, or record longer and faster motion of every joint"
         )
     return _stack(model, logs, stretches, report)
 
@@ -177,6 +178,7 @@ def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stre
         notes=log.notes + prepared.rings[run] + (check.notes if check else ()),
         contradictions=check.contradictions if check else (),
         contradicted=sum(int(bad.sum()) for bad in check.bad) if check else 0,
+        damages=prepared.damages[run],
         content=log.content,
         span=(float(log.time[0]), float(log.time[-1])),
     )

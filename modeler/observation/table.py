@@ -49,7 +49,6 @@ class Table:
             pa.types.is_integer(kind)
             or pa.types.is_floating(kind)
             or pa.types.is_decimal(kind)
-            or pa.types.is_boolean(kind)
             or pa.types.is_null(kind)
         )
 
@@ -100,6 +99,15 @@ def _bare(name: str) -> str:
     return name
 
 
+def _read_csv(path: Path) -> pa.Table:
+    """The table of a CSV file; an error of one row names it."""
+    try:
+        return pa.csv.read_csv(path)
+    except pa.ArrowInvalid:
+        # Rows are counted only where one thread reads all.
+        return pa.csv.read_csv(path, pa.csv.ReadOptions(use_threads=False))
+
+
 def _load(path: Path) -> pa.Table:
     suffix = path.suffix.lower()
     if suffix not in (".csv", ".parquet"):
@@ -107,6 +115,8 @@ def _load(path: Path) -> pa.Table:
             f"{path}: a log ends in .parquet or .csv, got "
             f'"{path.suffix or "no suffix"}"; convert or rename it'
         )
+    if path.is_dir():
+        raise DataError(f"{path}: is a folder; expected a log, a .parquet or .csv file")
     if not path.is_file():
         raise DataError(f"{path}: there is no such file; check the path")
     if path.stat().st_size == 0:
@@ -114,8 +124,8 @@ def _load(path: Path) -> pa.Table:
     try:
         if suffix == ".csv":
             check_csv(path)
-            return pa.csv.read_csv(path)
-        return pa.parquet.read_table(path)
+            return _read_csv(path)
+        return pa.parquet.ParquetFile(path).read()  # read_table refuses names that stand twice
     except (pa.ArrowException, OSError) as error:
         words = str(error).strip().split("\n")[0]
         raise DataError(

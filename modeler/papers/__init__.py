@@ -1,8 +1,13 @@
 """The papers' printed results, beside what is derived."""
 
-from modeler.papers.check import Line as Line
-from modeler.papers.check import Verdict as Verdict
-from modeler.papers.check import check_paper as check_paper
-from modeler.papers.paper import Paper as Paper
-from modeler.papers.paper import paper_names as paper_names
-from modeler.papers.paper import read_paper as read_paper
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from modeler.papers.entries import *  # noqa: F403
+else:
+
+    def __getattr__(name: str) -> Any:
+        """One of `entries`: `modeler --help` reads what is light here, without the rest."""
+        import modeler.papers.entries as entries
+
+        return getattr(entries, name)

@@ -9,7 +9,7 @@ import sympy
 
 from modeler.base import BaseParameter, BaseParameters
 from modeler.base.agreement import coefficient_value
-from modeler.base.render import relation_text
+from modeler.base.relation_text import relation_text
 from modeler.papers.paper import Paper, PrintedCount, PrintedRelation
 from modeler.symbolic.geometry import geometric_symbol
 

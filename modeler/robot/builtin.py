@@ -18,4 +18,9 @@ def builtin_text(name: str) -> str:
     """
     if name not in builtin_names():
         raise KeyError(name)
-    return (_LIBRARY / f"{name}.toml").read_text(encoding="utf-8")
+    return builtin_file(name).read_text(encoding="utf-8")
+
+
+def builtin_file(name: str) -> Path:
+    """Where the text of a built-in robot stands."""
+    return _LIBRARY / f"{name}.toml"

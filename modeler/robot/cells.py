@@ -2,12 +2,21 @@
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from modeler.core.expression import Expression, ExpressionError, parse
-from modeler.robot.linear import Linear, NotLinear, linear_form
+from modeler.core.expression import LARGEST_EXPONENT, Expression, ExpressionError, parse
+from modeler.robot.linear import HighPower, Linear, NotLinear, linear_form
 from modeler.robot.place import Place, listed, near, shown
+
+LARGEST = 1e12
+"""Size of any number, in SI units: squares and products of larger ones leave double precision."""
+LARGEST_LENGTH = 1e4
+"""m, and of an acceleration of gravity, m/s2. Beside it a link of a few cm is lost in rounding."""
+LARGEST_RATIO = 1e4
+"""Of the motion of a joint or motor and that of a joint which it follows."""
+MOST_NAME_LETTERS = 63
+"""Of a name that goes into C, which tells names apart by as many letters (C99, 5.2.4.1)."""
 
 _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
@@ -27,10 +36,6 @@ def expression_at(value: Any, place: Place) -> Expression:
         if isinstance(value, str):
             told = told.replace(f'"{value.strip()}"', shown(value.strip()))
         raise place.error(told) from None
-    except (ValueError, RecursionError, OverflowError, MemoryError):
-        raise place.error(
-            f"got {shown(value)}, which cannot be read; expected a number or a short expression"
-        ) from None
 
 
 def form_at(
@@ -45,17 +50,49 @@ def form_at(
         RobotError: not linear, or without a value (division by zero, overflow).
     """
     try:
-        return linear_form(expression, symbols)
+        form = linear_form(expression, symbols)
     except NotLinear:
         raise place.error(
             f"got {shown(expression.text)}, which is not linear in its variables; "
             f"expected a sum such as {shown(example)}"
         ) from None
-    except (ArithmeticError, RecursionError):
+    except HighPower:
+        raise place.error(
+            f"got {shown(expression.text)}, with a larger exponent; expected at most "
+            f"{LARGEST_EXPONENT}: check the symbols in it"
+        ) from None
+    except ArithmeticError:
         raise place.error(
             f"got {shown(expression.text)}, which has no finite real value with the declared "
             "symbols; check the divisors, roots and powers"
         ) from None
+    check_size(expression, (form.constant, *form.coefficients.values()), LARGEST, place)
+    return form
+
+
+def length_at(expression: Expression, symbols: Mapping[str, float], place: Place) -> float:
+    """Value of a constant that is a length, m, or an acceleration of gravity, m/s2.
+
+    Raises:
+        RobotError: no finite value, or one beyond `LARGEST_LENGTH`.
+    """
+    constant = form_at(expression, symbols, place).constant
+    check_size(expression, (constant,), LARGEST_LENGTH, place)
+    return constant
+
+
+def check_size(expression: Expression, values: Iterable[float], most: float, place: Place) -> None:
+    """Refuse values beyond `most`.
+
+    Raises:
+        RobotError: names the expression and its value.
+    """
+    for value in values:
+        if abs(value) > most:
+            raise place.error(
+                f"got {shown(expression.text)}, which is {value:.4g}; expected at most {most:g} in "
+                "SI units: check the units, the divisors and the symbols in it"
+            )
 
 
 def check_declared(expression: Expression, known: Mapping[str, Any], place: Place) -> None:
@@ -98,6 +135,10 @@ def plain_number(value: Any, place: Place, example: str) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise place.error(f"got {shown(value)}; expected a finite number such as {example}")
+    if abs(number) > LARGEST:
+        raise place.error(
+            f"got {shown(value)}; expected at most {LARGEST:g} in SI units, such as {example}"
+        )
     return number
 
 
@@ -144,6 +185,19 @@ def name_of(value: Any) -> Any:
     if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**6:
         return str(value)
     return value
+
+
+def check_name_length(name: str, place: Place) -> None:
+    """Refuse a name of more than `MOST_NAME_LETTERS`.
+
+    Raises:
+        RobotError: says how long it is.
+    """
+    if len(name) > MOST_NAME_LETTERS:
+        raise place.error(
+            f"got the name {shown(name)} of {len(name)} letters; expected at most "
+            f"{MOST_NAME_LETTERS} (it becomes part of names in the C code)"
+        )
 
 
 def exact_angle(expression: Expression, variable: str | None, place: Place) -> Expression:

@@ -7,7 +7,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE, Effect, effect_named
+from modeler.effects import (
+    CATALOGUE,
+    PASSIVE_FRICTION,
+    PASSIVE_FRICTION_IS,
+    Effect,
+    effect_named,
+)
 from modeler.robot.own_effects import read_own_effects
 from modeler.robot.place import Place
 from modeler.robot.robot import INERTIAL
@@ -168,11 +174,17 @@ def _belongs(parameter: str, effects: Effects, catalogue: Sequence[Effect]) -> b
         return True
     for name, joints in effects.items():
         effect = effect_named(name, catalogue)
-        if effect is not None and effect.id == owners[prefix]:
-            return joints == "all" or any(
+        if effect is None:
+            continue
+        parts = PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,)
+        if owners[prefix] in parts and (
+            joints == "all"
+            or any(
                 parameter[len(prefix) :] == (entry["joint"] if isinstance(entry, dict) else entry)
                 for entry in joints
             )
+        ):
+            return True
     return False
 
 

@@ -1,9 +1,18 @@
 """The table [effects] of a robot file: which joint has which effect, and of what shape."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from modeler.effects import Acts, Effect, Form, effect_named
+from modeler.effects import (
+    PASSIVE_FRICTION,
+    PASSIVE_FRICTION_IS,
+    Acts,
+    Effect,
+    Form,
+    Shape,
+    effect_named,
+)
 from modeler.robot.cells import plain_number, table_at
 from modeler.robot.finite import check_finite
 from modeler.robot.joint import Joint
@@ -21,12 +30,14 @@ def read_effects(
     coupling: Coupling,
     catalogue: Sequence[Effect],
     place: Place,
+    platform: Sequence[str] = (),
 ) -> tuple[EffectUse, ...]:
     """Effects and their joints, in catalogue order.
 
     "all" means every actuated joint, and every motor of `[coupling]` for effects of coupled
-    motors; passive joints have an effect only if they are named. Effects with shape parameters
-    stand as a list of tables: stribeck = [{joint = "2", vs = 0.1, d = 1}].
+    motors; passive joints have an effect only if they are named. `passive_friction` is viscous and
+    Coulomb friction of joints without motor, "all" of them; it is read as these two. Effects with
+    shape parameters stand as a list of tables: stribeck = [{joint = "2", vs = 0.1, d = 1}].
 
     Args:
         value: the table.
@@ -34,6 +45,7 @@ def read_effects(
         coupling: motors that turn with several of them.
         catalogue: the effects there are, those of the file included.
         place: of the table.
+        platform: rows that move the platform: no joints that rub.
 
     Raises:
         RobotError: unknown effects, joints or shapes.
@@ -47,13 +59,43 @@ def read_effects(
             )
         here = place.at(name)
         _check_motors(effect, coupling, here)
-        if isinstance(cell, list) and any(isinstance(entry, dict) for entry in cell):
-            uses[effect.id] = _shaped(effect, cell, moving, coupling, here)
-        elif effect.forms[0].free:
-            raise here.error(f"got {shown(cell)}; expected its shapes, as in {_example(effect)}")
-        else:
-            uses[effect.id] = _plain(effect, _joints(effect, cell, moving, coupling, here))
+        away = platform if effect.acts is Acts.PASSIVE else ()
+        rows = {row: joint for row, joint in moving.items() if row not in away}
+        uses[effect.id] = _use(effect, cell, rows, coupling, here)
+    _spell_out(uses, moving, place)
     return tuple(uses[e.id] for e in catalogue if e.id in uses and uses[e.id].joints)
+
+
+def _use(
+    effect: Effect, cell: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+) -> EffectUse:
+    """The effect with its joints, or with its shapes."""
+    if isinstance(cell, list) and any(isinstance(entry, dict) for entry in cell):
+        return _shaped(effect, cell, moving, coupling, place)
+    if effect.forms[0].free:
+        raise place.error(f"got {shown(cell)}; expected its shapes, as in {_example(effect)}")
+    return _plain(effect, _joints(effect, cell, moving, coupling, place))
+
+
+def _spell_out(uses: dict[str, EffectUse], moving: Mapping[str, Joint], place: Place) -> None:
+    """`passive_friction` becomes what it is made of: viscous and Coulomb friction.
+
+    Raises:
+        RobotError: one of its joints has either already.
+    """
+    rubbing = uses.pop(PASSIVE_FRICTION, None)
+    if rubbing is None:
+        return
+    for effect in PASSIVE_FRICTION_IS:
+        own = uses[effect].joints if effect in uses else ()
+        for name in rubbing.joints:
+            if name in own:
+                raise place.at(PASSIVE_FRICTION).error(
+                    f"joint {shown(name)} has {effect} already, which is a part of it; take the "
+                    "joint out of one of them"
+                )
+        both = tuple(name for name in moving if name in own or name in rubbing.joints)
+        uses[effect] = EffectUse(effect, both)
 
 
 def needs_reference(effect: Effect, instance: EffectInstance) -> bool:
@@ -70,7 +112,7 @@ def _effect(name: str, catalogue: Sequence[Effect], place: Place) -> Effect:
         names = [known for e in written for known in (e.id, *e.aliases)]
         raise place.error(
             f"there is no effect {shown(name)}{near(name, names)}; expected one of "
-            f"{listed(e.id for e in written)}, or one that a table [own_effects.{name}] defines"
+            f"{listed(e.id for e in written)}, or [own_effects.{name}]"
         )
     if not effect.written:
         raise place.error(
@@ -98,11 +140,14 @@ def _plain(effect: Effect, joints: tuple[str, ...]) -> EffectUse:
 def _joints(
     effect: Effect, cell: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
 ) -> tuple[str, ...]:
+    passive = effect.acts is Acts.PASSIVE
+    if passive and all(joint.actuated for joint in moving.values()):
+        raise place.error("acts on joints without motor, and every joint has one; leave it out")
     if cell == "all":
         return tuple(
             name
             for name, joint in moving.items()
-            if (name in coupling if effect.coupled else joint.actuated)
+            if (name in coupling if effect.coupled else joint.actuated is not passive)
         )
     if not isinstance(cell, list):
         raise place.error(
@@ -113,6 +158,8 @@ def _joints(
         if named.count(name) > 1:
             raise place.error(f"joint {shown(name)} stands there twice; name it once")
         _check_coupled(effect, name, coupling, place)
+        if passive and moving[name].actuated:
+            raise place.error(f"joint {shown(name)} has a motor; write viscous and coulomb for it")
     return tuple(name for name in moving if name in named)
 
 
@@ -137,11 +184,29 @@ def _shaped(
         form = _form(effect, given, place)
         shapes = {s.name: s.grid[0] for s in effect.forms[form].shapes if len(s.grid) == 1}
         shapes |= {k: plain_number(v, place.at(k), "0.1") for k, v in given.items()}
-        check_finite(effect.forms[form], place.at(f"joint {shown(name)}"), shapes)
+        here = place.at(f"joint {shown(name)}")
+        _check_signs(effect.forms[form].shapes, shapes, here)
+        check_finite(effect.forms[form], here, shapes)
+        if EffectInstance(name, form, shapes) in [dataclasses.replace(i, label="") for i in found]:
+            raise here.error(
+                f"{listed(f'{k} = {v:g}' for k, v in shapes.items())} stands twice; remove one"
+            )
         before = sum(other.joint == name for other in found)
         found.append(EffectInstance(name, form, shapes, f"_{before + 1}" if before else ""))
     joints = tuple(name for name in moving if any(i.joint == name for i in found))
     return EffectUse(effect.id, joints, tuple(found))
+
+
+def _check_signs(shapes: Sequence[Shape], values: Mapping[str, float], place: Place) -> None:
+    """Refuse lengths, times, powers and the like below zero, and ripples without waves."""
+    for shape in shapes:
+        value = values[shape.name]
+        waves = shape.scale == "waves"
+        positive = waves or (shape.scale != "own" and min(shape.grid) >= 0.0)
+        if positive and (value < 0.0 or (waves and value == 0.0)):
+            raise place.at(shape.name).error(
+                f"got {value:g} ({shape.meaning}); expected a number above 0"
+            )
 
 
 def _form(effect: Effect, given: Mapping[str, Any], place: Place) -> int:

@@ -6,6 +6,7 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 
 from modeler.effects import VARIABLES, EffectColumn, Form, Shape
+from modeler.robot.cells import LARGEST
 from modeler.robot.place import Place, listed, shown
 
 MOST = 100
@@ -29,7 +30,7 @@ def check_combinations(shapes: Sequence[Shape], place: Place) -> None:
 
 
 def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = None) -> None:
-    """Refuse equations that have no finite real value at rest or in a random state.
+    """Refuse equations that have no real value up to `LARGEST` at rest or in a random state.
 
     Args:
         form: of an effect.
@@ -48,7 +49,7 @@ def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = N
                 raise place.error(
                     f"{column.prefix} = {shown(column.equation.text)} has no finite value at "
                     f"{listed(f'{name} = {value:.3g}' for name, value in values.items())}; "
-                    "expected one in every state of the joint, at rest too"
+                    f"expected one of at most {LARGEST:g} in every state of the joint, at rest too"
                 )
 
 
@@ -67,6 +68,6 @@ def _states() -> Iterator[Mapping[str, float]]:
 
 def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:
     try:
-        return math.isfinite(column.equation.number(values))
+        return abs(column.equation.number(values)) <= LARGEST
     except (ArithmeticError, ValueError, TypeError):  # a root of a negative number is complex
         return False

@@ -8,6 +8,8 @@ from modeler.robot.cells import list_at, name_of
 from modeler.robot.place import Place, shown
 
 MARK = "{i}"
+MOST_LEGS = 50
+"""Legs of three rows fill the longest table."""
 _NAME = re.compile(r"[A-Za-z0-9]+")
 _UNTOUCHED = ("legs", "shared", "notes", "title", "name")
 
@@ -37,6 +39,11 @@ def leg_names(value: Any, place: Place) -> tuple[str, ...]:
     if value is None:
         return ()
     legs = [name_of(leg) for leg in list_at(value, place, '["1", "2", "3"]')]
+    if len(legs) > MOST_LEGS:
+        raise place.error(
+            f"got {len(legs)} legs; expected at most {MOST_LEGS}: model a few of them, or parts of "
+            "the robot in files of their own"
+        )
     for leg in legs:
         if not isinstance(leg, str) or not _NAME.fullmatch(leg) or not leg.isascii():
             raise place.error(
@@ -104,6 +111,7 @@ def _need(legs: Sequence[str], value: Any, place: Place) -> None:
 def _checked(value: Any, place: Place) -> Any:
     if isinstance(value, str) and (mark := re.search(r"\{[^}]*\}?", value)):
         raise place.error(
-            f"got {shown(value)} with {shown(mark[0])}; the only mark is {MARK}, for the legs"
+            f"got {shown(value)} with {shown(mark[0])}; the only mark is {MARK}, "
+            "for the legs; correct it"
         )
     return value

@@ -5,11 +5,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modeler.core.expression import FUNCTIONS, Expression
+from modeler.core import rounded
+from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression
 
 
 class NotLinear(ValueError):
     """The expression is not linear in the variables."""
+
+
+class HighPower(ArithmeticError):
+    """An exponent beyond `LARGEST_EXPONENT`."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +56,9 @@ class Linear:
 
     def __pow__(self, exponent: "Linear | int") -> "Linear":
         power = exponent if isinstance(exponent, int) else exponent._number()
-        return Linear(_real(self._number() ** power))
+        if abs(power) > LARGEST_EXPONENT:
+            raise HighPower
+        return Linear(_real(rounded.power(self._number(), power)))
 
     def _times(self, factor: float) -> "Linear":
         return Linear(self.constant * factor, {n: c * factor for n, c in self.coefficients.items()})
@@ -69,14 +76,14 @@ def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
 
     Raises:
         NotLinear: a variable stands in a product, a power or a function.
+        HighPower: an exponent is beyond `LARGEST_EXPONENT`.
         ArithmeticError: division by zero, overflow, or no real value.
     """
     values = {
         name: Linear(symbols[name]) if name in symbols else Linear(0.0, {name: 1.0})
         for name in expression.names
     }
-    functions = {name: _lifted(name) for name in FUNCTIONS}
-    form = expression.fold(values, functions, Linear(math.pi), _constant)
+    form = expression.fold(values, _LIFTED, Linear(math.pi), _constant)
     form = Linear(form.constant, {n: c for n, c in form.coefficients.items() if c != 0.0})
     if not all(map(math.isfinite, (form.constant, *form.coefficients.values()))):
         raise OverflowError
@@ -84,11 +91,7 @@ def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
 
 
 def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
-    plain: dict[str, Callable[[float], float]] = {
-        "abs": abs,
-        "sign": lambda x: float((x > 0) - (x < 0)),
-    }
-    function = plain.get(name) or getattr(math, name)
+    function = rounded.FUNCTIONS[name]
 
     def lifted(argument: Linear) -> Linear:
         try:
@@ -99,6 +102,9 @@ def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
             raise ArithmeticError from error
 
     return lifted
+
+
+_LIFTED = {name: _lifted(name) for name in FUNCTIONS}
 
 
 def _constant(value: Fraction) -> Linear:

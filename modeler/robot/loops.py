@@ -1,15 +1,23 @@
 """The `[loops]` and `[home]` of a robot file."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.robot.cells import list_at, name_of, number_at, table_at, text_at
-from modeler.robot.joint import Joint
+from modeler.robot.joint import Joint, JointKind
+from modeler.robot.other_joints import other_joint
 from modeler.robot.place import Place, listed, near, shown
 from modeler.robot.robot import LOOP_KINDS, Loop
 
+MOST_LOOPS = 50
+"""As many as legs."""
 _COLUMNS = ("loop", "frame", "meets", "joint")
 _EXAMPLE = 'columns = ["loop", "frame", "meets", "joint"], rows = [["A", "9", "10", "rigid"]]'
+
+
+_ROUNDING = 1e-3
+"""rad by which a full turn may be rounded up."""
 
 
 def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop, ...]:
@@ -31,12 +39,33 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
         raise place.at("columns").error(f"got {shown(columns)}; expected {listed(_COLUMNS)}")
     if "rows" not in table:
         raise place.error(f"rows is missing; write {_EXAMPLE}")
+    rows = list_at(table["rows"], place.at("rows"), _EXAMPLE)
+    if len(rows) > MOST_LOOPS:
+        raise place.at("rows").error(
+            f"got {len(rows)} loops, those of all legs counted; expected at most {MOST_LOOPS}: "
+            "model parts of the robot in files of their own"
+        )
     loops = []
-    for number, cells in enumerate(list_at(table["rows"], place.at("rows"), _EXAMPLE), start=1):
+    for number, cells in enumerate(rows, start=1):
         here = place.at(f"row {number}")
         cells = list_at(cells, here, '["A", "9", "10", "rigid"]', length=len(_COLUMNS))
         loops.append(_loop(dict(zip(columns, cells, strict=True)), joints, here))
+    if not loops:
+        raise place.at("rows").error(
+            'the table is empty; write one row per loop, as in ["A", "9", "10", "rigid"], or leave '
+            "[loops] out"
+        )
+    _check_names([loop.name for loop in loops], place)
     return tuple(loops)
+
+
+def _check_names(names: Sequence[str], place: Place) -> None:
+    for number, name in enumerate(names, start=1):
+        if name in names[: number - 1]:
+            raise place.at(f"row {number}").error(
+                f"{shown(name)} is the name of row {names.index(name) + 1} too; give every loop "
+                "its own name"
+            )
 
 
 def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Loop:
@@ -55,10 +84,10 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
         frames.append(frame)
     kind = cells["joint"]
     if kind not in LOOP_KINDS:
+        instead = other_joint(kind) if isinstance(kind, str) else None
         hint = near(kind, LOOP_KINDS) if isinstance(kind, str) else ""
-        raise here.at("column joint").error(
-            f"got {shown(kind)}{hint}; expected one of {listed(LOOP_KINDS)}"
-        )
+        told = f"; {instead}" if instead else f"{hint}; expected one of {listed(LOOP_KINDS)}"
+        raise here.at("column joint").error(f"got {shown(kind)}{told}")
     bodies = [_body(frame, joints) for frame in frames]
     if bodies[0] == bodies[1]:
         raise here.error(
@@ -95,4 +124,13 @@ def read_home(
                 f"{listed(list(variables)[:12])}"
             )
         home[variables[key]] = number_at(cell, symbols, here)
+        _check_turn(moving[variables[key]], home[variables[key]], here)
     return home
+
+
+def _check_turn(joint: Joint, value: float, place: Place) -> None:
+    if joint.kind is JointKind.REVOLUTE and abs(value) > 2 * math.pi + _ROUNDING:
+        raise place.error(
+            f"got {value:g} rad, which is more than a turn; angles are in radians: write "
+            f'"{value:g}*pi/180" for degrees'
+        )

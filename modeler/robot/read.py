@@ -7,6 +7,7 @@ do. Nothing is guessed except what the format says may be left out.
 import dataclasses
 import fnmatch
 import re
+import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,7 +15,15 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.robot.builtin import builtin_names, builtin_text
-from modeler.robot.cells import form_at, list_at, plain_number, table_at, text_at
+from modeler.robot.cells import (
+    check_name_length,
+    form_at,
+    list_at,
+    plain_number,
+    table_at,
+    text_at,
+)
+from modeler.robot.converted import check_known_format, converted
 from modeler.robot.effects import needs_reference, read_effects
 from modeler.robot.joint import Joint
 from modeler.robot.legs import expanded, leg_names
@@ -59,7 +68,13 @@ def read_robot(robot: str | Path) -> Robot:
     """
     if isinstance(robot, str) and robot in builtin_names():
         return robot_from_text(builtin_text(robot), robot)
+    if not str(robot).strip():
+        raise RobotError(
+            f'robot: got ""; expected a robot file or a built-in robot ({listed(builtin_names())})'
+        )
     path = Path(robot)
+    if path.suffix.lower() == ".par":
+        return robot_from_text(converted(path).text, f"{path}, as a robot file")
     try:
         found = path.is_file()
         text = path.read_text(encoding="utf-8-sig") if found else ""
@@ -71,11 +86,7 @@ def read_robot(robot: str | Path) -> Robot:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if not found:
         raise RobotError(_not_found(path))
-    if path.suffix.lower() in (".par", ".urdf", ".xacro"):
-        raise RobotError(
-            f"{path}: {path.suffix} files are not read in this version; expected a TOML table, "
-            "such as a built-in robot's"
-        )
+    check_known_format(path)
     return robot_from_text(text, str(path))
 
 
@@ -101,7 +112,7 @@ def robot_from_text(text: str, where: str) -> Robot:
     relations = read_relations(document.get("relations", {}), rows, values, place.at("[relations]"))
     robot = Robot(
         name=document["name"],
-        title=_text(document, "title", document["name"], place),
+        title=_title(document, place),
         gravity=read_gravity(document["gravity"], variables, values, place.at("gravity")),
         symbols=symbols,
         joints=table_joints(rows, values),
@@ -122,8 +133,9 @@ def _with_tables(
     own = read_own_effects(document.get("own_effects", {}), place)
     robot = dataclasses.replace(robot, own_effects=own)
     effects = read_effects(
-        document.get("effects", {}), moving, coupling, robot.catalogue, place.at("[effects]")
-    )
+        document.get("effects", {}), moving, coupling, robot.catalogue, place.at("[effects]"),
+        robot.platform,
+    )  # fmt: skip
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= read_links(document.get("links", {}), moving, place.at("[links]"))
     robot = dataclasses.replace(robot, links=links, effects=effects)
@@ -185,8 +197,15 @@ def _document(text: str, place: Place) -> dict[str, Any]:
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
         ) from None
-    except (ValueError, RecursionError) as error:
-        raise place.error(f"cannot be read as TOML ({error}); correct the file") from None
+    except RecursionError:
+        raise place.error(
+            "cannot be read as TOML: lists or tables are nested hundreds deep; write them flat"
+        ) from None
+    except ValueError:  # the one that is left: Python's limit against endless conversions
+        raise place.error(
+            f"cannot be read as TOML: an integer has more than {sys.get_int_max_str_digits()} "
+            "digits; write a shorter one"
+        ) from None
     for key in document:
         if key not in _KEYS:
             raise place.error(
@@ -205,12 +224,22 @@ def _check_name(name: Any, place: Place) -> None:
             f"got {shown(name)}; expected letters, digits, - and _ such as "
             '"arm-2" (it becomes part of names in the C code)'
         )
+    check_name_length(name, place.at("name"))
 
 
 def _text(document: Mapping[str, Any], key: str, default: str, place: Place) -> str:
     if key not in document:
         return default
     return text_at(document[key], place.at(key), '"my robot"')
+
+
+def _title(document: Mapping[str, Any], place: Place) -> str:
+    title = _text(document, "title", document["name"], place)
+    if len(title.splitlines()) > 1:
+        raise place.at("title").error(
+            f"got {shown(title)}; expected one line; put the rest into notes"
+        )
+    return title
 
 
 def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:

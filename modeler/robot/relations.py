@@ -4,7 +4,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression
-from modeler.robot.cells import check_declared, expression_at, form_at, table_at
+from modeler.robot.cells import (
+    LARGEST_RATIO,
+    check_declared,
+    check_size,
+    expression_at,
+    form_at,
+    table_at,
+)
 from modeler.robot.place import Place, near, shown
 from modeler.robot.table import HOME, Row, row_kind
 
@@ -75,6 +82,7 @@ def _check(
             f"got {shown(expression.text)}, which holds q{name} itself; expected other joints"
         )
     form = form_at(expression, symbols, place, "-q2 - pi/2")
+    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
     if not form.coefficients:
         raise place.error(
             f"got {shown(expression.text)}, a constant; a joint that does not move has sigma 2"

@@ -5,7 +5,9 @@ from typing import Any
 
 from modeler.core.expression import Expression
 from modeler.robot.cells import (
+    LARGEST_RATIO,
     check_declared,
+    check_size,
     expression_at,
     form_at,
     list_at,
@@ -53,6 +55,7 @@ def read_coupling(
         known = {**symbols, **dict.fromkeys(variables, 0.0)}
         check_declared(expression, known, here)
         form = form_at(expression, symbols, here)
+        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
         if form.constant != 0.0:
             raise here.error(
                 f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a "

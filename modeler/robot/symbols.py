@@ -6,12 +6,20 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from modeler.core.expression import FUNCTIONS, Expression
-from modeler.robot.cells import check_declared, expression_at, form_at, list_at, table_at
+from modeler.robot.cells import (
+    check_declared,
+    check_name_length,
+    expression_at,
+    form_at,
+    length_at,
+    list_at,
+    table_at,
+)
 from modeler.robot.place import Place, shown
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 # Symbols become names in C.
-_C_WORDS = """
+C_WORDS = """
     auto break case char const continue default do double else enum extern float for goto if
     inline int long register restrict return short signed sizeof static struct switch typedef
     union unsigned void volatile while
@@ -57,7 +65,7 @@ def read_gravity(
                 "gravity is constant in frame 0: expected numbers and symbols"
             )
         check_declared(expression, symbols, here)
-        form_at(expression, symbols, here)
+        length_at(expression, symbols, here)
     x, y, z = (expression_at(cell, place) for cell in cells)
     return x, y, z
 
@@ -67,11 +75,12 @@ def _check_name(name: str, variables: Collection[str], place: Place) -> None:
         raise place.error(
             f"got the name {shown(name)}; expected a letter, then letters, digits or _, such as D3"
         )
+    check_name_length(name, place)
     taken = {
         "a joint variable": name in variables,
         "the number pi": name == "pi",
         "a function": name in FUNCTIONS,
-        "a word of the C language": name in _C_WORDS.split(),
+        "a word of the C language": name in C_WORDS.split(),
         "a word of the expression language": keyword.iskeyword(name),
     }
     for what, is_taken in taken.items():

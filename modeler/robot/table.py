@@ -6,10 +6,14 @@ from typing import Any
 
 from modeler.core.expression import Expression, parse
 from modeler.robot.cells import (
+    LARGEST_LENGTH,
     check_declared,
+    check_name_length,
+    check_size,
     exact_angle,
     expression_at,
     form_at,
+    length_at,
     list_at,
     name_of,
     table_at,
@@ -21,6 +25,8 @@ COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
 _ANGLES = ("gamma", "alpha", "theta")
 _EXAMPLE = 'columns = ["j", "alpha", "d", "theta", "r"], rows = [["1", 0, 0, "q1", 0]]'
+MOST_ROWS = 150
+"""Rows of a table. Deriving and the C grow with their square: docs/theory.md has the seconds."""
 ROW_NAME = re.compile(r"[A-Za-z0-9]+")
 
 Row = dict[str, Any]
@@ -52,7 +58,8 @@ def table_rows(
             raise place.error(f"{key} is missing; write {_EXAMPLE}")
     columns = _columns(table["columns"], place.at("columns"))
     rows: list[tuple[Row, Place]] = list(platform)
-    for number, cells in enumerate(list_at(table["rows"], place.at("rows"), _EXAMPLE), start=1):
+    listed_rows = _listed_rows(table["rows"], len(platform), place.at("rows"))
+    for number, cells in enumerate(listed_rows, start=1):
         row = _row(number, cells, columns, place)
         name = _row_name(row["j"], place.at(f"row {number}, column j"))
         here = place.at(f'row "{name}"')
@@ -62,12 +69,21 @@ def table_rows(
         above = names[-1] if len(names) > len(platform) else "0"
         row["a"] = name_of(row.get("a", above))
         rows.append((row, here))
-    if len(rows) == len(platform):
-        raise place.at("rows").error(
-            f"the table is empty; write one row per joint, as in {_EXAMPLE}"
-        )
     _check_antecedents(rows)
     return tuple(rows)
+
+
+def _listed_rows(value: Any, platform: int, place: Place) -> list[Any]:
+    """The rows as written; tables that nobody could wait for are refused before any work."""
+    rows = list_at(value, place, _EXAMPLE)
+    if len(rows) + platform > MOST_ROWS:
+        raise place.error(
+            f"got {len(rows) + platform} rows, those of all legs and of the platform counted; "
+            f"expected at most {MOST_ROWS}: model parts of the robot in files of their own"
+        )
+    if not rows:
+        raise place.error(f"the table is empty; write one row per joint, as in {_EXAMPLE}")
+    return rows
 
 
 def _check_new(name: str, names: list[str], number: int, platform: int, place: Place) -> None:
@@ -138,6 +154,7 @@ def _row_name(cell: Any, place: Place) -> str:
             f"got {shown(cell)}; expected a name of letters and digits such as "
             '"1" or "12" (it becomes part of names in the C code)'
         )
+    check_name_length(name, place)
     if name == "0":
         raise place.error('got "0", which is the base; number the rows from "1"')
     return name
@@ -234,8 +251,10 @@ def _cell(
     check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:
         _check_motion(expression, own, column, symbols, place)
-    else:
+    elif column in _ANGLES:
         form_at(expression, symbols, place)
+    else:
+        length_at(expression, symbols, place)
     if column in _ANGLES:
         return exact_angle(expression, own if column == home else None, place)
     # -0.0 and the like: one zero, so that everyone may drop it.
@@ -286,3 +305,5 @@ def _check_motion(
             f"{form.coefficients.get(own, 0.0):g}; expected 1 or -1, as in "
             f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
         )
+    if column not in _ANGLES:
+        check_size(expression, (form.constant,), LARGEST_LENGTH, place)

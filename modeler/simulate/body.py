@@ -92,4 +92,4 @@ def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
 
 
 def _spread(centre: np.ndarray) -> np.ndarray:
-    return float(centre @ centre) * np.eye(3) - np.outer(centre, centre)
+    return float(np.sum(centre * centre)) * np.eye(3) - np.outer(centre, centre)

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.simulate.elementary import exponential
+
 _SPEED_FILTER = 150.0  # Hz, on the differenced encoder position
 # Zero-order hold (0.5 tick), latency (1), difference (0.5), and the speed filter delay the velocity
 # loop; where that takes more than 0.6 rad of phase at the bandwidth, the bandwidth is lowered.
@@ -60,21 +62,9 @@ def tuned_gains(rate: float, bandwidth: float, feedforward: bool, highest: np.nd
         integral=_LOWER_LOOPS * omega**2,
         forward=float(feedforward),
         highest=highest,
-        filter_share=1 - float(np.exp(-2 * np.pi * _SPEED_FILTER / rate)),
+        filter_share=1 - float(exponential(-2 * np.pi * _SPEED_FILTER / rate)),
         tick=1 / rate,
     )
-
-
-def felt_inertia(inertia: np.ndarray, driven: np.ndarray) -> np.ndarray:
-    """(joints, joints) inertia that the motors feel, joints without motor swinging freely.
-
-    The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
-    """
-    if np.all(driven):
-        return inertia
-    felt = np.zeros_like(inertia)
-    felt[np.ix_(driven, driven)] = np.linalg.inv(np.linalg.inv(inertia)[np.ix_(driven, driven)])
-    return felt
 
 
 def control(
@@ -102,9 +92,14 @@ def control(
     difference = (measured - state.measured) / gains.tick
     speed = state.speed + gains.filter_share * (difference - state.speed)
     error = gains.position * (q - measured) + gains.forward * qd - speed
-    rise = inertia @ (gains.integral * gains.tick * error)
+    rise = _product(inertia, gains.integral * gains.tick * error)
     effort = state.effort + rise
-    wanted = inertia @ (gains.speed * error + gains.forward * qdd) + effort
+    wanted = _product(inertia, gains.speed * error + gains.forward * qdd) + effort
     torque = np.minimum(np.maximum(wanted, -gains.highest), gains.highest)
     winding = (wanted != torque) & (wanted * rise > 0)
     return ControllerState(measured, speed, np.where(winding, state.effort, effort)), torque
+
+
+def _product(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """matrix vector, by sums in a fixed order: libraries of linear algebra round as they like."""
+    return np.asarray(np.sum(matrix * vector, axis=1))

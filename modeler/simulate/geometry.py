@@ -7,6 +7,7 @@ import numpy as np
 
 from modeler.core.expression import Expression
 from modeler.robot import Joint, Robot
+from modeler.simulate.elementary import sine_and_cosine
 
 FUNCTIONS = {
     "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sqrt": ca.sqrt, "exp": ca.exp,
@@ -96,5 +97,5 @@ def _cosine_and_sine(angle: ca.SX | float) -> tuple[ca.SX, ca.SX]:
     if isinstance(angle, ca.SX):
         return ca.cos(angle), ca.sin(angle)
     # cos(pi/2) is 6e-17 in floating point; an exact 0 keeps the expressions small.
-    c, s = float(np.cos(angle)), float(np.sin(angle))
+    s, c = (float(value) for value in sine_and_cosine(angle))
     return ca.SX(c if abs(c) > 1e-15 else 0.0), ca.SX(s if abs(s) > 1e-15 else 0.0)

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from modeler.core.expression import parse
 from modeler.robot import Robot
 from modeler.simulate.body import Body, body_from_standard, standard_from_body
+from modeler.simulate.elementary import ten_digits
 from modeler.simulate.geometry import gravity_vector
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_catalogue import HIDDEN
@@ -59,5 +60,5 @@ def _tilted(robot: Robot, effect: HiddenEffect) -> Robot:
     heading = effect.values["heading"]
     axis = np.cos(heading) * first + np.sin(heading) * second
     turned = Rotation.from_rotvec(effect.values["angle"] * axis).apply(gravity)
-    x, y, z = (parse(float(component)) for component in turned)
+    x, y, z = (parse(ten_digits(component)) for component in turned)
     return dataclasses.replace(robot, gravity=(x, y, z))

@@ -8,6 +8,8 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
+from modeler.simulate.elementary import ten_digits
+from modeler.simulate.felt import felt_by_motors
 from modeler.simulate.geometry import gravity_vector, world_frames
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import last_link
@@ -60,11 +62,21 @@ def complete_effects(
         rng = np.random.default_rng(seed)
         joint = _joint(robot, parameters, kind, asked, rng)
         site = _site(robot, parameters, limits, scales, settings, joint)
-        if joint is not None and kind.where in ("pair", "passive"):
-            site = _among_others(robot, site, limits, scales, joint)
+        if joint is not None and kind.where == "pair":
+            site = _among_others(robot, site, scales, joint)
+        if joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
+            felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
+            site = _as_felt(site, kind, *felt)
         found.append(HiddenEffect(asked.effect, joint, _values(robot, kind, asked, site, rng)))
     _check_together(robot, found)
     return tuple(found)
+
+
+def _as_felt(site: Site, kind: HiddenKind, torque: float, speed: float) -> Site:
+    """The site in a closed machine; what no motor commands is as fast as the loops make it."""
+    if kind.where == "passive":
+        return dataclasses.replace(site, torque=torque, speed=speed)
+    return dataclasses.replace(site, torque=torque)
 
 
 def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
@@ -160,17 +172,13 @@ def _site(
 def _among_others(
     robot: Robot,
     site: Site,
-    limits: tuple[Limits, ...],
     scales: Sequence[JointScale],
     joint: str,
 ) -> Site:
-    """The site of an effect that other joints feel too: what is large for the weakest of these."""
+    """The site of an effect that the next joint feels too: what is large for the weaker one."""
     names = [moving.name for moving in robot.moving]
     motors = [names.index(other.name) for other in robot.coordinates]
     row = names.index(joint)
-    if row not in motors:
-        power = min(scales[k].torque * limits[k].speed for k in motors)
-        return dataclasses.replace(site, torque=power / site.speed)
     after = motors[motors.index(row) + 1]
     return dataclasses.replace(
         site,
@@ -210,7 +218,7 @@ def _values(
     robot: Robot, kind: HiddenKind, asked: HiddenEffect, site: Site, rng: np.random.Generator
 ) -> dict[str, float]:
     where = f"robot {robot.name}, hidden effect {kind.effect}"
-    values = {name: float(value) for name, value in kind.draw(rng, site).items()}
+    values = {name: ten_digits(value) for name, value in kind.draw(rng, site).items()}
     for name, value in asked.values.items():
         if name not in values:
             raise RobotError(

@@ -8,6 +8,7 @@ from modeler.core.errors import RobotError
 from modeler.robot import INERTIAL, Robot
 from modeler.simulate.body import Body, standard_from_body
 from modeler.simulate.completion import completed
+from modeler.simulate.elementary import ten_digits
 from modeler.simulate.geometry import BASE, world_frames
 
 _DENSITY = 30.0  # kg per squared metre of reach: an arm of 1 m weighs 30 kg
@@ -66,7 +67,14 @@ def link_parameters(
             raise _no_body(robot, joint.name, stated, completion.impossible)
         links[joint.name] = {prefix: values[prefix] for prefix in INERTIAL}
         names += [f"{prefix}{joint.name}" for prefix in INERTIAL if prefix not in stated]
-    return links, tuple(names)
+    drawn_values = set(names)
+    return {
+        joint: {
+            prefix: ten_digits(value) if f"{prefix}{joint}" in drawn_values else value
+            for prefix, value in values.items()
+        }
+        for joint, values in links.items()
+    }, tuple(names)
 
 
 def _no_body(robot: Robot, link: str, stated: dict[str, float], impossible: bool) -> RobotError:

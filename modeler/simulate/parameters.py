@@ -9,6 +9,7 @@ import numpy as np
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
 from modeler.simulate.body import Body, body_from_standard
+from modeler.simulate.elementary import ten_digits
 from modeler.simulate.links import link_parameters
 from modeler.simulate.physics import PHYSICS, EffectPhysics, JointScale
 from modeler.simulate.rigid import rigid_dynamics
@@ -61,7 +62,7 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
                 stated = robot.parameters.get(prefix + name)
                 if stated is None:
                     drawn.append(prefix + name)
-                standard[prefix + name] = float(value if stated is None else stated)
+                standard[prefix + name] = ten_digits(value) if stated is None else float(stated)
                 _check_sign(robot, effect, prefix + name, prefix, standard[prefix + name])
     standard, bodies = alike(similar, standard, bodies)
     return PlantParameters(standard, bodies, tuple(name for name in standard if name in drawn))

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
+from modeler.simulate.elementary import portable
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.parameters import PlantParameters
 from modeler.simulate.rigid import RigidDynamics, rigid_dynamics, tied_dynamics
@@ -118,14 +119,14 @@ def _assembled(
         joints=tuple(joint.name for joint in robot.free),
         driven=np.array([joint.actuated for joint in robot.free]),
         states=z.shape[0],
-        acceleration=ca.Function("acceleration", [q, qd, z, tau], [ca.cse(solved[:n, :]), z_rate]),
-        torque=ca.Function("torque", [q, qd, qdd, z], [inertia[:n, :n] @ qdd + load]),
-        inertia=ca.Function("inertia", [q], [ca.densify(following(inertia[:n, :n]))]),
-        resistance=ca.Function("resistance", [q, qd, z], [still]),
-        energy=ca.Function("energy", [q, qd], energies),
-        strain=ca.Function("strain", [q, z], [at_rest]),
+        acceleration=_function("acceleration", [q, qd, z, tau], [ca.cse(solved[:n, :]), z_rate]),
+        torque=_function("torque", [q, qd, qdd, z], [inertia[:n, :n] @ qdd + load]),
+        inertia=_function("inertia", [q], [ca.densify(following(inertia[:n, :n]))]),
+        resistance=_function("resistance", [q, qd, z], [still]),
+        energy=_function("energy", [q, qd], energies),
+        strain=_function("strain", [q, z], [at_rest]),
         fastest=effects.fastest,
-        temperatures=ca.Function("temperatures", [z], [temperatures]),
+        temperatures=_function("temperatures", [z], [temperatures]),
         warmed=tuple(effects.temperatures),
     )
 
@@ -166,7 +167,28 @@ def torque_function(
     qdd = ca.SX.sym("qdd", len(limits))
     torque = (links.inertia + ca.SX(effects.inertia)) @ qdd + links.bias + effects.torque
     inputs = [links.q, links.qd, qdd, effects.state]
-    return ca.Function("torque", inputs, [ca.cse(torque)]), effects.state.shape[0]
+    return _function("torque", inputs, [ca.cse(torque)]), effects.state.shape[0]
+
+
+def _function(name: str, inputs: list[ca.SX], outputs: list[ca.SX]) -> ca.Function:
+    return portable(ca.Function(name, inputs, outputs))
+
+
+def felt_inertia(plant: Plant) -> ca.Function:
+    """(q) -> (joints, joints) inertia that the motors feel, joints without motor swinging freely.
+
+    The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
+    """
+    if np.all(plant.driven):
+        return plant.inertia
+    q = ca.SX.sym("q", len(plant.joints))
+    driven, passive = (list(map(int, np.flatnonzero(plant.driven == own))) for own in (True, False))
+    inertia = plant.inertia(q)
+    felt = ca.SX.zeros(inertia.shape)
+    felt[driven, driven] = inertia[driven, driven] - inertia[driven, passive] @ ca.solve(
+        inertia[passive, passive], inertia[passive, driven]
+    )
+    return ca.Function("felt", [q], [felt])
 
 
 def of_free(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:

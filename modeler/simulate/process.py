@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.signal import lfilter
 
+from modeler.simulate.elementary import exponential
 from modeler.simulate.settings import SimulationSettings
 
 _CORRELATION = 0.03  # s
@@ -20,6 +21,7 @@ def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -
     if not settings.process_noise:
         return np.zeros(shape)
     white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
-    kept = float(np.exp(-1 / (settings.rate * _CORRELATION)))
+    kept = float(exponential(-1 / (settings.rate * _CORRELATION)))
     white[1:] *= np.sqrt(1 - kept**2)  # the first sample has the variance of all
-    return settings.process_noise * rms * lfilter([1.0], [1.0, -kept], white, axis=0)
+    noise = lfilter([1.0], [1.0, -kept], white, axis=0)
+    return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine

@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
 from modeler.simulate.closed import simulate_closed
-from modeler.simulate.controller import ControllerState, Gains, control, felt_inertia, tuned_gains
+from modeler.simulate.controller import ControllerState, Gains, control, tuned_gains
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import machine
 from modeler.simulate.hidden_draw import complete_effects
@@ -18,7 +18,7 @@ from modeler.simulate.limits import motion_limits
 from modeler.simulate.log import SimulatedLog, Truth
 from modeler.simulate.native import FastFunction
 from modeler.simulate.parameters import PlantParameters, plant_parameters
-from modeler.simulate.plant import Plant, build_plant, of_free
+from modeler.simulate.plant import Plant, build_plant, felt_inertia, of_free
 from modeler.simulate.process import process_torques
 from modeler.simulate.sensors import (
     Faults,
@@ -137,7 +137,7 @@ def _closed_loop(
     state = ControllerState(encoders.read(x[:n]), np.zeros(n), torque)
     steps = steps_per_tick(plant, limits, gains.tick)
     advance = FastFunction(tick_function(plant, gains.tick, steps))
-    mass = FastFunction(plant.inertia)
+    mass = FastFunction(felt_inertia(plant))
     run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)), random)
     for begin in range(0, ticks, _REPORT_EVERY):
         with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
@@ -145,7 +145,7 @@ def _closed_loop(
                 run.states[k], run.torques[k] = x, torque
                 measured = run.measured[k] = encoders.read(x[:n])
                 x = advance(x, torque + random[k])
-                inertia = felt_inertia(mass(measured).reshape(n, n), plant.driven)
+                inertia = mass(measured).reshape(n, n)
                 command = reference.q[k], reference.qd[k], reference.qdd[k]
                 state, torque = control(gains, state, inertia, measured, command)
         _check_kept(plant, reference, limits, begin, run.states[begin : k + 1, :n])

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.robot import Joint
+from modeler.simulate.elementary import sine_and_cosine
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.settings import SimulationSettings
 
@@ -70,7 +71,7 @@ def sensed(faults: Faults, position: np.ndarray) -> np.ndarray:
     """(joints,) what encoders of endless resolution read at these positions."""
     read = position + faults.offset
     for i, amplitude, order, phase in faults.waves:
-        read[i] += amplitude * np.sin(order * position[i] + phase)
+        read[i] += amplitude * sine_and_cosine(order * position[i] + phase)[0]
     return read
 
 

@@ -12,10 +12,11 @@ from modeler.simulate.hidden import HiddenEffect
 MOTIONS = ("exciting", "point-to-point")
 """What the commanded motion may be."""
 
-_NOT_NEGATIVE = (
-    "seed", "parameter_seed", "encoder_counts", "linear_resolution", "torque_noise",
-    "process_noise",
-)  # fmt: skip
+_MOST = {
+    "seed": math.inf, "parameter_seed": math.inf, "encoder_counts": 1e12,
+    "linear_resolution": 1.0, "torque_noise": 100.0, "process_noise": 100.0,
+}  # fmt: skip
+"""What may be 0 and more, up to this."""
 _EMPTY: Mapping = MappingProxyType({})
 _MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 
@@ -81,10 +82,11 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
             f"second, {settings.duration * settings.rate:.3g} samples; expected at most "
             f"{_MOST_SAMPLES:.0e}; simulate a shorter motion or lower the rate"
         )
-    for name in _NOT_NEGATIVE:
+    for name, most in _MOST.items():
         value = getattr(settings, name)
-        if not (math.isfinite(value) and value >= 0):
-            raise DataError(f"simulation, {name}: got {value}; expected 0 or more")
+        if not 0 <= value <= most or value == math.inf:
+            upto = f", at most {most:g}" if math.isfinite(most) else ""
+            raise DataError(f"simulation, {name}: got {value}; expected 0 or more{upto}")
     for joint, value in settings.torque_limits.items():
         if joint not in joints:
             raise DataError(

@@ -6,6 +6,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits
+from modeler.simulate.elementary import sine_and_cosine, ten_digits
 
 _MARGIN = 0.92  # of the limits: the joints overshoot the command a little
 _SPEEDS = (1.0, 0.6, 0.25, 1.0, 0.4, 0.1)  # of the top speed, taken in turn
@@ -130,7 +131,8 @@ def _add_moves(
         level = speeds[turn % len(speeds)]
         joins = rng.random(len(limits)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
         joins[rng.integers(len(limits))] = True
-        target = np.where(joins, middle + reach * rng.uniform(-1, 1, len(limits)), here)
+        share = np.round(rng.uniform(-1, 1, len(limits)), 10)
+        target = np.where(joins, middle + reach * share, here)
         needed = _move_time(target - here, limits, level)
         target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
         lasts = _move_time(target - here, limits, level)
@@ -169,7 +171,7 @@ def _add_move(
 def _quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """0 before s = 0, 1 after s = 1, with two continuous derivatives between; and these."""
     x = np.clip(s, 0.0, 1.0)
-    value = x**3 * (10 - 15 * x + 6 * x**2)
+    value = x * x * x * (10 - 15 * x + 6 * x**2)
     slope = 30 * x**2 * (1 - x) ** 2
     bend = 60 * x * (1 - x) * (1 - 2 * x)
     return value, slope, bend
@@ -193,12 +195,11 @@ def _add_series(
     for i, limit in enumerate(limits):
         series = np.zeros((3, time.size))
         for harmonic in range(1, _HARMONICS + 1):
-            omega = 2 * np.pi * lowest * harmonic * rng.uniform(0.9, 1.1)
-            phase = omega * (time - begin) + rng.uniform(0, 2 * np.pi)
-            size = rng.uniform(0.5, 1.0) / harmonic
-            series += size * np.array(
-                [np.sin(phase), omega * np.cos(phase), -(omega**2) * np.sin(phase)]
-            )
+            omega = 2 * np.pi * lowest * harmonic * ten_digits(rng.uniform(0.9, 1.1))
+            phase = omega * (time - begin) + ten_digits(rng.uniform(0, 2 * np.pi))
+            size = ten_digits(rng.uniform(0.5, 1.0)) / harmonic
+            sine, cosine = sine_and_cosine(phase)
+            series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
         shaped = np.array([
             window[0] * series[0],
             window[1] * series[0] + window[0] * series[1],

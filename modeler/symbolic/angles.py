@@ -9,6 +9,10 @@ import sympy
 _FINEST = 12
 """Fractions p/q of pi up to this q are multiples of pi/q; finer ones stand for themselves."""
 
+_MOST_TURNS = 4
+"""Angles in a sum, counted with their multiples; a longer sum stands for itself. Written out, its
+cosine has 2**(turns - 1) terms. Relations that this hides are found at the given values."""
+
 Pair = tuple[sympy.Expr, sympy.Expr]
 """(cosine, sine)."""
 
@@ -22,8 +26,19 @@ def cos_sin(angle: sympy.Expr) -> Pair:
     constant, rest = angle.as_independent(*angle.free_symbols, as_Add=True)
     if rest == 0 or not angle.free_symbols:
         return _of_number(angle)
+    if not is_short(rest):
+        return _standing(angle)
     pair = tuple(sympy.expand_trig(f(rest)) for f in (sympy.cos, sympy.sin))
     return _sum((pair[0], pair[1]), _of_number(constant))
+
+
+def is_short(angle: sympy.Expr) -> bool:
+    """True if sums and whole multiples in the angle are few enough to be written out."""
+    turns = 0
+    for term in sympy.Add.make_args(angle):
+        factor = term.as_coeff_Mul()[0]
+        turns += abs(int(factor)) if factor.is_Integer else 1
+    return turns <= _MOST_TURNS
 
 
 def _of_number(angle: sympy.Expr) -> Pair:
@@ -33,6 +48,9 @@ def _of_number(angle: sympy.Expr) -> Pair:
     if angle.is_negative:
         c, s = _of_number(-angle)
         return c, -s
+    number, turned = angle.as_coeff_Add()
+    if number and turned:  # 0.4 + pi/2 is made of the same angle as 0.4
+        return _sum(_of_number(number), _of_number(turned))
     turns = angle / sympy.pi
     if turns.is_Rational and turns.q <= _FINEST:
         return _multiple(_standing(sympy.pi / turns.q), int(turns.p))

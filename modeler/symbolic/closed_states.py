@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.symbolic.closing import Closing, moved_postures
+from modeler.symbolic.closing import Closing
 from modeler.symbolic.model import SymbolicModel
+from modeler.symbolic.walks import Walk, walked
 
 
 @dataclass(frozen=True)
@@ -31,20 +32,48 @@ def closing_of(model: SymbolicModel) -> Closing:
     )  # fmt: skip
 
 
-def closed_postures(
-    model: SymbolicModel, samples: int, rng: np.random.Generator, reach: float = 0.3
-) -> np.ndarray:
-    """(samples, len(u)) postures around home in which the loops are closed.
+def closed_walk(
+    model: SymbolicModel, samples: int, rng: np.random.Generator, share: float = 0.0
+) -> Walk:
+    """Postures in which the loops are closed, over all that the actuated joints reach from home.
+
+    Joints stay within their [limits]; without, actuated angles within a turn around home, actuated
+    travels within the robot's size of it.
 
     Args:
         model: with loops.
         samples: number of postures.
         rng: of the random motion.
-        reach: of the motion, in rad and twice the robot's size.
+        share: of home's distance to a singularity that all postures keep.
     """
     closure = model.closure
     assert closure is not None
-    return moved_postures(closing_of(model), np.array(closure.home), rng, samples, reach)
+    ranges = []
+    for k, (joint, at) in enumerate(zip(model.robot.free, closure.home, strict=True)):
+        limits = model.robot.limits.get(joint.name)
+        reach = closure.size if closure.lengths[k] else np.pi
+        reach = reach if k in closure.given else np.inf
+        low, high = (limits.lower, limits.upper) if limits else (at - reach, at + reach)
+        ranges.append((min(low, at), max(high, at)))
+    return walked(closing_of(model), np.array(closure.home), ranges, samples, rng, share)
+
+
+def rounded_off(model: SymbolicModel, u: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Closed postures as another machine might have closed them: each equation wrong by rounding.
+
+    Args:
+        model: with loops.
+        u: (n, len(u)) closed postures.
+        rng: of the signs.
+    """
+    closing = closing_of(model)
+    solved = list(closing.solved)
+    error = float(np.finfo(float).eps) * closing.size
+    wrong = rng.choice([-error, error], (len(u), len(closing.equations)))
+    other = u.copy()
+    inner = closing.jacobians(u)[:, :, solved]
+    other[:, solved] += np.linalg.solve(inner, wrong[:, :, None])[:, :, 0]
+    return other
 
 
 def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedMotion:

@@ -10,8 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import LoopError
+from modeler.core.rounded import precise
 from modeler.robot import Robot
 from modeler.symbolic.graph import Expr, Graph
+from modeler.symbolic.precise import decimal, precise_values
 
 _CLOSED = 1e-12
 """Residual of a closed loop, relative to the robot's size."""
@@ -20,6 +22,11 @@ _ITERATIONS = 60
 _STEPS = 12
 _SEED = 7
 _STARTS = 200
+_PLACES = 6
+"""Decimals of rad and m in which two closed postures are told apart."""
+_POLISHED = 1e-25
+"""Last step of the polishing, in sizes of the robot or rad: far below the digits of a double."""
+_POLISHING = 8
 
 
 @dataclass(frozen=True)
@@ -58,16 +65,16 @@ class Closing:
 
     def residuals(self, u: np.ndarray) -> np.ndarray:
         """(n, equations) of (n, unknowns)."""
-        return self._evaluate(self.equations, u)
+        return self.evaluate(self.equations, u)
 
     def aligned(self, u: np.ndarray) -> np.ndarray:
         """(n,) True where no loop is closed with axes opposite; NaN postures are not."""
-        values = self._evaluate(self.alignments, u)
+        values = self.evaluate(self.alignments, u)
         return np.all(np.isfinite(u), axis=1) & np.all(values > 0.0, axis=1)
 
     def jacobians(self, u: np.ndarray) -> np.ndarray:
         """(n, equations, unknowns)."""
-        flat = self._evaluate([entry for line in self.jacobian for entry in line], u)
+        flat = self.evaluate([entry for line in self.jacobian for entry in line], u)
         return flat.reshape(len(u), len(self.equations), self.unknowns)
 
     def scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
@@ -77,7 +84,8 @@ class Closing:
         # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
         return J / np.where(length > _ZERO, length, np.inf)
 
-    def _evaluate(self, expressions: Sequence[Expr], u: np.ndarray) -> np.ndarray:
+    def evaluate(self, expressions: Sequence[Expr], u: np.ndarray) -> np.ndarray:
+        """(n, expressions) at (n, unknowns)."""
         inputs = {f"q[{k}]": u[:, k] for k in range(self.unknowns)}
         found = self.graph.evaluate(list(expressions), {**self.values, **inputs})
         out = np.empty((len(u), len(expressions)))
@@ -135,7 +143,7 @@ def closed_home(closing: Closing, start: np.ndarray, near: np.ndarray, robot: Ro
     Raises:
         LoopError: the passive joints cannot close it, or only with axes opposite.
     """
-    home = _nearest(closing, start)
+    home = nearest_closed(closing, start)
     if home is not None:
         return home
     names = [joint.name for joint in robot.free]
@@ -151,7 +159,7 @@ def closed_home(closing: Closing, start: np.ndarray, near: np.ndarray, robot: Ro
     )
 
 
-def _nearest(closing: Closing, start: np.ndarray) -> np.ndarray | None:
+def nearest_closed(closing: Closing, start: np.ndarray) -> np.ndarray | None:
     """The closed posture that Newton finds from `start`; where its axes are opposite, another near.
 
     Other starts differ in the solved angles.
@@ -170,11 +178,55 @@ def _nearest(closing: Closing, start: np.ndarray) -> np.ndarray | None:
     if len(found) == 0:
         return None
     found[:, angles] = start[angles] + _wrapped(found[:, angles] - start[angles])
-    return found[int(np.argmin(np.sum(np.abs(found - start), axis=1)))]
+    # Mirrored postures may be equally near: digits that no rounding reaches decide then.
+    near = np.round(np.sum(np.abs(found - start), axis=1), _PLACES)
+    return found[min(range(len(found)), key=lambda i: (near[i], *np.round(found[i], _PLACES)))]
 
 
 def _wrapped(angle: np.ndarray) -> np.ndarray:
     return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def polished(
+    closing: Closing, home: np.ndarray, chosen: Sequence[int], robot: Robot
+) -> tuple[float, ...]:
+    """The doubles next to the closed posture that `home` is up to rounding: the same everywhere.
+
+    Newton with 40 digits on the independent equations, the given variables held.
+
+    Args:
+        closing: the loops.
+        home: a closed posture.
+        chosen: numbers of the independent equations.
+        robot: for the message.
+
+    Raises:
+        LoopError: it does not settle; loops so near to singular have no certain digits.
+    """
+    mp, solved = precise(), list(closing.solved)
+    equations = [closing.equations[i] for i in chosen]
+    slopes = [closing.jacobian[i][k] for i in chosen for k in solved]
+    u = [decimal(float(x)) for x in home]
+    for _ in range(_POLISHING):
+        inputs = {f"q[{k}]": x for k, x in enumerate(u)}
+        found = precise_values(closing.graph, [*equations, *slopes], {**closing.values, **inputs})
+        f, J = mp.matrix(found[: len(solved)]), mp.matrix(len(solved))
+        for place, slope in enumerate(found[len(solved) :]):
+            J[place // len(solved), place % len(solved)] = slope
+        try:
+            step = mp.lu_solve(J, f)
+        except ZeroDivisionError:
+            break
+        for k, change in zip(solved, step, strict=True):
+            u[k] -= change
+        if max(abs(change) for change in step) < _POLISHED * closing.size:
+            for k in solved:  # what should be 0 is left at the size of the last step, not at 0
+                u[k] = mp.nint(u[k] / _POLISHED) * _POLISHED
+            return tuple(float(x) for x in u)
+    raise LoopError(
+        f"{robot.name}: [home]: the closed posture is not certain to the last digit, the loops are "
+        "all but singular there; state another posture"
+    )
 
 
 def moved_postures(

@@ -13,11 +13,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from modeler.core.errors import LoopError
 from modeler.symbolic.algebra import GraphAlgebra
-from modeler.symbolic.closing import Closing, closed_home, closed_near, moved_postures
+from modeler.symbolic.closing import Closing, closed_home, closed_near, moved_postures, polished
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
@@ -25,6 +24,7 @@ from modeler.symbolic.kinematics import Pose, base_poses
 from modeler.symbolic.loop_equations import loop_alignments, loop_equations
 
 _RANK = 1e-9
+_ALIKE = 1e-6
 _SAMPLES = 12
 _SEED = 20120
 
@@ -43,7 +43,9 @@ class Closure:
         lengths: by u, True for a travel in m, False for an angle.
         size: a length of the robot, m, with which travels are compared to angles.
         platform: places in u that are given where the platform's motion is; None without one.
-        redundant: number of equations that follow from the others.
+        every: all equations of all loops, those that follow from others too, as expressions of
+            `q[k]`, m or 1.
+        alignments: expressions that are positive where axes point as they should.
     """
 
     given: tuple[int, ...]
@@ -55,7 +57,13 @@ class Closure:
     lengths: tuple[bool, ...]
     size: float
     platform: tuple[int, ...] | None
-    redundant: int
+    every: tuple[Expr, ...]
+    alignments: tuple[Expr, ...]
+
+    @property
+    def redundant(self) -> int:
+        """Number of equations that follow from the others."""
+        return len(self.every) - len(self.equations)
 
 
 def closure_of(
@@ -70,14 +78,14 @@ def closure_of(
     robot = geometry.robot
     if not robot.loops:
         return None
-    closing, owners = _all_equations(geometry, graph, frames, algebra)
+    closing, owners = loop_closing(geometry, graph, frames, algebra)
     start = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free])
     if not closing.equations:
         if closing.solved:
             raise LoopError(_mobility(closing, geometry, np.zeros((1, len(start))), owners))
         return None
     near = closed_near(closing, start, robot, owners)
-    _check_mobility(closing, near, geometry, owners)
+    check_mobility(closing, near, geometry, owners)
     home = closed_home(closing, start, near, robot)
     if not closing.solved:
         return None
@@ -89,15 +97,16 @@ def closure_of(
         equations=tuple(closing.equations[i] for i in chosen),
         jacobian=jacobian,
         drift=tuple(_drift(graph, jacobian, closing.unknowns)),
-        home=tuple(float(x) for x in home),
+        home=polished(closing, home, chosen, robot),
         lengths=closing.lengths,
         size=closing.size,
         platform=_platform(closing, home, geometry),
-        redundant=len(closing.equations) - len(chosen),
+        every=tuple(closing.equations),
+        alignments=tuple(closing.alignments),
     )
 
 
-def _all_equations(
+def loop_closing(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
 ) -> tuple[Closing, list[str]]:
     """The equations of all loops, and the name of the loop that each comes from."""
@@ -134,7 +143,7 @@ def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Exp
     return derivatives(rates, {f"q[{k}]": speeds[k] for k in range(n)})
 
 
-def _check_mobility(
+def check_mobility(
     closing: Closing, near: np.ndarray, geometry: Geometry, owners: Sequence[str]
 ) -> None:
     """The loops leave as much free as is actuated, and the actuated joints drive it.
@@ -170,8 +179,23 @@ def _independent(closing: Closing, home: np.ndarray, geometry: Geometry) -> list
             f"{_moving_names(closing, geometry, at_home)} could move there with the actuated "
             "joints locked; state another posture"
         )
-    _, _, order = scipy.linalg.qr(at_home.T, pivoting=True)
-    return sorted(int(i) for i in order[: len(closing.solved)])
+    return sorted(_spanning_rows(at_home, len(closing.solved)))
+
+
+def _spanning_rows(matrix: np.ndarray, count: int) -> list[int]:
+    """Numbers of `count` rows that span the others, each the longest of what the rows before leave.
+
+    Gram-Schmidt with pivoting, as LAPACK has it; but rows of all but the same length are the rule
+    here, and the first of them is taken, where LAPACK would let the last digit choose.
+    """
+    rest, chosen = matrix.copy(), list[int]()
+    for _ in range(count):
+        lengths = np.linalg.norm(rest, axis=1)
+        best = int(np.argmax(lengths >= (1.0 - _ALIKE) * lengths.max()))
+        chosen.append(best)
+        direction = rest[best] / lengths[best]
+        rest -= np.outer(rest @ direction, direction)
+    return chosen
 
 
 def _rank(matrix: np.ndarray) -> int:

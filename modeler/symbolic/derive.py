@@ -1,15 +1,23 @@
 """From a robot to its symbolic model."""
 
+from collections.abc import Mapping
+from dataclasses import replace
+
+from modeler.core.errors import DerivationError
 from modeler.robot import Robot
 from modeler.symbolic.columns import standard_columns
 from modeler.symbolic.geometry import exact_geometry
 from modeler.symbolic.graph import Graph
-from modeler.symbolic.implied import with_implied_relations
+from modeler.symbolic.home import Home, HomeModes, home_modes, settled_home
+from modeler.symbolic.implied import implied_relations
 from modeler.symbolic.model import SymbolicModel
 
 
 def derive_model(robot: Robot) -> SymbolicModel:
-    """The symbolic model of a robot; relations that its loops imply are stated in its robot.
+    """The symbolic model of a robot.
+
+    The robot of the model has a [home] that is found where it is missing or poor, and states the
+    relations that its loops imply.
 
     Raises:
         DerivationError: an entry of the table has no exact value.
@@ -17,12 +25,45 @@ def derive_model(robot: Robot) -> SymbolicModel:
             cannot close.
     """
     model = _model(robot)
+    home = settled_home(model)
+    if home.robot is not robot:
+        robot = home.robot
+        model = _model(robot)
     if model.closure is None:
         return model
-    stated = with_implied_relations(model)
-    return model if stated is robot else _model(stated)
+    implied = implied_relations(model)
+    if implied.relations:
+        model = _model(replace(robot, relations={**robot.relations, **implied.relations}))
+    return replace(model, special=implied.special, unproven=implied.unproven)
+
+
+def with_home(robot: Robot) -> Home:
+    """The robot with a [home] from which its loops close, found where it is missing or poor.
+
+    Raises:
+        DerivationError: an entry of the table has no exact value.
+        LoopError: see `settled_home`.
+    """
+    return settled_home(_model(robot))
+
+
+def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
+    """The assembly modes of a robot with loops, the best one near to a posture first.
+
+    Args:
+        robot: as read.
+        near: values that are meant, by row; what is left out is found.
+
+    Raises:
+        DerivationError: an entry of the table has no exact value.
+        LoopError: see `home_modes`.
+    """
+    return home_modes(_model(robot), near)
 
 
 def _model(robot: Robot) -> SymbolicModel:
-    geometry = exact_geometry(robot)
+    try:
+        geometry = exact_geometry(robot)
+    except DerivationError as error:
+        raise DerivationError(f"{robot.name}: {error}") from None
     return SymbolicModel(robot, geometry, Graph(), standard_columns(geometry))

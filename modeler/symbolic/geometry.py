@@ -112,7 +112,10 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     forms, constants = resolved_relations(robot, symbols)
     cells = _Cells(symbols, numbers)
     rows = tuple(_moved(row, constants, cells) for row in _rows(robot, cells))
-    gravity = tuple(folded(entry, symbols) for entry in robot.gravity)
+    try:
+        gravity = tuple(folded(entry, symbols) for entry in robot.gravity)
+    except DerivationError as error:
+        raise DerivationError(f"gravity: {error}") from None
     used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
     return Geometry(
         robot, rows, (gravity[0], gravity[1], gravity[2]),
@@ -135,17 +138,17 @@ def _rows(robot: Robot, cells: "_Cells") -> list[Row]:
     places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
     index = 0
     for joint in robot.joints:
-        theta, rate_theta = cells.affine(joint, joint.theta, angle=True)
-        r, rate_r = cells.affine(joint, joint.r, angle=False)
+        theta, rate_theta = cells.affine(joint, "theta")
+        r, rate_r = cells.affine(joint, "r")
         rows.append(
             Row(
                 joint=joint,
                 parent=places[joint.antecedent],
                 index=index if joint.moves else None,
-                gamma=cells.angle(joint.gamma),
-                b=cells.length(joint.b),
-                alpha=cells.angle(joint.alpha),
-                d=cells.length(joint.d),
+                gamma=cells.angle(joint, "gamma"),
+                b=cells.length(joint, "b"),
+                alpha=cells.angle(joint, "alpha"),
+                d=cells.length(joint, "d"),
                 theta=theta,
                 r=r,
                 rate=(rate_theta if joint.angular else rate_r) if joint.moves else 1,
@@ -164,10 +167,17 @@ def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> di
         elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
             found[name] = quarters * sympy.pi / 2
         elif expression.names or "pi" in expression.text or at_nominal:
-            found[name] = folded(expression, found)
+            found[name] = _symbol(name, expression, found)
         else:
             found[name] = geometric_symbol(name)
     return found
+
+
+def _symbol(name: str, expression: Expression, found: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    try:
+        return folded(expression, found)
+    except DerivationError as error:
+        raise DerivationError(f"[symbols], {name}: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -175,30 +185,37 @@ class _Cells:
     symbols: Mapping[str, sympy.Expr]
     numbers: Mapping[str, float]
 
-    def length(self, cell: Expression) -> sympy.Expr:
-        return folded(cell, self.symbols)
+    def length(self, joint: Joint, column: str) -> sympy.Expr:
+        return self._folded(joint, column, self.symbols)
 
-    def angle(self, cell: Expression) -> sympy.Expr:
-        return self.snapped(folded(cell, self.symbols))
+    def angle(self, joint: Joint, column: str) -> sympy.Expr:
+        return self.snapped(self._folded(joint, column, self.symbols))
 
-    def affine(self, joint: Joint, cell: Expression, angle: bool) -> tuple[sympy.Expr, int]:
-        """(constant part, coefficient of the joint variable)."""
+    def affine(self, joint: Joint, column: str) -> tuple[sympy.Expr, int]:
+        """(constant part, coefficient of the joint variable) of theta or r."""
         q = sympy.Symbol(joint.variable, real=True)
-        value = sympy.expand(folded(cell, {**self.symbols, joint.variable: q}))
+        value = sympy.expand(self._folded(joint, column, {**self.symbols, joint.variable: q}))
         rate = value.coeff(q, 1)
         constant = value - rate * q
         if constant.has(q) or rate not in (0, 1, -1):
             raise DerivationError(
-                f"joint {joint.name}: got {cell.text}; expected {q} or -{q} plus a constant"
+                f"joint {joint.name}: got {getattr(joint, column).text}; expected {q} or -{q} plus "
+                "a constant"
             )
-        return (self.snapped(constant) if angle else constant), int(rate)
+        return (self.snapped(constant) if column == "theta" else constant), int(rate)
+
+    def _folded(self, joint: Joint, column: str, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
+        try:
+            return folded(getattr(joint, column), symbols)
+        except DerivationError as error:
+            raise DerivationError(f'row "{joint.name}", column {column}: {error}') from None
 
     def snapped(self, value: sympy.Expr) -> sympy.Expr:
         """The angle, exact where its value is a right angle."""
-        turns = float(value.subs(self._values())) / float(sympy.pi / 2)
-        if value.free_symbols and abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
+        if not value.free_symbols:
+            return value
+        values = {symbol: self.numbers[symbol.name] for symbol in value.free_symbols}
+        turns = float(value.subs(values)) / float(sympy.pi / 2)
+        if abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
             return round(turns) * sympy.pi / 2
         return value
-
-    def _values(self) -> dict[sympy.Symbol, float]:
-        return {geometric_symbol(name): value for name, value in self.numbers.items()}

@@ -24,6 +24,7 @@ import numpy as np
 
 PRIME = 2**61 - 1
 _LARGEST_MULTIPLE = 64
+_MULTIPLIED = range(101)  # exponents of which powers are multiplied out
 
 Number = int | Fraction
 Operand = Union["Expr", int, Fraction]
@@ -85,7 +86,7 @@ class Graph:
     def power(self, base: "Expr", exponent: "Expr") -> "Expr":
         """base**exponent for any constant exponent; the base is not negative."""
         node = self.nodes[abs(exponent.ref)]
-        if exponent.ref > 0 and node.op == "num" and node.args[0].denominator == 1:
+        if exponent.ref > 0 and node.op == "num" and node.args[0] in _MULTIPLIED:
             return base ** int(node.args[0])
         static = self.nodes[abs(base.ref)].static and node.static
         return Expr(self, self._node("pow", (base.ref, exponent.ref), static))

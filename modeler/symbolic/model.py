@@ -48,12 +48,19 @@ class SymbolicModel:
     Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.free`, which no
     geometric symbol can be named like, and the geometric symbols by name. Torques are those along
     the free variables; where loops tie these to each other, `closure` says how.
+
+    Attributes:
+        special: joints that follow others by relations which the loops imply at the given lengths
+            and angles only.
+        unproven: joints that seemed to follow others by a relation that was not proven.
     """
 
     robot: Robot
     geometry: Geometry
     graph: Graph
     columns: tuple[StandardColumn, ...]
+    special: tuple[str, ...] = ()
+    unproven: tuple[str, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:

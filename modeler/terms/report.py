@@ -4,7 +4,7 @@ import dataclasses
 from fractions import Fraction
 
 from modeler.base import BaseParameters
-from modeler.base.render import relation_text
+from modeler.base.relation_text import relation_text
 from modeler.symbolic import SymbolicModel
 from modeler.terms.closed_form import closed_form
 from modeler.terms.coefficients import CoefficientTable, by_function, coefficient_table

@@ -7,7 +7,8 @@ import pytest
 import sympy
 
 from modeler.base import base_parameters
-from modeler.base.render import as_json, as_latex, as_markdown, as_text, relation_text
+from modeler.base.relation_text import relation_text
+from modeler.base.render import as_json, as_latex, as_markdown, as_text
 from modeler.core.errors import DerivationError
 from modeler.robot import EffectUse, read_robot, robot_from_text
 from modeler.symbolic import derive_model

@@ -3,7 +3,7 @@
 import pytest
 
 from modeler.base import base_parameters
-from modeler.base.render import relation_text
+from modeler.base.relation_text import relation_text
 from modeler.robot import robot_from_text
 from modeler.symbolic import derive_model
 from tests.base.ranks import seen

@@ -2,7 +2,6 @@
 
 import csv
 import json
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import pytest
 
 from modeler.cli import main
-from tests.browser.chromium import NAMES, Chromium, found
+from tests.browser.chromium import Chromium
 
 SIZES = [(1280, 900), (400, 800)]
 
@@ -45,15 +44,6 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Pages:
     diagnosed = json.loads((folder / "d.json").read_text())
     waterfall = json.loads((folder / "a.json").read_text())["waterfall"]
     return Pages(folder / "d.html", diagnosed, folder / "a.html", waterfall)
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
-    program = found()
-    if program is None:
-        pytest.skip(f"NOT CHECKED: no browser, none of {', '.join(NAMES)} is on the path")
-    with Chromium(program, tmp_path_factory.mktemp("profile")) as running:
-        yield running
 
 
 def shown(browser: Chromium, page: Path, size: tuple[int, int]) -> str:

@@ -9,8 +9,11 @@ import sys
 import pytest
 
 from modeler.cli import main, parser
+from modeler.fit.integrity import checksums
 
-COMMANDS = ("derive", "generate", "fit", "compare", "simulate", "robots", "effects", "demo")
+COMMANDS = (
+    "derive", "generate", "convert", "fit", "compare", "simulate", "robots", "effects", "demo",
+)  # fmt: skip
 
 
 def run(capsys, *argv: str) -> tuple[int, str, str]:
@@ -98,6 +101,20 @@ def test_generate_writes_a_folder(capsys, tmp_path):
     assert status == 0
     assert {"scara.c", "scara.h", "manifest.json", "Makefile", "CMakeLists.txt"} <= written
     assert "scara_base_regressor: " in out
+
+
+def test_generate_leaves_the_files_of_others(capsys, tmp_path):
+    (tmp_path / "Makefile").write_text("mine")
+    status, out, err = run(capsys, "generate", "emps", "--out", tmp_path)
+    assert (status, out) == (1, "") and err.count("\n") == 1
+    assert f"{tmp_path}: would write over Makefile, not known" in err and "--force" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["Makefile"]
+    assert run(capsys, "generate", "emps", "--out", tmp_path, "--force")[0] == 0
+    assert (tmp_path / "Makefile").read_text().startswith("# make: static library")
+    assert run(capsys, "generate", "emps", "--out", tmp_path)[0] == 0
+    (tmp_path / "emps.h").write_text("edited")
+    status, _, err = run(capsys, "generate", "emps", "--out", tmp_path)
+    assert status == 1 and "over emps.h, edited since an earlier generate" in err
 
 
 def test_fit_and_compare(capsys, arm):
@@ -317,16 +334,32 @@ def test_the_c_in_a_model_file_runs_only_when_asked(capsys, arm, tmp_path):
         name: "#error not to be compiled\n" if name.endswith(".c") else text
         for name, text in raw["sources"].items()
     }
-    (tmp_path / "mailed.json").write_text(json.dumps(raw))
+    write_sealed(tmp_path / "mailed.json", raw)
     status, _, err = run(capsys, "compare", tmp_path / "mailed.json", arm / "held.parquet")
     assert (status, err) == (0, "")
     status, _, err = run(
         capsys, "compare", tmp_path / "mailed.json", arm / "held.parquet", "--run-embedded-c"
     )
     assert status == 1 and "not to be compiled" in err
-    raw["robot_text"] = raw["robot_text"].replace("D3 = ", "D3 = 1")
-    (tmp_path / "mailed.json").write_text(json.dumps(raw))
-    status, _, err = run(capsys, "compare", tmp_path / "mailed.json", arm / "held.parquet")
+
+
+def write_sealed(place, raw):
+    """A model file whose checksums fit, as one has it who wants to deceive."""
+    place.write_text(json.dumps({**raw, "checksums": checksums(raw)}))
+
+
+@pytest.mark.parametrize(("old", "new"), [("D3 = ", "D3 = 1"), ('"-g"', "-1.62"), ('"D3"', "0.35")])
+def test_another_robot_text_is_not_taken_for_the_fitted_one(capsys, arm, tmp_path, old, new):
+    """Gravity of the moon, or a length as a number in the table: the manifest is the same."""
+    raw = json.loads((arm / "m.json").read_text())
+    assert old in raw["robot_text"]
+    raw["robot_text"] = raw["robot_text"].replace(old, new)
+    place = tmp_path / "mailed.json"
+    place.write_text(json.dumps(raw))
+    status, _, err = run(capsys, "compare", place, arm / "held.parquet")
+    assert status == 1 and "the checksum does not fit: robot_text (the robot file" in err
+    write_sealed(place, raw)
+    status, _, err = run(capsys, "compare", place, arm / "held.parquet")
     assert status == 1 and "made by another version of modeler, or changed since" in err
 
 
@@ -341,7 +374,7 @@ def test_a_measurement_is_never_overwritten(capsys, arm, tmp_path):
     before = log.read_bytes()
     for out in (log, tmp_path / "model.csv"):
         status, _, err = run(capsys, "fit", "demo-arm", log, "--out", out)
-        assert status == 1 and "this is the name of a log; expected a model file" in err
+        assert status == 1 and "this is a log; expected a name of its own" in err
     assert log.read_bytes() == before and not (tmp_path / "model.csv").exists()
 
 

@@ -223,17 +223,6 @@ def test_operation_counts_are_those_that_were_measured_as_reachable():
     assert additions <= 498 and multiplications <= 685
 
 
-def test_only_changed_files_are_written_and_foreign_ones_stay(tmp_path):
-    emitted = module("emps").emitted
-    (tmp_path / "controller.c").write_text("mine")
-    assert set(write_emitted(emitted, tmp_path)) == set(emitted.files)
-    assert write_emitted(emitted, tmp_path) == ()
-    (tmp_path / "emps.c").write_text("touched")
-    assert write_emitted(emitted, tmp_path) == ("emps.c",)
-    assert (tmp_path / "controller.c").read_text() == "mine"
-    assert (tmp_path / "emps.c").read_bytes() == emitted.files["emps.c"].encode()
-
-
 def test_a_folder_that_cannot_be_written_is_said(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ModelerError, match="cannot be written"):

@@ -14,7 +14,7 @@ from modeler.core.contract import Emitted
 from modeler.robot import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.symbolic import SymbolicModel, derive_model
-from tests.modules import compiler, module, states
+from tests.modules import STRICT, compiler, module, states
 
 PLANAR = """
 name = "{name}"
@@ -74,6 +74,60 @@ def test_a_length_can_be_replaced():
     np.testing.assert_allclose(changed.base_parameters(chi), derived.base_parameters(chi))
     np.testing.assert_allclose(changed.forward_kinematics(q), derived.forward_kinematics(q))
     assert not np.allclose(changed.base_regressor(q, qd, qdd), given.base_regressor(q, qd, qdd))
+
+
+UR10E_TORQUE = """#include "ur10e.h"
+#include <stdio.h>
+int main(void)
+{
+    double q[6], qd[6], qdd[6], chi[UR10E_STANDARD_PARAMETERS], beta[UR10E_BASE_PARAMETERS], tau[6];
+    for (int i = 0; i < 6; i++) { q[i] = 0.3 + i; qd[i] = 1.1 - 0.4*i; qdd[i] = 0.2*i - 0.7; }
+    for (int i = 0; i < UR10E_STANDARD_PARAMETERS; i++) chi[i] = 1.0 + 0.01*i;
+    ur10e_base_parameters(chi, beta);
+    ur10e_inverse_dynamics(q, qd, qdd, beta, tau);
+    for (int i = 0; i < 6; i++) printf("%.17g\\n", tau[i]);
+    return 0;
+}
+"""
+
+
+def torque_with(cc, folder, define) -> subprocess.CompletedProcess:
+    """The torques that the UR10e's C computes where `define` stands for D3, strictly compiled."""
+    write_emitted(module("ur10e").emitted, folder)
+    (folder / "torque.c").write_text(UR10E_TORQUE)
+    units = [n for n in module("ur10e").emitted.spec.sources if n.endswith(".c")]
+    command = [compiler(cc), *STRICT, "-O1", f"-DUR10E_GEO_D3={define}", "-o", "torque", "torque.c"]
+    built = subprocess.run(
+        [*command, *units, "-lm"], cwd=folder, capture_output=True, text=True, check=False
+    )
+    if built.returncode:
+        return built
+    return subprocess.run([folder / "torque"], capture_output=True, text=True, check=True)
+
+
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+@pytest.mark.parametrize("define", ["-0.613-0.01", "1?-0.623:2", "-0.623/1", "(-0.613)+(-0.01)"])
+def test_a_macro_may_be_any_expression(cc, define, tmp_path):
+    """D3 squared, D3 times a sum, -D3: none of them takes the expression apart."""
+    got, expected = (torque_with(cc, tmp_path, text).stdout for text in (define, "-0.623"))
+    given = torque_with(cc, tmp_path, "-0.6127").stdout
+    tau, right, other = (np.array(text.split(), float) for text in (got, expected, given))
+    np.testing.assert_allclose(tau, right, rtol=0, atol=1e-12 * np.abs(right).max())
+    assert len(tau) == 6 and np.abs(other - right).max() > 1e-3 * np.abs(right).max()
+
+
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+def test_a_whole_number_in_a_macro_is_a_length(cc, tmp_path):
+    got, expected = (torque_with(cc, tmp_path, text).stdout for text in ("-1", "-1.0"))
+    assert got == expected and len(got.split()) == 6
+
+
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+@pytest.mark.parametrize("define", ["-0,613", "", '"long"', "other"])
+def test_what_is_no_number_does_not_compile(cc, define, tmp_path):
+    """A decimal comma would be the operator that throws -0 away and leaves 613 m."""
+    done = torque_with(cc, tmp_path, define)
+    assert done.returncode != 0 and "error" in done.stderr
 
 
 @pytest.mark.parametrize(

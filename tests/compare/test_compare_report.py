@@ -3,7 +3,9 @@ import csv
 import dataclasses
 import io
 import json
+import os
 import re
+import threading
 import xml.etree.ElementTree as ET
 from html.parser import HTMLParser
 from pathlib import Path
@@ -13,6 +15,7 @@ import numpy as np
 import pytest
 from known_defects import first_joint, prediction
 
+from modeler.cli.places import PictureFolder
 from modeler.compare import Comparison, compare, report_html, write_pictures, write_report
 from modeler.compare.draw_matplotlib import images
 from modeler.compare.picture import Curve, Heat, Panel, Picture, picture_csv
@@ -173,11 +176,23 @@ def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
         write_report(tmp_path / "plain", small)
 
 
+def test_a_page_may_go_into_a_pipe(small: Comparison, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    read: list[str] = []
+    reader = threading.Thread(target=lambda: read.append((tmp_path / "pipe").read_text("utf-8")))
+    reader.start()
+    assert write_report(tmp_path / "pipe", small) == tmp_path / "pipe"
+    reader.join(20)
+    assert read == [report_html(small)] and (tmp_path / "pipe").is_fifo()
+
+
 def test_pictures_as_files(small: Comparison, tmp_path: Path) -> None:
     done: list[float] = []
     written = write_pictures(tmp_path, small, done.append)
     assert done == pytest.approx([1 / 3, 2 / 3, 1.0])
     assert {path.suffix for path in written} == {".png", ".svg", ".csv"}
+    for path in written:  # the command line keeps these names free of its other files
+        assert any(path.match(pattern) for pattern in PictureFolder.writes)
     assert len(written) == 3 * 3
     for path in written:
         data = path.read_bytes()

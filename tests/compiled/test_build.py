@@ -106,6 +106,30 @@ def test_a_missing_compiler_says_what_to_install(cache, emps, monkeypatch, tmp_p
         load(emps.spec, emps.files)
 
 
+def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):
+    monkeypatch.setenv("CFLAGS", "-O1 -ffp-contract=off")
+    assert find_toolchain().flags == ("-std=c99", "-fPIC", "-O1", "-ffp-contract=off")
+    works(load(emps.spec, emps.files))
+    monkeypatch.setenv("CFLAGS", "")
+    assert "-O2" in find_toolchain().flags
+    works(load(emps.spec, emps.files))
+    assert len(libraries(cache)) == 2
+
+
+@pytest.mark.parametrize(
+    ("flags", "says"),
+    [
+        ("-O2 --no-such-flag", 'refuses CFLAGS="-O2 --no-such-flag" (.*no-such-flag'),
+        ("-O2 'open", 'got CFLAGS="-O2 \'open" (No closing quotation)'),
+    ],
+)
+def test_own_flags_that_are_wrong_are_named(cache, emps, monkeypatch, flags, says):
+    monkeypatch.setenv("CFLAGS", flags)
+    with pytest.raises(BuildError, match=re.escape(says).replace(r"\.\*", ".*")):
+        load(emps.spec, emps.files)
+    assert not libraries(cache)
+
+
 def test_a_wrong_cc_is_named(cache, emps, monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler -m64")
     with pytest.raises(BuildError, match='got CC="no-such-compiler -m64", which is not found'):
@@ -155,6 +179,7 @@ def test_flags_that_a_compiler_does_not_know_are_left_out(monkeypatch, tmp_path)
     )
     picky.chmod(0o755)
     monkeypatch.setenv("CC", str(picky))
+    monkeypatch.delenv("CFLAGS", raising=False)
     flags = find_toolchain().flags
     assert "-fno-tree-slp-vectorize" not in flags and "-ffp-contract=fast" not in flags
     assert "-fno-math-errno" in flags and "-std=c99" in flags

@@ -342,16 +342,17 @@ def test_what_is_ruled_out_must_exist(arm: Path, run: Run, text: str, message: s
 
 
 DAMAGE: dict[str, tuple[Callable[[str], str], str]] = {
-    "cut off": (lambda text: text[:5000], "not a model file, or cut off"),
-    "empty": (lambda text: "", "not a model file, or cut off"),
+    "cut off": (lambda text: text[:5000], "not a model file: it is not JSON, or cut off"),
+    "empty": (lambda text: "", "not a model file: it is empty"),
     "a list": (lambda text: "[]", "JSON, but not a model file"),
-    "no fit": (lambda text: text.replace('"fit":', '"fitted":'), "damaged, fit is missing; fit"),
+    "no fit": (
+        lambda text: text.replace('"fit": {', '"fitted": {'), "does not fit: 'fitted', fit (the"),
     "a step": (
         lambda text: text.replace('"history": []', '"history": [{"effect": "spring"}]'),
-        "damaged ('held_out'); fit the model again",
+        "changed since it was saved, the checksum does not fit: history (the effects added)",
     ),
     "no history": (
-        lambda text: text.replace('"history": []', '"history": 5'), "damaged"),
+        lambda text: text.replace('"history": []', '"history": 5'), "fit: history (the effects"),
 }  # fmt: skip
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from modeler import api
 
-pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco) is not installed")
+pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is not installed")
 
 from tests.diagnose.mujoco_arm import (
     ROWS,

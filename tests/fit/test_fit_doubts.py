@@ -1,47 +1,199 @@
-"""What physics does not allow is told; what it allows is not."""
+"""A fit ends with a verdict: usable or not, what for, why, and what to do."""
 
 import dataclasses
+import json
+import re
 
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.fit import doubts
+from modeler.api import compile_model, derive, generate, identified, load, observe
+from modeler.cli import main
+from modeler.core.errors import ManifestError
+from modeler.fit import identify, load_model, save_model, with_verdict
+from modeler.fit.result import fit_from_json
 from modeler.observation import read_log
+from modeler.robot import robot_from_text
 from modeler.simulate import SimulationSettings, simulate, write_log
 
 
+@dataclasses.dataclass(frozen=True)
+class Bench:
+    """A robot, a good log of it, and how a log is fitted and judged."""
+
+    folder: object
+    derivation: object
+    emitted: object
+    compiled: object
+    log: object
+
+    def fit(self, log, **more):
+        observation = observe(self.compiled, [log])
+        return with_verdict(self.compiled, observation, identify(observation), **more)
+
+    def verdict(self, log, **more):
+        return self.fit(log, **more).verdict
+
+    def model(self, log):
+        observation = observe(self.compiled, [log])
+        result = with_verdict(self.compiled, observation, identify(observation))
+        return identified(self.derivation, self.emitted, observation, result)
+
+
 @pytest.fixture(scope="module")
-def fitted(tmp_path_factory):
+def bench(tmp_path_factory):
     folder = tmp_path_factory.mktemp("doubts")
     derivation = derive(load("demo-arm"))
     emitted = generate(derivation)
-    compiled = compile_model(emitted)
-    settings = SimulationSettings(duration=8.0, rate=500.0, seed=4)
+    settings = SimulationSettings(duration=12.0, rate=500.0, seed=4)
     write_log(folder / "a.parquet", simulate(derivation.robot, settings))
     log = read_log(folder / "a.parquet", emitted.spec)
-
-    def result(log):
-        return fit(derivation, emitted, observe(compiled, [log])).fit
-
-    return emitted.spec, log, result
+    return Bench(folder, derivation, emitted, compile_model(emitted), log)
 
 
-def test_a_good_fit_leaves_no_doubt(fitted):
-    spec, log, result = fitted
-    assert doubts(spec, result(log)) == ()
+def rows(log, start, stop):
+    parts = {name: getattr(log, name)[start:stop] for name in ("time", "q", "tau")}
+    return dataclasses.replace(log, **parts)
 
 
-def test_a_torque_with_the_wrong_sign(fitted):
-    spec, log, result = fitted
-    tau = log.tau.copy()
-    tau[:, 2] *= -1.0
-    said = doubts(spec, result(dataclasses.replace(log, tau=tau)))
-    assert any(line.startswith("Fs3 = -") and "physics does not allow" in line for line in said)
-    assert any(line.startswith("joint 3: ") and "check units, signs" in line for line in said)
+def clock(log, factor):
+    return dataclasses.replace(log, time=log.time * factor)
 
 
-def test_torques_of_another_motion(fitted):
-    spec, log, result = fitted
-    said = doubts(spec, result(dataclasses.replace(log, tau=np.roll(log.tau, 800, axis=0))))
-    assert any("is not described even on the data of the fit" in line for line in said)
+def test_a_good_fit_leaves_no_doubt(bench):
+    verdict = bench.verdict(bench.log)
+    assert (verdict.usable, verdict.usable_for, verdict.doubts) == (True, "physics", ())
+    assert verdict.line.startswith("usable: predicts torques of motion like that of its logs to ")
+    assert verdict.line.endswith("a machine with these values could be built")
+    assert verdict.warning() == []
+
+
+@pytest.mark.parametrize(
+    ("factor", "unit", "times"),
+    [(1e3, "milliseconds", "0.001"), (1e6, "microseconds", "1e-06")],
+)
+def test_a_time_that_is_not_in_seconds(bench, factor, unit, times):
+    verdict = bench.verdict(clock(bench.log, factor))
+    assert not verdict.usable and verdict.usable_for == "nothing"
+    assert f"median time step {0.002 * factor:.3g} s" in verdict.line
+    assert f"in {unit}, the rows came at 500 Hz; multiply it by {times}" in verdict.line
+
+
+def test_inertias_tell_the_unit_of_time_where_the_steps_do_not(bench):
+    # 0.18 s: five rows a second, if it were true; gravity is a clock that nobody can set
+    verdict = bench.verdict(clock(bench.log, 90.0))
+    assert not verdict.usable
+    assert verdict.line.startswith("not usable: the inertias are ")
+    told = float(verdict.line.split("runs about ")[1].split(" times")[0])
+    assert 50.0 < told < 200.0
+
+
+def test_minutes_are_a_doubt_about_values(bench):
+    verdict = bench.verdict(clock(bench.log, 1.0 / 60.0))
+    assert verdict.usable_for != "physics"
+    assert any("were the column time in minutes" in line for line in verdict.doubts)
+
+
+def test_a_torque_with_the_wrong_sign(bench):
+    tau = bench.log.tau.copy()
+    tau[:, 1] *= -1.0
+    verdict = bench.verdict(dataclasses.replace(bench.log, tau=tau))
+    assert not verdict.usable
+    assert verdict.line.startswith("not usable: no machine that could be built has these values: ")
+    assert "carried by" in verdict.line and "2" in verdict.line.split("carried by")[1]
+    assert "% of the torque of joint 2, not " in verdict.line
+    assert any("is negative, which physics does not allow" in line for line in verdict.doubts)
+
+
+def test_torques_of_another_motion(bench):
+    rolled = dataclasses.replace(bench.log, tau=np.roll(bench.log.tau, 800, axis=0))
+    verdict = bench.verdict(rolled)
+    assert not verdict.usable
+    assert "is not described even on the data of the fit; check units, signs" in verdict.line
+
+
+@pytest.mark.parametrize("span", [(2000, 2100), (1500, 2100)])
+def test_too_few_rows(bench, span):
+    result = bench.fit(rows(bench.log, *span))
+    assert result.relative_error < 0.3  # it looks like a fit
+    assert not result.verdict.usable
+    assert "not enough data for 25 parameters" in result.verdict.line
+    assert "record a longer motion of all joints" in result.verdict.line
+
+
+def test_a_joint_that_stands_still_leaves_the_prediction(bench):
+    q, tau = bench.log.q.copy(), bench.log.tau.copy()
+    q[:, 0], tau[:, 0] = q[0, 0], 0.0
+    verdict = bench.verdict(dataclasses.replace(bench.log, q=q, tau=tau))
+    assert verdict.usable_for != "physics"
+    assert any("and set aside; record a motion that moves" in line for line in verdict.doubts)
+
+
+def test_values_that_stand_in_for_what_the_model_lacks(bench):
+    # without Coulomb friction in the model: torques are foretold, and Fv is not the machine's
+    lines = bench.derivation.robot.text.splitlines()
+    kept = [line for line in lines if not re.match(r"Fs\d|coulomb", line)]
+    derivation = derive(robot_from_text("\n".join(kept), "without"))
+    emitted = generate(derivation)
+    compiled = compile_model(emitted)
+    assert len(emitted.spec.base) == len(bench.emitted.spec.base) - 3
+    observation = observe(compiled, [bench.log])
+    verdict = with_verdict(compiled, observation, identify(observation)).verdict
+    assert verdict.usable and verdict.usable_for == "like motion"
+    stands_in = "the values of others stand in for it; `modeler diagnose` names it"
+    assert any(stands_in in line for line in verdict.doubts)
+
+
+@dataclasses.dataclass(frozen=True)
+class Finding:
+    line: str
+    certain: bool
+
+
+def test_what_other_stages_tell_joins_in(bench):
+    swapped = Finding("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
+    verdict = bench.verdict(bench.log, told=[swapped])
+    assert verdict.line == f"not usable: {swapped.line}" and verdict.doubts == (swapped.line,)
+    vague = Finding("joint 3: positions may be late", False)
+    verdict = bench.verdict(bench.log, told=[vague])
+    assert verdict.usable and vague.line in verdict.line
+
+
+def test_the_model_file_keeps_it_and_old_ones_have_none(bench, tmp_path):
+    model = bench.model(clock(bench.log, 1e3))
+    save_model(tmp_path / "m.json", model)
+    again = load_model(tmp_path / "m.json")
+    assert again.fit.verdict == model.fit.verdict
+    assert again.warning == [f"the fit of this model is {model.fit.verdict.line}"]
+    raw = model.fit.to_json()
+    assert raw["usable"] is False and raw["doubts"] and raw["usable_for"] == "nothing"
+    for name in ("usable", "usable_for", "verdict", "doubts"):
+        del raw[name]
+    old = fit_from_json(raw, model.fit.covariance)
+    assert old.verdict is None
+    assert dataclasses.replace(model, fit=old).warning == []
+    with pytest.raises(ManifestError, match="its verdict is not as saved"):
+        fit_from_json({**model.fit.to_json(), "usable": "yes"}, model.fit.covariance)
+
+
+def test_every_command_that_takes_the_model_says_so(bench, tmp_path, capsys):
+    tau = bench.log.tau.copy()
+    tau[:, 1] *= -1.0
+    lines = ["time,q1,q2,q3,tau1,tau2,tau3"]
+    every = zip(bench.log.time, bench.log.q, tau, strict=True)
+    lines += [",".join(f"{x:.9g}" for x in (t, *q, *u)) for t, q, u in every]
+    (tmp_path / "log.csv").write_text("\n".join(lines), encoding="utf-8")
+    log, model, out = (str(tmp_path / name) for name in ("log.csv", "m.json", "out.json"))
+    assert main(["fit", "demo-arm", log, "--out", model, "--json", out]) == 0
+    printed = capsys.readouterr().out
+    assert sum(line.startswith("not usable: ") for line in printed.splitlines()) == 1
+    answer = json.loads((tmp_path / "out.json").read_text())
+    assert answer["usable"] is False and answer["verdict"] in printed
+    for command in (
+        ["compare", model, log],
+        ["diagnose", model, log],
+        ["add", model, "stribeck", "--joint", "1", log, "--out", str(tmp_path / "m2.json")],
+    ):
+        assert main(command) == 0, command
+        said = capsys.readouterr().out.splitlines()
+        assert sum(line.startswith("the fit of this model is not usable: ") for line in said) == 1

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import re
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from modeler.fit import (
     provenance,
     save_model,
 )
+from modeler.fit.integrity import checksums
 from modeler.observation import observe
 
 
@@ -211,23 +213,68 @@ def damaged(raw, *keys, value=None):
     return raw
 
 
+def with_covariance(change):
+    def changed(raw):
+        change(raw["covariance"])
+        return raw
+
+    return changed
+
+
+def scaled(C, i, j, factor):
+    C[i][j] = C[i][j] * factor + 1e-9
+
+
 DAMAGE = {
     "foreign": (lambda r: {"hello": 1}, "JSON, but not a model file"),
     "list": (lambda r: [1], "JSON, but not a model file"),
-    "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 2"),
+    "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 3"),
+    "before": (lambda r: damaged(r, "format", value=2), "reads 3; fit the model again"),
     "manifest": (lambda r: damaged(r, "manifest"), "damaged, manifest is missing"),
-    "sources": (lambda r: damaged(r, "sources", value=3), "damaged, sources is not as saved"),
+    "sources": (lambda r: damaged(r, "sources", value=3), "sources is 3, expected an object"),
+    "source": (lambda r: damaged(r, "sources", "arm.c", value=3), "'arm.c' is 3, expected text"),
+    "robot": (lambda r: damaged(r, "robot_text", value=[]), r"robot_text is \[\], expected text"),
     "edited": (
         lambda r: damaged(r, "manifest", "robot", value="x"),
         "does not match its signature",
     ),
     "old manifest": (lambda r: damaged(r, "manifest", "format", value=0), "manifest format 0"),
     "covariance": (lambda r: damaged(r, "covariance", value=[[1.0]]), "values are not those"),
-    "ragged": (lambda r: damaged(r, "covariance", value=[[1.0], [1, 2]]), "damaged"),
-    "logs": (lambda r: damaged(r, "logs", value=[{"path": "x"}]), "damaged"),
-    "log content": (lambda r: damaged(r, "logs", 0, "content", value=3), "content are texts"),
-    "log times": (lambda r: damaged(r, "logs", 1, "end", value="x"), "times are numbers"),
+    "ragged": (lambda r: damaged(r, "covariance", value=[[1.0], [1, 2]]), "is not square"),
+    "nested": (lambda r: damaged(r, "covariance", value=[[[1.0]]]), "expected a number"),
+    "truth": (
+        with_covariance(lambda C: C[0].__setitem__(0, True)),
+        r"covariance\[0\]\[0\] is True, expected a number",
+    ),
+    "variance": (
+        with_covariance(lambda C: C[2].__setitem__(2, -C[2][2])),
+        "the variance of .* is -.*; expected 0 or more; fit the model again",
+    ),
+    "other sigma": (
+        lambda r: damaged(r, "fit", "parameters", 1, "sigma", value=0.123),
+        "the sigma of .* is 0.123, the root of its variance",
+    ),
+    "minus sigma": (
+        lambda r: damaged(r, "fit", "parameters", 1, "sigma", value=-1.0),
+        "is -1; expected 0 or more",
+    ),
+    "uneven": (with_covariance(lambda C: scaled(C, 0, 1, 0.5)), "is not symmetric"),
+    "indefinite": (
+        with_covariance(lambda C: [scaled(C, *place, 1e4) for place in ((0, 1), (1, 0))]),
+        "a sum of parameters a negative variance",
+    ),
+    "still": (
+        lambda r: damaged(
+            damaged(r, "covariance", 1, 1, value=0.0), "fit", "parameters", 1, "sigma", value=0.0
+        ),
+        "varies with others, but its variance is 0",
+    ),
+    "logs": (lambda r: damaged(r, "logs", value=[{"path": "x"}]), "logs.0..name is missing"),
+    "log content": (lambda r: damaged(r, "logs", 0, "content", value=3), "expected text"),
+    "log times": (lambda r: damaged(r, "logs", 1, "end", value="x"), "expected a number"),
+    "history": (lambda r: damaged(r, "history", value=[{"effect": "x"}]), "joint is missing"),
     "fit": (lambda r: damaged(r, "fit", "parameters"), "the fit is damaged"),
+    "joint": (lambda r: damaged(r, "fit", "joints", "1", "rms", value="x"), "expected a number"),
     "processing": (
         lambda r: damaged(r, "fit", "processing", "low_speed", value=7.0),
         "the fit is damaged .*low_speed is 7.0",
@@ -235,35 +282,124 @@ DAMAGE = {
     "value": (lambda r: damaged(r, "fit", "relative_error", value="x"), "the fit is damaged"),
     "text": (
         lambda r: damaged(r, "fit", "parameters", 0, "value", value="x"),
-        "is 'x'; expected a finite number",
-    ),
-    "no number": (
-        lambda r: damaged(r, "fit", "parameters", 0, "value", value=float("nan")),
-        "is nan; expected a finite number",
+        "value is 'x', expected a number",
     ),
     "short": (lambda r: damaged(r, "fit", "parameters", 0), "values are not those of the"),
 }
 
 
-@pytest.mark.parametrize("case", DAMAGE)
-def test_damaged_model_files_say_where_and_what_to_do(tmp_path, model, case):
-    path = tmp_path / "arm.model"
+def saved(folder, model):
+    path = folder / "arm.model"
     save_model(path, model)
-    change, words = DAMAGE[case]
-    path.write_text(json.dumps(change(json.loads(path.read_text()))))
-    with pytest.raises(ManifestError, match=words) as error:
+    return path, json.loads(path.read_text())
+
+
+def refusal(path, content):
+    """The line with which the file is refused once `content` (a value, text or bytes) is in it."""
+    if not isinstance(content, str | bytes):
+        content = json.dumps(content)
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    with pytest.raises(ManifestError) as error:
         load_model(path)
-    assert str(path) in str(error.value)
+    line = str(error.value)
+    assert line.startswith(str(path)) and "\n" not in line and len(line) < len(str(path)) + 350
+    return line
+
+
+@pytest.mark.parametrize("case", DAMAGE)
+def test_wrong_model_files_say_where_and_what_to_do(tmp_path, model, case):
+    """Their checksums fit: somebody wrote them so."""
+    path, raw = saved(tmp_path, model)
+    change, words = DAMAGE[case]
+    raw = change(raw)
+    if "checksums" in raw:
+        raw["checksums"] = checksums(raw)
+    assert re.search(words, refusal(path, raw))
+
+
+EDITED = {
+    "value": (("fit", "parameters", 0, "value"), "fit (the values"),
+    "sigma": (("fit", "parameters", 3, "sigma"), "fit (the values"),
+    "cut-off": (("fit", "processing", "parallel_cutoff"), "fit (the values"),
+    "covariance": (("covariance", 0, 0), "covariance (how sure"),
+    "robot": (("robot_text",), "robot_text (the robot file; to change the robot, fit the changed"),
+    "C": (("sources", "arm.c"), "sources (the C)"),
+    "manifest": (("manifest", "base", 0, "unit"), "manifest (what"),
+    "log": (("logs", 1, "end"), "logs (what was fitted)"),
+    "signature": (("signature",), "'signature'"),
+    "checksum": (("checksums", "fit"), "fit (the values"),
+}
+
+
+@pytest.mark.parametrize("case", EDITED)
+def test_an_edited_model_file_is_refused_and_says_which_part(tmp_path, model, case):
+    path, raw = saved(tmp_path, model)
+    keys, words = EDITED[case]
+    inner = raw
+    for key in keys[:-1]:
+        inner = inner[key]
+    old = inner[keys[-1]]
+    inner[keys[-1]] = f"{old} " if isinstance(old, str) else float(np.nextafter(old, 9e9))
+    line = refusal(path, raw)
+    assert f"changed since it was saved, the checksum does not fit: {words}" in line
+    assert line.endswith("take the file as it was saved, or fit the model again")
+
+
+def test_entries_may_not_be_added_taken_away_or_put_in_another_order(tmp_path, model):
+    path, raw = saved(tmp_path, model)
+    assert "'remark'" in refusal(path, {**raw, "remark": "better"})
+    assert "history (the effects added)" in refusal(
+        path, {k: raw[k] for k in raw if k != "history"}
+    )
+    assert "checksums is missing" in refusal(path, {k: raw[k] for k in raw if k != "checksums"})
+    assert "checksums is not as saved" in refusal(path, {**raw, "checksums": 3})
+    many = {**raw, **{f"x{i}": i for i in range(9)}}
+    assert "'x0', 'x1', 'x2' and 6 more" in refusal(path, many)
+    joints = dict(reversed(raw["fit"]["joints"].items()))
+    assert "fit (the values" in refusal(path, {**raw, "fit": {**raw["fit"], "joints": joints}})
+    path.write_text(json.dumps(dict(reversed(raw.items()))))  # what has no meaning may differ
+    assert load_model(path).beta.tolist() == model.beta.tolist()
+
+
+TEXTS = {
+    "none": (b"", "it is empty"),
+    "blank": (b" \n ", "it is blank"),
+    "binary": (b"PAR1\x15\x04\xff\x00", "no text in UTF-8 from byte 7"),
+    "UTF-16": ('{"kind": 1}'.encode("utf-16"), "UTF-16, UTF-32 or binary"),
+    "UTF-32": ('{"kind": 1}'.encode("utf-32-be"), "UTF-16, UTF-32 or binary"),
+    "Latin": ('{"kind": "\u00e9"}'.encode("latin-1"), "no text in UTF-8 from byte 11"),
+    "lists": (b"[" * 100_000, "nested too deep"),
+    "objects": (b'{"a":' * 100_000, "nested too deep"),
+    "closed": (b'{"kind":' + b"[" * 100_000 + b"]" * 100_000 + b"}", "nested too deep"),
+    "digits": (b'{"format": -' + b"9" * 10_000 + b"}", "a whole number of 10000 digits"),
+    "integer": (b'{"format": 99999999999999999999}', "a whole number of 20 digits"),
+    "decimals": (b'{"format": 1e999}', "'1e999', too large for double precision"),
+    "NaN": (b'{"format": NaN}', "has NaN, which is no number of JSON"),
+    "infinity": (b'{"format": -Infinity}', "has -Infinity, which is no number"),
+    "twice": (b'{"format": {"a": 1, "b": 2, "a": 3}}', "has the entry 'a' twice"),
+    "half": (b'{"kind": "\\ud800"}', "half a character"),
+    "comma": (b'{"kind": 1,}', "is not JSON, or cut off"),
+    "TOML": (b'name = "arm"', "is not JSON, or cut off: Expecting value, line 1, column 1"),
+}
+
+
+@pytest.mark.parametrize("case", TEXTS)
+def test_what_is_no_json_is_refused_in_one_line(tmp_path, case):
+    content, words = TEXTS[case]
+    line = refusal(tmp_path / "arm.model", content)
+    assert words in line and "not a model file: it " in line
 
 
 def test_unreadable_model_files(tmp_path, model):
     with pytest.raises(ManifestError, match="cannot be read"):
         load_model(tmp_path / "none.model")
-    path = tmp_path / "cut.model"
-    save_model(path, model)
-    path.write_text(path.read_text()[:500])
-    with pytest.raises(ManifestError, match="not a model file, or cut off"):
-        load_model(path)
-    path.write_bytes(b"\xff\xfe\x00PAR1")
-    with pytest.raises(ManifestError, match="not a model file, or cut off"):
-        load_model(path)
+    with pytest.raises(ManifestError, match="cannot be read"):
+        load_model(tmp_path)
+    path, _ = saved(tmp_path, model)
+    assert "not a model file: it is not JSON, or cut off" in refusal(path, path.read_bytes()[:500])
+
+
+def test_a_byte_order_mark_and_other_line_ends_change_nothing(tmp_path, model):
+    path, _ = saved(tmp_path, model)
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
+    assert load_model(path).beta.tolist() == model.beta.tolist()

@@ -47,7 +47,7 @@ def test_two_effects_added_one_after_the_other_and_undone(case: Case, tmp_path: 
 def test_what_a_diagnosis_names_is_added(case: Case) -> None:
     model, train, holdout = case.hidden(hidden)
     found = diagnose(model, case.compiled, [train], [holdout])
-    better = add_findings(model, case.compiled, found.effects, Logs([train], [holdout]))
+    better, _ = add_findings(model, case.compiled, found.effects, Logs([train], [holdout]))
     assert better.history[-1].error < 0.5 * better.history[0].error
     again = diagnose(better, load_compiled(better.spec, better.sources), [train], [holdout])
     assert not {("spring", "3"), ("position_friction", "1")} & {

@@ -15,7 +15,7 @@ from modeler.simulate.closing import followed
 from modeler.simulate.constraints import constraints_of
 from tests.modules import compiled, module
 
-mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco) is not installed")
+mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco-core) is not installed")
 
 STEP, STEPS = 2e-4, 1500
 STIFF = f'solref="{2 * STEP:g} 1" solimp="0.99999 0.99999 0.001 0.5 2"'

@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from modeler.base import base_parameters
-from modeler.base.numeric import numeric_rank, random_states, regressor_values
+from modeler.base.numeric import Sample, numeric_rank, random_states, regressor_values
 from modeler.robot import builtin_text, read_robot, robot_from_text
 from modeler.symbolic import derive_model
 from tests.base.ranks import seen
@@ -172,7 +172,9 @@ def test_the_energy_rows_have_the_same_rank():
         power = np.einsum("nic,ni->nc", _unprojected(model, u, 0 * ud, 0 * ud), ud)
         rows = np.stack([kinetic, power], axis=1)[:, :, no_friction]
         friction = base.counts()["friction"]
-        assert numeric_rank(rows, range(len(no_friction))).rank == base.rank - friction
+        assert numeric_rank(
+            Sample(rows.reshape(-1, len(no_friction))), range(len(no_friction))
+        ).rank == (base.rank - friction)
 
 
 def _unprojected(model, u, ud, udd, weight=True):

@@ -281,3 +281,26 @@ def test_excitation_names_idle_columns_and_weak_directions():
     assert clean.condition_number == pytest.approx(100.0)
     nothing = excitation(np.zeros((5, 2)), ("A", "B"))
     assert nothing.idle == ("A", "B") and nothing.condition_number == float("inf")
+
+
+@pytest.mark.parametrize(
+    ("chosen", "told"),
+    [
+        ({"parallel_cutoff": 1e-6}, r"--parallel-cutoff\) of 1e-06 Hz.* 20 s; expected more than"),
+        ({"position_cutoff": 1e-300}, r"--cutoff\) of 1e-300 Hz.* 20 s; expected more than 0.05"),
+        ({"decimation": 10**21}, r"--decimate\) from 4000 samples .* expected at most 2000"),
+    ],
+)
+def test_a_filter_longer_than_the_log_is_refused_before_work(chosen, told):
+    model = planar_arm()
+    log = exact_log(model, some_beta(model), logged=False)
+    with pytest.raises(DataError, match=told):
+        observe(model, [log], Processing(**chosen))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("cutoff", [1e4, 1e300])
+def test_a_filter_far_above_the_sampling_rate_is_none(cutoff):
+    whole = np.ones(50, dtype=bool)
+    rows = row_filter(whole, 0.01, cutoff, 1)
+    np.testing.assert_array_equal(rows.weights.toarray(), np.eye(50))

@@ -222,7 +222,7 @@ def test_processing_survives_json_and_refuses_nonsense():
         ({"low_speed": 1.5}, "low_speed is 1.5; expected a fraction"),
         ({"derivatives": "best"}, 'derivatives is "best"; expected auto, log, position'),
         ({"cutoff": 1.0}, "processing has no setting cutoff"),
-        ({"position_cutoff": "fast"}, "expected numbers"),
+        ({"position_cutoff": "fast"}, "position_cutoff is fast; expected a number"),
         ({"speed_floors": [1]}, "expected numbers"),
     ):
         with pytest.raises(DataError, match=words):

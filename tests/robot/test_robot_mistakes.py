@@ -313,7 +313,7 @@ def test_unreadable_files_are_told(tmp_path):
         read_robot(latin)
     urdf = tmp_path / "arm.urdf"
     urdf.write_text("<robot/>")
-    with pytest.raises(RobotError, match=r"arm\.urdf: \.urdf files are not read"):
+    with pytest.raises(RobotError, match=r"arm\.urdf: URDF is not read yet"):
         read_robot(urdf)
     with pytest.raises(RobotError, match=r"cannot be read \(File name too long\); check the path"):
         read_robot("x" * 300 + ".toml")

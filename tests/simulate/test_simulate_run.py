@@ -293,3 +293,9 @@ def test_simulation_shares_no_code_with_the_model():
                 assert name.split(".")[0] != "sympy", file
                 if name.split(".")[0] == "modeler":
                     assert name.split(".")[1] in allowed, f"{file} imports {name}"
+
+
+@pytest.mark.parametrize("name", ["torque_noise", "process_noise", "encoder_counts"])
+def test_settings_beyond_any_sensor_are_refused(name):
+    with pytest.raises(DataError, match=f"simulation, {name}: got 1e.300; expected 0 or more, at"):
+        simulate(robot(ARM), dataclasses.replace(SHORT, **{name: 1e300}))

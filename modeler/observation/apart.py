@@ -1,4 +1,4 @@
-"""Logs of one command: every row has one part, explained or held out."""
+"""Logs that are used together: every row has one part, explained or held out."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ from modeler.observation import Log
 from modeler.observation.log import shared_rows
 
 
-def check_apart(logs: Sequence[Log], holdout: Sequence[Log]) -> None:
+def check_apart(logs: Sequence[Log], holdout: Sequence[Log] = ()) -> None:
     """Refuse rows that are given twice, and held-out rows that are also explained.
 
     Both would flatter every effect.
@@ -20,8 +20,8 @@ def check_apart(logs: Sequence[Log], holdout: Sequence[Log]) -> None:
             for first in given[:index]:
                 if _shared(log, first):
                     raise DataError(
-                        f"{log.name}: got rows of {first.name} again; rows that repeat make every "
-                        "effect look too sure; give each row once"
+                        f"{log.name}: got rows of {first.name} again; rows that repeat make all "
+                        "that is found look too sure; give each row once"
                     )
     for other in holdout:
         for log in logs:

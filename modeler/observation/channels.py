@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.observation import Observation
+from modeler.observation.observation import Observation
 from modeler.observation.torque import model_torque
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def _motion(
     if compiled.spec.closure is not None:
         return None  # positions that do not close the loops have no torque
     best, size = None, 0.5 * float(np.linalg.norm(errors))
-    for line, turn in _turns(observation):
+    for line, turn in turns(observation):
         predicted = model_torque(observation, compiled, beta, turn)
         left = _errors(observation, predicted)
         if float(np.linalg.norm(left)) < size and left.max() < WRONG:
@@ -117,7 +117,7 @@ def _motion(
     return best
 
 
-def _turns(observation: Observation) -> Iterator[tuple[str, np.ndarray]]:
+def turns(observation: Observation) -> Iterator[tuple[str, np.ndarray]]:
     """What may be wrong with positions, and the (J, J) matrix that mends it: q = measured turn."""
     joints = observation.joints
     names = [joint.name for joint in joints]

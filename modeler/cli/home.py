@@ -1,0 +1,167 @@
+"""`modeler home ROBOT`."""
+
+import argparse
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from modeler.cli.console import Json, say, working
+from modeler.cli.mode_pictures import modes_drawing, modes_page
+from modeler.core.errors import DataError
+from modeler.core.files import check_writable, write_atomically
+from modeler.robot import Robot, builtin_names, read_robot
+from modeler.robot.home_text import home_lines, with_home_text
+from modeler.robot.loops import read_home
+from modeler.robot.place import Place
+from modeler.symbolic import AssemblyMode, HomeModes, Linkage, modes_near, written
+
+_MOST_VALUES = 6
+_PICTURES: dict[str, Callable[[HomeModes], str]] = {
+    ".html": modes_page,
+    ".htm": modes_page,
+    ".svg": modes_drawing,
+}
+
+
+def run_home(args: argparse.Namespace) -> Json:
+    """Prints the assembly modes, draws them, writes one into the robot file."""
+    draw = _drawing(args)
+    if args.write and args.robot in builtin_names():
+        raise DataError(
+            f"--write: {args.robot} is built in; save it with `modeler robots --show {args.robot}` "
+            "as a file of your own, and write into that"
+        )
+    if args.write and Path(args.robot).is_file():
+        check_writable(Path(args.robot))
+    robot = read_robot(args.robot)
+    near = _near(args, robot)
+    meant = dataclasses.replace(robot, home={}) if args.anew else robot
+    with working(f"closing the loops of {robot.name}"):
+        found = modes_near(meant, near)
+    chosen = _chosen(args, found)
+    for line in _table(found):
+        say(line)
+    if draw is not None:
+        write_atomically(Path(args.pictures), draw(found))
+        say(f"written: {args.pictures}")
+    home = written(found.linkage, found.modes[chosen].posture)
+    if args.write:
+        _write(Path(args.robot), robot, home)
+        say(f"mode {found.modes[chosen].letter} written into {args.robot} as [home]")
+    else:
+        say(f"[home] of mode {found.modes[chosen].letter} (--write puts it into the file):")
+        for line in home_lines(home):
+            say(f"  {line}")
+    return _as_json(robot, found, chosen)
+
+
+def _drawing(args: argparse.Namespace) -> Callable[[HomeModes], str] | None:
+    if args.pictures is None:
+        return None
+    suffix = Path(args.pictures).suffix.lower()
+    if suffix not in _PICTURES:
+        raise DataError(
+            f"--pictures {args.pictures}: got {suffix or 'no suffix'}; expected a name that ends "
+            "in .html or .svg"
+        )
+    return _PICTURES[suffix]
+
+
+def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float]:
+    """[home] of the file, unless it is not to count; with --near, of the actuated joints only."""
+    stated = {} if args.anew else dict(robot.home)
+    if args.near is None:
+        return stated
+    values: dict[str, str] = {}
+    for entry in args.near.split(","):
+        name, equals, value = (part.strip() for part in entry.partition("="))
+        if not equals or not name or not value:
+            raise DataError(
+                f"--near {args.near}: got {entry!r}; expected values as in q1=0.3,q2=pi"
+            )
+        values[name] = value
+    moving = {joint.name: joint for joint in robot.moving}
+    names = {joint.name for joint in robot.coordinates}
+    stated = {name: value for name, value in stated.items() if name in names}
+    return stated | read_home(values, moving, robot.symbol_values(), Place("--near"))
+
+
+def _chosen(args: argparse.Namespace, found: HomeModes) -> int:
+    """The mode that --mode names; else the file's own, unless --near is given; else the best."""
+    if args.mode is None:
+        return 0 if found.own is None or args.near is not None else found.own
+    letters = [mode.letter for mode in found.modes]
+    if args.mode.upper() not in letters:
+        raise DataError(
+            f"--mode {args.mode}: there is no such mode; expected one of {', '.join(letters)}"
+        )
+    return letters.index(args.mode.upper())
+
+
+def _table(found: HomeModes) -> list[str]:
+    linkage, modes = found.linkage, found.modes
+    given = list(linkage.closing.given)
+    count = f"{len(modes)} assembly mode{'s' if len(modes) > 1 else ''}"
+    lines = [
+        f"{linkage.robot.name}: {count} with {_values(linkage, modes[0].posture, given)}",
+        "",
+    ]
+    shown = _shown(linkage)
+    for k, mode in enumerate(modes):
+        facts = [f"singular value {mode.sigma:.2g}"]
+        if linkage.robot.limits:
+            facts.append("within [limits]" if mode.kept else "outside [limits]")
+        if mode.copies > 1:
+            facts.append(f"{mode.copies} symmetric copies")
+        if k == found.own:
+            facts.append("as [home] of the file" if linkage.robot.home else "as without [home]")
+        lines.append(f"{mode.letter:<3} {_values(linkage, mode.posture, shown)}")
+        lines.append(f"    {', '.join(facts)}")
+    return [*lines, ""]
+
+
+def _shown(linkage: Linkage) -> list[int]:
+    """The joints by which people tell modes apart: the platform's, else the first that follow."""
+    names = [joint.name for joint in linkage.free]
+    platform = [names.index(name) for name in linkage.robot.platform if name in names]
+    return platform or list(linkage.closing.solved)[:_MOST_VALUES]
+
+
+def _values(linkage: Linkage, u: np.ndarray, places: list[int]) -> str:
+    """`q1 = 1.571 rad (90.00 deg), q3 = 0.33 m`."""
+    told = []
+    for k in places:
+        value = float(f"{u[k]:.4g}") if abs(u[k]) > 1e-9 else 0.0
+        degrees = f" ({np.degrees(value):.1f} deg)" if linkage.free[k].angular else ""
+        told.append(f"q{linkage.free[k].name} = {value:g} {linkage.free[k].unit}{degrees}")
+    return ", ".join(told)
+
+
+def _write(path: Path, robot: Robot, home: dict[str, float]) -> None:
+    """The file with that home; its line ends as they were."""
+    text = with_home_text(robot.text, robot.home, home)
+    if b"\r\n" in path.read_bytes():
+        text = text.replace("\n", "\r\n")
+    write_atomically(path, text)
+
+
+def _as_json(robot: Robot, found: HomeModes, chosen: int) -> Json:
+    return {
+        "robot": robot.name,
+        "chosen": found.modes[chosen].letter,
+        "of_the_file": None if found.own is None else found.modes[found.own].letter,
+        "modes": [_mode_json(found.linkage, mode) for mode in found.modes],
+    }
+
+
+def _mode_json(linkage: Linkage, mode: AssemblyMode) -> Json:
+    return {
+        "letter": mode.letter,
+        "home": written(linkage, mode.posture),
+        "singular_value": mode.sigma,
+        "within_limits": mode.kept,
+        "copies": mode.copies,
+        "away": mode.away,
+    }

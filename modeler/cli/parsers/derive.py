@@ -1,0 +1,71 @@
+"""`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
+
+import argparse
+from typing import Literal, get_args
+
+from modeler.cli.parsers.options import Commands, Run, add_force, add_json, add_robot
+from modeler.cli.places import ModuleFolder, Output
+
+Form = Literal["text", "latex", "markdown"]
+"""How relations are printed."""
+
+FEW_JOINTS = 3
+"""Robots of as many joints get their coefficients printed unasked."""
+
+
+def add_derive(commands: Commands) -> None:
+    """`modeler derive`."""
+    parser = commands.add_parser(
+        "derive",
+        help="base parameters and grouping relations, with their proof",
+        description="Derives the model of ROBOT, linear in the dynamic parameters: which base "
+        "parameters it has, how the standard parameters group, and the proof. Robots of up to "
+        f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
+        epilog="example: modeler derive puma560 --format latex",
+    )
+    add_robot(parser)
+    parser.add_argument(
+        "--format", choices=sorted(get_args(Form)), default="text", help="of what is printed"
+    )
+    parser.add_argument(
+        "--terms", action=argparse.BooleanOptionalAction, help="PG/PJ/PS coefficients or not"
+    )
+    parser.add_argument(
+        "--closed-form", action="store_true", help="M(q), Christoffel coefficients and gravity"
+    )
+    parser.add_argument(
+        "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
+    )
+    add_json(parser, "write the result for machines")
+    parser.set_defaults(load=_derive)
+
+
+def _derive() -> Run:
+    from modeler.cli.derive import run_derive
+
+    return run_derive
+
+
+def add_generate(commands: Commands) -> None:
+    """`modeler generate`."""
+    parser = commands.add_parser(
+        "generate",
+        help="C source, header, manifest and build files",
+        description="Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia "
+        "matrix, gravity, Coriolis, and the batch observation matrix, in a folder that builds by "
+        "itself with make or cmake.",
+        epilog="example: modeler generate panda --out panda_c",
+    )
+    add_robot(parser)
+    parser.add_argument(
+        "--out", metavar="DIR", required=True, type=ModuleFolder, help="folder to write"
+    )
+    add_force(parser)
+    add_json(parser, "write the manifest for machines")
+    parser.set_defaults(load=_generate)
+
+
+def _generate() -> Run:
+    from modeler.cli.derive import run_generate
+
+    return run_generate

@@ -1,0 +1,127 @@
+"""`modeler fit ROBOT LOG... --out MODEL` and `modeler compare MODEL LOG...`."""
+
+import argparse
+from typing import get_args
+
+from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
+from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
+from modeler.core.choices import LOW_SPEED, Derivatives, Method
+
+_LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
+
+
+def add_fit(commands: Commands) -> None:
+    """`modeler fit`."""
+    parser = commands.add_parser(
+        "fit",
+        help="estimate the base parameters from logs",
+        description="Filters the logs, builds the observation matrix and estimates the base "
+        "parameters of ROBOT: value, sigma, %sigma, errors per joint; saves a model file.",
+        epilog="example: modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json",
+    )
+    add_robot(parser)
+    parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    parser.add_argument(
+        "--out", metavar="MODEL", required=True, type=Output, help="model file to write"
+    )
+    parser.add_argument(
+        "--method",
+        choices=get_args(Method),
+        default="weighted",
+        help="least squares with one weight per joint, iterated, or without weights",
+    )
+    _add_processing(parser)
+    _add_load(parser)
+    add_json(parser, "write the result for machines")
+    parser.set_defaults(load=_fit)
+
+
+def _add_processing(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("processing", "chosen from the logs and told where left out")
+    add_number(group, "--cutoff", "HZ", float,
+               "low-pass of the positions (zero phase, Butterworth order 4)")  # fmt: skip
+    add_number(
+        group, "--parallel-cutoff", "HZ", float, "the one low-pass of torques and all columns"
+    )
+    add_number(group, "--decimate", "N", int, "keep every N-th row after it")
+    group.add_argument(
+        "--derivatives",
+        choices=get_args(Derivatives),
+        default="auto",
+        help="logged velocities, or positions differentiated; auto: the quieter",
+    )
+    add_number(
+        group, "--low-speed", "SHARE", float,
+        "leave out rows below this share of the joint's top speed, where the sign of the speed is "
+        "doubtful",
+        LOW_SPEED,
+    )  # fmt: skip
+    group.add_argument(
+        "--keep-saturated", action="store_true", help="use rows whose torque is stuck at its limit"
+    )
+    group.add_argument(
+        "--keep-contradicted",
+        action="store_true",
+        help="use rows whose logged derivatives contradict the signals below them",
+    )
+    group.add_argument(
+        "--keep-damaged",
+        action="store_true",
+        help="use leaps, spikes and repeated values, which no robot can have made, as logged",
+    )
+
+
+def _add_load(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("load", "some of the logs carry a load on a link")
+    group.add_argument(
+        "--payload-log",
+        metavar="LOG",
+        action="append",
+        default=[],
+        type=LogFile,
+        help="a further log, with the load; may be given several times",
+    )
+    add_number(group, "--payload-mass", "KG", float, "its mass, if it is known")
+    group.add_argument(
+        "--payload-link", metavar="J", type=Word,
+        help="the link that carries it; default: the last",
+    )  # fmt: skip
+
+
+def _fit() -> Run:
+    from modeler.cli.fit import run_fit
+
+    return run_fit
+
+
+def add_compare(commands: Commands) -> None:
+    """`modeler compare`."""
+    parser = commands.add_parser(
+        "compare",
+        help="measured against predicted torque: how good, where it fails",
+        description="Predicts the torques of the logs with MODEL and shows per joint how good it "
+        "is, where it fails, and whether the rest still has structure.",
+        epilog="example: modeler compare ur10e.model.json held_out.parquet --report page.html",
+    )
+    parser.add_argument(
+        "model", metavar="MODEL", type=ModelFile, help="a model file of `modeler fit`"
+    )
+    parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    add_page(parser, PageOrFolder)
+    parser.add_argument(
+        "--pictures", metavar="DIR", type=PictureFolder,
+        help="write every picture as PNG, SVG and CSV",
+    )  # fmt: skip
+    parser.add_argument(
+        "--run-embedded-c",
+        action="store_true",
+        help="compile the C in MODEL instead of emitting it anew: only for files that you trust",
+    )
+    add_json(parser, "write the result for machines")
+    parser.set_defaults(load=_compare)
+
+
+def _compare() -> Run:
+    from modeler.cli.fit import run_compare
+
+    return run_compare

@@ -1,0 +1,12 @@
+"""Choices that a user is offered, where parsers and the stages that make them both can look."""
+
+from typing import Literal
+
+Method = Literal["weighted", "ordinary"]
+"""Least squares with one weight per joint, iterated, or without weights."""
+
+Derivatives = Literal["auto", "log", "position"]
+"""Whether velocities are taken from the log or differentiated; auto: the quieter."""
+
+LOW_SPEED = 0.02
+"""Rows below this share of a joint's top speed are left out, where friction depends on its sign."""

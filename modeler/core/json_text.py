@@ -1,0 +1,82 @@
+"""JSON that others wrote, read strictly: one sentence for everything that is wrong with it."""
+
+import json
+import math
+import reprlib
+from typing import Any
+
+_LARGEST = 2**63
+_BYTE_ORDER = (b"\xff\xfe", b"\xfe\xff")
+
+
+class JsonError(ValueError):
+    """What is wrong with the text, without its place; readers add the file and what to do."""
+
+
+def parse_json(data: bytes | str) -> Any:
+    """The value of a JSON text in UTF-8.
+
+    Stricter than `json.loads`: what is no number (NaN, Infinity), what no double or 64-bit integer
+    holds, an entry given twice, and half a character are refused.
+
+    Raises:
+        JsonError: not such a text; says why, where if that is known.
+    """
+    text = data if isinstance(data, str) else _decoded(data)
+    if not text.strip():
+        raise JsonError("is empty" if not text else "is blank")
+    try:
+        value = json.loads(
+            text, parse_int=_integer, parse_float=_float, parse_constant=_constant,
+            object_pairs_hook=_object,
+        )  # fmt: skip
+        json.dumps(value, ensure_ascii=False).encode()
+    except json.JSONDecodeError as error:
+        raise JsonError(
+            f"is not JSON, or cut off: {error.msg}, line {error.lineno}, column {error.colno}"
+        ) from None
+    except RecursionError:
+        raise JsonError("is nested too deep") from None
+    except UnicodeEncodeError:
+        raise JsonError("has an escape \\ud800 to \\udfff that is half a character") from None
+    return value
+
+
+def shown(value: Any) -> str:
+    """The value for a message: short, however long it is."""
+    return reprlib.repr(value)
+
+
+def _decoded(data: bytes) -> str:
+    if data.startswith(_BYTE_ORDER) or b"\x00" in data[:4]:
+        raise JsonError("is UTF-16, UTF-32 or binary; expected text in UTF-8")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise JsonError(f"is no text in UTF-8 from byte {error.start + 1} on") from None
+
+
+def _integer(text: str) -> int:
+    if len(text) > len(str(_LARGEST)) + 1 or abs(int(text)) >= _LARGEST:
+        raise JsonError(f"has a whole number of {len(text.lstrip('-'))} digits: {shown(text)}")
+    return int(text)
+
+
+def _float(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise JsonError(f"has the number {shown(text)}, too large for double precision")
+    return value
+
+
+def _constant(text: str) -> float:
+    raise JsonError(f"has {text}, which is no number of JSON")
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in found if names.count(name) > 1)
+        raise JsonError(f"has the entry {shown(twice)} twice")
+    return found

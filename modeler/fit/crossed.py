@@ -1,0 +1,92 @@
+"""Does the fit predict motion like that of its logs? What was left out answers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.fit.compressed import triangle
+from modeler.observation import Observation
+
+FOLDS = 8
+
+_SEEN = 1e-8  # pivot of a scaled column below which a fold does not see a direction
+
+
+@dataclass(frozen=True, eq=False)
+class Crossed:
+    """Errors of the fit on stretches that it was not fitted to.
+
+    Attributes:
+        errors: (n,) ||y_j - W_j beta|| / ||y_j||, each stretch predicted from the others; nan for
+            a joint without rows or torque.
+        swing: s, half a period of the mean motion: the length of a stretch.
+        stretches: that many.
+    """
+
+    errors: np.ndarray
+    swing: float
+    stretches: int
+
+
+def crossed(observation: Observation, rows: np.ndarray, sigma: np.ndarray) -> Crossed:
+    """Cross-validation over stretches of half a swing.
+
+    A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
+    joints: neighbouring samples are alike, and would answer for each other. Every eighth stretch
+    is held out together, so that the motions of a log stand in all parts.
+
+    Args:
+        observation: of all logs.
+        rows: (rows,) True for those to use.
+        sigma: (n,) standard deviation of a row of each joint.
+    """
+    swing = _swing(observation)
+    number = _stretches(observation, swing)
+    seen = np.unique(number[observation.row_sample[rows]])
+    fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
+    joint = observation.row_joint
+    weight = 1.0 / sigma[joint]
+    parts = [
+        triangle((np.column_stack([observation.W, observation.y]) * weight[:, None])[rows & own])
+        for own in (fold == k for k in range(min(FOLDS, len(seen))))
+    ]
+    left = np.zeros(len(sigma))
+    for k in range(len(parts)):
+        others = [part for i, part in enumerate(parts) if i != k]
+        beta = _solved(np.vstack(others)) if others else np.zeros(len(observation.names))
+        own = rows & (fold == k)
+        residual = observation.y[own] - observation.W[own] @ beta
+        left += np.bincount(joint[own], residual**2, len(sigma))
+    total = np.bincount(joint[rows], observation.y[rows] ** 2, len(sigma))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return Crossed(np.sqrt(np.where(total > 0.0, left / total, np.nan)), swing, len(seen))
+
+
+def _swing(observation: Observation) -> float:
+    """s; that of the joints that move."""
+    speed, acceleration = (
+        np.sqrt(np.mean(values**2, axis=0)) for values in (observation.qd, observation.qdd)
+    )
+    moving = (speed > 1e-6 * speed.max(initial=0.0)) & (acceleration > 0.0)
+    return float(np.median(np.pi * speed[moving] / acceleration[moving])) if moving.any() else 0.0
+
+
+def _stretches(observation: Observation, swing: float) -> np.ndarray:
+    """(s,) number of the stretch of each sample, ascending over the logs."""
+    number, first = np.zeros(len(observation.time), dtype=int), 0
+    for run in range(len(observation.logs)):
+        own = observation.run == run
+        if not own.any():
+            continue
+        since = observation.time[own] - observation.time[own].min()
+        number[own] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
+        first = int(number[own].max()) + 1
+    return number
+
+
+def _solved(whole: np.ndarray) -> np.ndarray:
+    """(c,) least squares of a triangle [W y]; 0 along directions that it does not see."""
+    W, y = whole[:, :-1], whole[:, -1]
+    length = np.linalg.norm(W, axis=0)
+    length[length == 0.0] = 1.0
+    return np.asarray(np.linalg.lstsq(W / length, y, rcond=_SEEN)[0] / length)

@@ -1,0 +1,198 @@
+"""Usable or not, what for, why, and what to do: how a fit ends."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.stats import chi2
+
+from modeler.core.contract import ModuleSpec
+from modeler.fit.clock import time_doubts
+from modeler.fit.coloured import autocorrelation
+from modeler.fit.compressed import Compressed, compress
+from modeler.fit.crossed import Crossed, crossed
+from modeler.fit.doubts import (
+    LITTLE,
+    WIDE,
+    Doubt,
+    Told,
+    negative,
+    scarce,
+    systematic,
+    undescribed,
+    undetermined,
+)
+from modeler.fit.identify import dead_joints
+from modeler.fit.least_squares import solve_by_qr
+from modeler.fit.possible import Nearest, carried_by, machine_of, nearest_possible
+from modeler.fit.result import FitResult, Verdict
+from modeler.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+CHANCE = 1e-3
+"""Probability with which the machine that was measured lies outside of its confidence region."""
+
+_FELT = 1.1  # ratio of errors that is worth a word
+
+
+def with_verdict(
+    model: "CompiledModel",
+    observation: Observation,
+    result: FitResult,
+    told: Sequence[Told] = (),
+    bare: Sequence[str] | None = None,
+) -> FitResult:
+    """The fit with its verdict.
+
+    A fit is usable if it predicts the torques of motion like that of its logs: it describes every
+    joint, foretells stretches that are left out, the time runs in seconds, and a machine that
+    could be built describes the joints as well. Its values are usable as those of the machine if,
+    beyond that, one such machine lies in their confidence region, the logs tell the values
+    apart, and what is left of the torques is small or noise.
+
+    Args:
+        model: the robot.
+        observation: that was fitted.
+        result: of the fit.
+        told: findings of other stages about the logs; one that is certain makes the fit unusable.
+        bare: names of the logs without a load; None: all.
+    """
+    rows = _rows(observation, bare)
+    sigma = np.array([joint.sigma for joint in result.joints])
+    data = compress(
+        observation.W[rows],
+        observation.y[rows],
+        observation.row_joint[rows],
+        len(sigma),
+        observation.names,
+    )
+    seen = crossed(observation, rows, sigma)
+    found = [Doubt(item.line, item.certain) for item in told]
+    found += time_doubts(model, observation, result)
+    found += [*scarce(result, seen), *undescribed(result)]
+    found += systematic(result, _lasting(observation, rows, result))
+    found += undetermined(model.spec, result, _spread(data, result))
+    found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
+    return dataclasses.replace(result, verdict=_verdict(found, result, seen))
+
+
+def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:
+    """(rows,) True for rows of the bare robot with a connected torque."""
+    rows = ~np.isin(observation.row_joint, dead_joints(observation))
+    if bare is not None:
+        runs = [i for i, name in enumerate(observation.logs) if name in set(bare)]
+        rows &= np.isin(observation.row_run, runs)
+    return np.asarray(rows)
+
+
+def _lasting(observation: Observation, rows: np.ndarray, result: FitResult) -> np.ndarray:
+    """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
+    residual = observation.y - observation.W @ result.beta
+    found = np.zeros(len(result.joints))
+    for j, joint in enumerate(result.joints):
+        own = rows & (observation.row_joint == j)
+        if joint.relative_error is None or not own.any():
+            continue
+        r = autocorrelation(residual[own], observation.row_sample[own], observation.segment)
+        found[j] = joint.relative_error * max(float(r[1]), 0.0) ** 0.5 if len(r) > 1 else 0.0
+    return found
+
+
+def _spread(data: Compressed, result: FitResult) -> np.ndarray:
+    """(c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
+    sigma = np.sqrt(np.diag(result.covariance))
+    column = np.linalg.norm(data.triangles[:, :, :-1], axis=1)
+    torque = data.torque_norms()
+    driven = torque > 0.0
+    share = column[driven] * sigma / torque[driven, None]
+    return np.asarray(share.max(axis=0, initial=0.0))
+
+
+def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[Doubt]:
+    """Values that no completion makes those of a machine that could be built."""
+    machine = machine_of(spec)
+    white = data.whole(np.array([joint.sigma for joint in result.joints]))[:, :-1]
+    root = white / _colour(white, result)
+    nearest = nearest_possible(machine, result.beta, root)
+    limit = float(chi2.ppf(1.0 - CHANCE, max(1, np.linalg.matrix_rank(root)))) ** 0.5
+    if nearest is None or nearest.distance <= limit:
+        return []
+    blamed = carried_by(machine, result.beta, root, nearest.distance)
+    names = [name if name in machine.positive else f"the mass of link {name}" for name in blamed]
+    cost = _cost(result, data, nearest)
+    return [
+        Doubt(
+            f"no machine that could be built has these values: {nearest.distance:.3g} sigmas from "
+            f"any, where {limit:.2g} are chance; carried by {', '.join(names) or 'no single link'}"
+            f"{cost.told()}; check signs, order and units of those channels, and let `modeler "
+            "diagnose` look for an effect that they stand in for",
+            certain=cost.after > max(LITTLE, WIDE * cost.before),
+            values=True,
+        )
+    ]
+
+
+def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
+    """(c,) factors of the standard deviations over those of white residuals, 1 and more.
+
+    All are the largest if columns were set aside: others carry their effect, and must go on to.
+    """
+    raised = np.sqrt(np.diag(result.covariance))
+    kept = np.flatnonzero(raised > 0.0)
+    factors = np.ones(len(raised))
+    if kept.size:
+        _, root = solve_by_qr(white[:, kept], np.zeros(len(white)))
+        factors[kept] = np.maximum(raised[kept] / np.linalg.norm(root, axis=1), 1.0)
+    return factors if kept.size == len(factors) else np.full(len(factors), factors.max())
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """Relative error of the joint where a possible machine costs most, with the fit and with it."""
+
+    joint: str
+    before: float
+    after: float
+
+    def told(self) -> str:
+        """What goes behind the sentence."""
+        if self.after < _FELT * self.before:
+            return ""
+        return (
+            f"; the nearest possible one leaves {100.0 * self.after:.3g} % of the torque of joint "
+            f"{self.joint}, not {100.0 * self.before:.3g} %"
+        )
+
+
+def _cost(result: FitResult, data: Compressed, nearest: Nearest) -> _Cost:
+    torque = data.torque_norms()
+    driven = np.flatnonzero(torque > 0.0)
+    after = data.residual_norms(nearest.beta)[driven] / torque[driven]
+    before = data.residual_norms(result.beta)[driven] / torque[driven]
+    worst = int(np.argmax(after - before))
+    return _Cost(result.joints[driven[worst]].name, float(before[worst]), float(after[worst]))
+
+
+def _verdict(found: Sequence[Doubt], result: FitResult, seen: Crossed) -> Verdict:
+    lines = tuple(dict.fromkeys(doubt.line for doubt in found))
+    fatal = [doubt for doubt in found if doubt.certain]
+    if fatal:
+        return Verdict(False, "nothing", f"not usable: {fatal[0].line}", lines)
+    errors = seen.errors[np.isfinite(seen.errors)]
+    largest = 100.0 * float(errors.max(initial=0.0))
+    good = (
+        f"predicts torques of motion like that of its logs to {largest:.2g} % on every joint "
+        "(stretches left out)"
+    )
+    values = [doubt for doubt in found if doubt.values]
+    if values:
+        line = (
+            f"usable for torques of like motion only: {good}; not for its values: {values[0].line}"
+        )
+        return Verdict(True, "like motion", line, lines)
+    rest = f"; {found[0].line}" if found else "; a machine with these values could be built"
+    return Verdict(True, "physics", f"usable: {good}{rest}", lines)

@@ -1,0 +1,123 @@
+"""Spikes of one to three samples in torques, velocities and accelerations: of wires, not motion."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from modeler.observation.isolated import REACH, departures, lone, nearby, threshold
+from modeler.observation.resolution import resolution
+
+LONGEST = 3
+"""Samples of a spike, at most; what lasts longer may be a blow, which a diagnosis looks for."""
+
+SHARE = 0.2
+"""Of a channel's range (1 % to 99 % of its values) that a spike exceeds: a smaller one vanishes in
+the parallel filter."""
+
+RARE = 1e-3
+"""Share of a channel's values that may be spikes: a controller's kicks come again and again."""
+
+TOGETHER = 3.0
+"""Times its neighbourhood that another torque reaches when the machine itself was hit."""
+
+_BACK = 0.3  # of the spike: by what the values on both sides of it differ, at most
+_AROUND = 2  # samples between what two torques of one blow show
+_MEAN = 5  # samples before and after a spike over which the speed is taken
+_RARELY = 0.95  # quantile of the changes of the speed over that time
+_STARTS = 2.0  # times the changes just before: something began
+_SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
+
+Spike = tuple[int, int, float]
+"""First sample, the one after the last, and the largest departure with its sign."""
+
+
+def glitches(stretches: Sequence[np.ndarray]) -> list[list[Spike]]:
+    """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
+
+    Args:
+        stretches: (n,) of values without gaps, all of one channel.
+    """
+    if not stretches:
+        return []
+    departed = [departures(values) for values in stretches]
+    whole = np.concatenate(stretches)
+    low, high = np.quantile(whole, [0.01, 0.99])
+    floor = max(threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * (high - low))
+    return [
+        _runs(values, own, lone(own, floor))
+        for values, own in zip(stretches, departed, strict=True)
+    ]
+
+
+def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[Spike]:
+    """Runs of lone values that are gone as they came; what stays is a step, and no spike."""
+    found = []
+    for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
+        if not 0 < len(run) <= LONGEST:
+            continue
+        size = float(departed[run[int(np.argmax(np.abs(departed[run])))]])
+        start, stop = int(run[0]), int(run[-1]) + 1
+        beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
+        if np.ptp(beside) < _BACK * abs(size):
+            found.append((start, stop, size))
+    return found
+
+
+def torque_glitches(
+    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
+) -> list[list[list[Spike]]]:
+    """By joint and stretch, the spikes of torques that no motion and no blow explains.
+
+    A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
+    turns back or sticks, friction makes peaks of its own, which stay within the range of the
+    channel (1 % to 99 % of its values).
+
+    Args:
+        stretches: (n, J) torques without gaps; a joint without a measured torque is all 0.
+        speeds: (n, J) of the joints.
+    """
+    if not stretches:
+        return []
+    sizes = [np.abs(np.column_stack([departures(own) for own in tau.T])) for tau in stretches]
+    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
+    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
+    return [
+        [
+            [spike for spike in spikes
+             if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
+             and (abs(spike[2]) > high[j] - low[j] or _moves(speed[:, j], spike, _SLOW * top[j]))]
+            for spikes, size, speed in zip(
+                glitches([tau[:, j] for tau in stretches]), sizes, speeds, strict=True
+            )
+        ]
+        for j in range(stretches[0].shape[1])
+    ]  # fmt: skip
+
+
+def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:
+    """True if another torque departs too, around the same time."""
+    first, last = max(0, spike[0] - _AROUND), spike[1] + _AROUND
+    for k in range(sizes.shape[1]):
+        if k == j:
+            continue
+        place = first + int(np.argmax(sizes[first:last, k]))
+        if sizes[place, k] > TOGETHER * nearby(sizes[:, k], place):
+            return True
+    return False
+
+
+def _answered(speed: np.ndarray, spike: Spike) -> bool:
+    """True if the speed changes across a spike as it rarely does, or did not before."""
+    mean = np.convolve(speed, np.ones(_MEAN) / _MEAN, mode="valid")
+    change = np.abs(mean[_MEAN + 1 :] - mean[: -_MEAN - 1])  # centred on sample _MEAN + k
+    first, last = spike[0] - _AROUND - _MEAN, spike[1] + _AROUND - _MEAN
+    across = float(np.max(change[max(0, first) : last], initial=0.0))
+    earlier = change[max(0, first - REACH) : max(0, first - _MEAN)]
+    before = float(np.max(earlier, initial=0.0)) if earlier.size else np.inf
+    return across > float(np.quantile(change, _RARELY)) or across > _STARTS * before > 0.0
+
+
+def _moves(speed: np.ndarray, spike: Spike, least: float) -> bool:
+    """True if a joint moves one way, and not slowly, around a spike."""
+    around = speed[max(0, spike[0] - _AROUND) : spike[1] + _AROUND]
+    return bool(np.min(around) > least or np.max(around) < -least)

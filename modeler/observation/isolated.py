@@ -1,0 +1,86 @@
+"""Values that stand alone: far above the noise of a channel and above all that happens nearby."""
+
+import numpy as np
+from scipy.ndimage import median_filter
+
+NOISES = 10.0
+"""Robust standard deviations (1.4826 median) that a lone value exceeds: among a million values of
+white noise the largest is 5 of them ..."""
+
+CROWD = 2.0
+"""... and this many times what the rarest values of its channel reach, so that whatever happens
+again and again, as every reversal and every impact does, is no lone value ..."""
+
+NEAR = 5.0
+"""... and this many times what its neighbourhood reaches: motion that is rough there is physics ...
+"""
+
+STEPS = 5.0
+"""... and this many resolution steps of the channel."""
+
+REACH = 30
+"""Samples of the neighbourhood to both sides."""
+
+FEW = 3
+"""Lone values that a neighbourhood may hold; one more, and it is rough."""
+
+LEAST_RARE = 8
+"""Values of a channel that may be lone in any case, however short the log."""
+
+END = 10
+"""Samples at both ends of a stretch that are not judged."""
+
+_HALF = 5  # samples: the median of 11 is not moved by a few that are wrong
+LEAST = 4 * _HALF
+"""Values below which nothing can be said."""
+
+
+def departures(values: np.ndarray) -> np.ndarray:
+    """(n,) values less their running median over 11 samples: of a smooth signal all but nothing."""
+    return np.asarray(values - running_median(values))
+
+
+def running_median(values: np.ndarray) -> np.ndarray:
+    """(n,) median over 11 samples; at the ends over those that there are, mirrored."""
+    return np.asarray(median_filter(values, 2 * _HALF + 1, mode="reflect"))
+
+
+def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
+    """Departure below which no value of a channel is lone.
+
+    The largest of `NOISES` robust standard deviations, `CROWD` times what a share of the values
+    exceeds, and `STEPS` resolution steps.
+
+    Args:
+        departed: (n,) `departures` of the channel, of all its stretches.
+        resolution: its smallest step.
+        share: of the values that may be lone, 8 at least.
+    """
+    size = np.abs(departed)
+    if not size.size:
+        return float("inf")
+    rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
+    common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
+    return max(NOISES * 1.4826 * float(np.median(size)), CROWD * common, STEPS * resolution)
+
+
+def lone(departed: np.ndarray, floor: float) -> np.ndarray:
+    """Places of the lone values of one stretch, increasing.
+
+    Args:
+        departed: (n,) `departures` of the stretch.
+        floor: what they exceed, besides `NEAR` times the fourth largest within 30 samples. The
+            first and the last ten are not judged: a machine that is just switched on leaps too, and
+            the start-up of the position filter costs these samples anyway.
+    """
+    size = np.abs(departed)
+    size[:END] = size[max(0, len(size) - END) :] = 0.0
+    found = [int(k) for k in np.flatnonzero(size > floor) if size[k] > NEAR * nearby(size, int(k))]
+    return np.array(found, dtype=int)
+
+
+def nearby(size: np.ndarray, place: int) -> float:
+    """The fourth largest of size (n,) within 30 samples of a place, the place included."""
+    window = size[max(0, place - REACH) : place + REACH + 1]
+    kept = max(0, len(window) - 1 - FEW)
+    return float(np.partition(window, kept)[kept])

@@ -1,0 +1,120 @@
+"""Some rows of an observation, whose columns can be built anew of a motion that was changed."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Observation
+from modeler.observation.row_filter import RowFilter
+from modeler.observation.signals import signals_of
+from modeler.observation.stretch import Stretch
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+_MOST = 1200  # rows: enough for any fit, and quick with every change that is tried
+_CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
+_TAPS = 16  # samples of each row, of the many over which the parallel filter takes its mean
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A stretch with some of its rows, and some of the samples that those reach."""
+
+    segment: Segment
+    samples: np.ndarray
+    rows: RowFilter
+    usable: np.ndarray
+    used: np.ndarray
+    read: np.ndarray | None
+
+    def turned(self, compiled: "CompiledModel", turn: np.ndarray) -> np.ndarray:
+        """(m, n, c) filtered columns of the motion q turn."""
+        s = self.segment
+        return self._filtered(compiled, [x[self.samples] @ turn for x in (s.q, s.qd, s.qdd)])
+
+    def shifted(self, compiled: "CompiledModel", shift: np.ndarray) -> np.ndarray:
+        """(m, n, c) filtered columns of the motion of each joint, shift (n,) s later."""
+        s = self.segment
+        at = s.time[self.samples][:, None] + shift
+        motion = [
+            np.column_stack([np.interp(at[:, j], s.time, x[:, j]) for j in range(x.shape[1])])
+            for x in (s.q, s.qd, s.qdd)
+        ]
+        return self._filtered(compiled, motion)
+
+    def _filtered(self, compiled: "CompiledModel", motion: list[np.ndarray]) -> np.ndarray:
+        q, qd, qdd = motion
+        values = compiled.base_regressor(q, qd, qdd, self.read)
+        whole = self.segment.whole[self.samples]
+        means = [
+            self.rows.means(values[:, j], self.usable[:, j], self.used[:, j], whole)
+            for j in range(values.shape[1])
+        ]
+        return np.stack(means, axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Some rows of an observation.
+
+    Attributes:
+        W: (m, n, c).
+        tau: (m, n).
+        used: (m, n) that count.
+        speed: (m, n).
+        parts: to build W anew of a motion that was changed.
+    """
+
+    W: np.ndarray
+    tau: np.ndarray
+    used: np.ndarray
+    speed: np.ndarray
+    parts: tuple[Part, ...]
+
+    def turned(self, compiled: "CompiledModel", turn: np.ndarray) -> np.ndarray:
+        """(m, n, c) columns of the motion q turn."""
+        return np.concatenate([part.turned(compiled, turn) for part in self.parts])
+
+    def shifted(self, compiled: "CompiledModel", shift: np.ndarray) -> np.ndarray:
+        """(m, n, c) columns of the motion `shift` (n,) s later."""
+        return np.concatenate([part.shifted(compiled, shift) for part in self.parts])
+
+
+def thinned(compiled: "CompiledModel", observation: Observation) -> Rows:
+    """At most 1200 of the rows of the observation, evenly; fewer of many joints."""
+    most = max(1, min(_MOST, _CELLS // len(observation.joints)))
+    every = max(1, -(-len(observation.time) // most))
+    parts, chosen, at = [], [], 0
+    for part in observation.stretches:
+        rows = np.arange(-at % every, len(part.used), every)
+        chosen.append(at + rows)
+        at += len(part.used)
+        if rows.size:
+            parts.append(_part(compiled, part, rows))
+    place = np.concatenate(chosen)
+    return Rows(
+        W=observation.columns[place],
+        tau=observation.torque[place],
+        used=observation.used[place],
+        speed=observation.qd[place],
+        parts=tuple(parts),
+    )
+
+
+def _part(compiled: "CompiledModel", part: Stretch, rows: np.ndarray) -> Part:
+    weights = part.rows.weights[rows]
+    width = max(1, int(np.max(np.diff(weights.indptr))))
+    reached = np.unique(weights.indices)
+    samples = reached[reached % max(1, width // _TAPS) == 0]
+    read = signals_of(compiled.spec, part.segment)
+    return Part(
+        segment=part.segment,
+        samples=samples,
+        rows=RowFilter(weights[:, samples], part.rows.centres[rows]),
+        usable=part.usable[samples],
+        used=part.used[rows],
+        read=None if read is None else read[samples],
+    )

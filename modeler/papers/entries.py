@@ -1,0 +1,8 @@
+"""What `modeler.papers` offers; loaded when the first of these is asked for."""
+
+from modeler.papers.check import Line as Line
+from modeler.papers.check import Verdict as Verdict
+from modeler.papers.check import check_paper as check_paper
+from modeler.papers.paper import Paper as Paper
+from modeler.papers.paper import paper_names as paper_names
+from modeler.papers.paper import read_paper as read_paper

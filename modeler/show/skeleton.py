@@ -1,0 +1,148 @@
+"""The table in numbers: every cell a constant, or a constant and a coefficient of the variable."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.expression import Expression
+from modeler.robot import Joint, JointKind, Robot
+from modeler.robot.linear import linear_form
+
+BASE = -1
+"""Number of the base among the rows."""
+
+_CELLS = ("gamma", "b", "alpha", "d", "theta", "r")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of the table, in numbers: rad and m.
+
+    Attributes:
+        joint: the row as it was read.
+        parent: number of the antecedent row, `BASE` for the base.
+        cells: gamma, b, alpha, d, theta, r without the joint variable.
+        rate: of the joint variable in theta (revolute) or r (prismatic); 0 for a fixed frame.
+        constant: of the joint variable.
+        coefficients: (free,) of the joint variable: it is constant + coefficients @ u.
+        virtual: True for a row that stands for a motion of the platform, not for a joint.
+    """
+
+    joint: Joint
+    parent: int
+    cells: Mapping[str, float]
+    rate: float
+    constant: float
+    coefficients: np.ndarray
+    virtual: bool
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """A robot's table, loops and home in numbers.
+
+    Attributes:
+        robot: as read.
+        rows: in table order.
+        free: names of the rows whose variables are u.
+        given: places in u of the actuated joints, which the others follow.
+        stated: (free,) u at [home] as the file states it.
+        gravity: (3,) acceleration of gravity in frame 0, m/s2.
+    """
+
+    robot: Robot
+    rows: tuple[Row, ...]
+    free: tuple[str, ...]
+    given: tuple[int, ...]
+    stated: np.ndarray
+    gravity: np.ndarray
+
+    @property
+    def solved(self) -> tuple[int, ...]:
+        """Places in u of the variables that the loops determine."""
+        return tuple(k for k in range(len(self.free)) if k not in self.given)
+
+    @property
+    def travels(self) -> np.ndarray:
+        """(free,) True where u is a travel in m."""
+        return np.array([not self.robot.joint(name).angular for name in self.free], dtype=bool)
+
+    def number(self, name: str) -> int:
+        """Place of the row of that name; `BASE` for "0"."""
+        return next((i for i, row in enumerate(self.rows) if row.joint.name == name), BASE)
+
+    def body(self, row: int) -> int:
+        """The moving row that carries the frame of that row; `BASE` for the base."""
+        while row != BASE and not self.rows[row].joint.moves:
+            row = self.rows[row].parent
+        return row
+
+    def depth(self, row: int) -> int:
+        """How many moving joints, those of the platform apart, lie between the row and the base."""
+        count = 0
+        while row != BASE:
+            count += self.rows[row].joint.moves and not self.rows[row].virtual
+            row = self.rows[row].parent
+        return count
+
+
+def skeleton_of(robot: Robot) -> Skeleton:
+    """The numbers of a robot's table, at the values of its symbols."""
+    values = robot.symbol_values()
+    free = tuple(joint.name for joint in robot.free)
+    places = {joint.name: i for i, joint in enumerate(robot.joints)}
+    forms = _forms(robot, values, free)
+    rows = tuple(
+        _row(robot, joint, places.get(joint.antecedent, BASE), values, forms)
+        for joint in robot.joints
+    )
+    return Skeleton(
+        robot=robot,
+        rows=rows,
+        free=free,
+        given=tuple(free.index(joint.name) for joint in robot.coordinates),
+        stated=np.array([robot.home.get(name, 0.0) for name in free]),
+        gravity=np.array([component.number(values) for component in robot.gravity]),
+    )
+
+
+def _row(
+    robot: Robot,
+    joint: Joint,
+    parent: int,
+    values: Mapping[str, float],
+    forms: Mapping[str, np.ndarray],
+) -> Row:
+    cells: dict[str, float] = {}
+    rate = 0.0
+    for name in _CELLS:
+        cell: Expression = getattr(joint, name)
+        affine = linear_form(cell, values)
+        cells[name] = affine.constant
+        rate += affine.coefficients.get(joint.variable, 0.0)
+    form = forms.get(joint.name, np.zeros(1 + len(robot.free)))
+    virtual = joint.name in robot.platform
+    return Row(joint, parent, cells, rate, float(form[0]), form[1:], virtual)
+
+
+def _forms(
+    robot: Robot, values: Mapping[str, float], free: tuple[str, ...]
+) -> dict[str, np.ndarray]:
+    """Of every moving row: constant, then coefficients of u."""
+    found = {name: np.eye(1 + len(free))[1 + k] for k, name in enumerate(free)}
+    left = dict(robot.relations)
+    while left:
+        for name in list(left):
+            form = linear_form(left[name], values)
+            owners = {variable[1:]: c for variable, c in form.coefficients.items()}
+            if owners.keys() <= found.keys():
+                total = np.eye(1 + len(free))[0] * form.constant
+                found[name] = sum((c * found[o] for o, c in owners.items()), total)
+                del left[name]
+    return found
+
+
+def kind_word(joint: Joint) -> str:
+    """`revolute`, `prismatic`, `fixed`."""
+    return JointKind(joint.kind).name.lower()

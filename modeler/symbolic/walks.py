@@ -1,0 +1,172 @@
+"""Closed postures over the whole range that the actuated joints reach, by walking along the loops.
+
+One step solves the linearised loops for the passive joints, J_s du_s = -f - J_q dq: prediction of
+the motion dq and correction of what the step before left open, in one. A walker whose step leaves
+the loops wide open, whose determinant of J_s changes sign or whose passive joints run away goes
+back and takes another direction: it never passes to another assembly mode.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.symbolic.closing import Closing
+
+_WALKERS = 32
+_STEPS = 40
+_STEP = 0.25
+"""Longest step of a joint, rad or sizes of the robot."""
+_GOING = 0.3
+"""Share of the actuated joints that a walker moves at a time, besides one of them."""
+_OPEN = 0.02
+"""Residual at which a step was too long, relative to the robot's size."""
+_SLOWEST = 1 / 64
+_POLISHING = 4
+_CLOSED = 1e-12
+_NEAREST = 1e-3
+"""Distance to a singularity (see `Walk.distance`) below which a posture is left out: rounding of a
+closed posture is amplified by its inverse, and by the square of that in accelerations."""
+
+
+@dataclass(frozen=True)
+class Walk:
+    """Closed postures, and how far they went.
+
+    Attributes:
+        postures: (samples, unknowns), home first; they come again where few are reached.
+        lowest: (coordinates,) of the postures' actuated joints.
+        highest: likewise.
+        distance: least singular value of J_s over the postures; rows of J scaled to length 1,
+            travels counted in sizes of the robot. 0 is a singularity.
+    """
+
+    postures: np.ndarray
+    lowest: np.ndarray
+    highest: np.ndarray
+    distance: float
+
+
+def walked(
+    closing: Closing,
+    home: np.ndarray,
+    ranges: Sequence[tuple[float, float]],
+    samples: int,
+    rng: np.random.Generator,
+    share: float = 0.0,
+) -> Walk:
+    """Closed postures that are reached from home by motions of the actuated joints.
+
+    Args:
+        closing: independent equations, as many as there are solved variables.
+        home: a closed posture.
+        ranges: by free variable, within which the walk stays.
+        samples: number of postures.
+        rng: of the motion.
+        share: of home's distance to a singularity that all postures keep.
+    """
+    walkers = max(_WALKERS, -(-2 * samples // _STEPS))
+    with np.errstate(all="ignore"):  # steps that go astray are taken back
+        path = _Paths(closing, np.tile(home, (walkers, 1)), np.array(ranges), rng)
+        reached = np.concatenate([path.step() for _ in range(_STEPS)])
+        rng.shuffle(reached)
+        found = _closed(closing, np.concatenate([reached[: 3 * samples], home[None]]))
+    distance = _distances(closing, found)
+    far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
+    kept = np.resize(far[::-1], samples)  # home first; few of them come again
+    found, distance = found[kept], distance[kept]
+    moved = found[:, list(closing.given)]
+    return Walk(found, moved.min(axis=0), moved.max(axis=0), float(distance.min()))
+
+
+def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
+    """The postures, all but closed, closed to rounding; those that do not settle are left out.
+
+    So are those that go far to close: near a singularity Newton may end in another assembly mode.
+    """
+    solved = list(closing.solved)
+    start, u = u, u.copy()
+    for _ in range(_POLISHING):
+        inner = closing.jacobians(u)[:, :, solved]
+        u[:, solved] -= np.linalg.solve(inner, closing.residuals(u)[:, :, None])[:, :, 0]
+    left = np.max(np.abs(closing.residuals(u)), axis=1, initial=0.0)
+    far = np.abs(u - start) / np.where(closing.lengths, closing.size, 1.0)
+    return u[(left < _CLOSED * closing.size) & (np.max(far, axis=1) < _STEP)]
+
+
+def _distances(closing: Closing, u: np.ndarray) -> np.ndarray:
+    inner = closing.scaled_jacobian(u)[:, :, list(closing.solved)]
+    return np.asarray(np.linalg.svd(inner, compute_uv=False)[:, -1])
+
+
+class _Paths:
+    """Walkers on their way, each to its own target."""
+
+    def __init__(
+        self, closing: Closing, u: np.ndarray, ranges: np.ndarray, rng: np.random.Generator
+    ) -> None:
+        self.closing, self.rng, self.ranges = closing, rng, ranges
+        self.scale = np.where(closing.lengths, closing.size, 1.0)
+        self.given, self.solved = list(closing.given), list(closing.solved)
+        self.u = self.before = self.home = u
+        self.sign = self._linearised(u)[2]
+        self.pace = np.ones(len(u))
+        self.target = self._targets(len(u))
+
+    def _targets(self, count: int) -> np.ndarray:
+        """Random positions of the actuated joints; about half of them at an end of the range."""
+        low, high = self.ranges[self.given].T
+        wide = self.rng.uniform(-0.5, 1.5, (count, len(self.given)))
+        return np.asarray(low + np.clip(wide, 0.0, 1.0) * (high - low))
+
+    def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Residuals, Jacobian with travels in sizes of the robot, sign of det J_s."""
+        J = self.closing.jacobians(u) * self.scale
+        return self.closing.residuals(u), J, np.linalg.slogdet(J[:, :, self.solved])[0]
+
+    def step(self) -> np.ndarray:
+        """One step of every walker; the postures, all but closed, that are reached by it."""
+        f, J, sign = self._linearised(self.u)
+        lost = np.max(np.abs(f), axis=1) > _OPEN * self.closing.size
+        lost |= (sign != self.sign) | self._outside(self.u)
+        self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
+        stuck = self.pace < _SLOWEST
+        if np.any(lost):
+            # From the edge of what is reached steps go astray: who is stuck starts again at home.
+            back = np.where(stuck[:, None], self.home, self.before)
+            self.u = np.where(lost[:, None], back, self.u)
+            f[lost], J[lost], _ = self._linearised(self.u[lost])
+        self._turn(stuck)
+        self.before = self.u
+        self.u = self.u + self._advance(f, J)
+        return self.before[~lost]
+
+    def _outside(self, u: np.ndarray) -> np.ndarray:
+        low, high = self.ranges.T
+        return np.any((u < low - _STEP * self.scale) | (u > high + _STEP * self.scale), axis=1)
+
+    def _turn(self, stuck: np.ndarray) -> None:
+        """Other targets for walkers that are stuck, and for those that have arrived."""
+        left = np.abs(self.target - self.u[:, self.given]) / self.scale[self.given]
+        done = stuck | np.all(left < 1e-9, axis=1)
+        # Most joints stay: one at its end must not hold up the others.
+        goes = self.rng.random((int(np.sum(done)), len(self.given)))
+        stays = (goes > _GOING) & (goes > goes.min(axis=1, keepdims=True, initial=1.0))
+        here = self.u[done][:, self.given]
+        self.target[done] = np.where(stays, here, self._targets(len(here)))
+        self.pace[done] = 0.25
+
+    def _advance(self, f: np.ndarray, J: np.ndarray) -> np.ndarray:
+        """dq towards the target, and the du_s that keeps the loops closed; in rad and m."""
+        way = (self.target - self.u[:, self.given]) / self.scale[self.given]
+        longest = np.max(np.abs(way), axis=1)
+        dq = way * np.minimum(1.0, _STEP * self.pace / np.maximum(longest, 1e-300))[:, None]
+        along = np.einsum("nij,nj->ni", J[:, :, self.given], dq)
+        both = np.stack([f, along], axis=2)
+        back = -np.linalg.solve(J[:, :, self.solved], both)
+        fastest = np.max(np.abs(back[:, :, 1]), axis=1)
+        share = np.minimum(1.0, _STEP / np.maximum(fastest, 1e-300))[:, None]
+        step = np.zeros_like(self.u)
+        step[:, self.given] = dq * share
+        step[:, self.solved] = np.clip(back[:, :, 0], -_STEP, _STEP) + back[:, :, 1] * share
+        return step * self.scale

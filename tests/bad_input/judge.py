@@ -1,0 +1,288 @@
+"""Runs a row and says what is wrong with how it ended: nothing, if all is as it must be."""
+
+import contextlib
+import io
+import itertools
+import json
+import os
+import re
+import resource
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import traceback
+import warnings
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pyarrow.parquet as pq
+
+from modeler.cli import main
+from modeler.core.errors import ModelerError
+from tests.bad_input.row import Process, Result, Row, missing_words
+from tests.bad_input.yard import Yard
+
+SECONDS = 20.0
+"""In which every command must answer."""
+
+LONGEST = 1200
+"""Characters of a line that a person still reads; the longest lists every effect."""
+
+AS_IT_IS = "as it is"
+"""Value of a variable that a row leaves as the tests have it."""
+
+OUTPUTS = ("--out", "--json", "--report", "--pictures", "--truth", "--robot")
+
+REMEDY = re.compile(
+    r"\b(expected|write|use|choose|give|leave|check|add|remove|declare|did you mean|delete|record"
+    r"|install|set|move|save|keep|close|make|state|sample|split|rename|take|lower|raise|put|fit"
+    r"|needs?|pass|name (it|one)|number|correct|mend|free|try|log|drop|must|there are|takes?|again"
+    r"|lists|built-in are|already|go from)\b"
+)
+"""A word that says what to do."""
+
+
+class TooLong(BaseException):
+    """A command took longer than it may; no `except Exception` catches it."""
+
+
+def faults(row: Row, yard: Yard) -> list[str]:
+    """What is wrong with how a row ends."""
+    if row.make is not None:
+        row.make(yard)
+    if isinstance(row.run, tuple):
+        yard.take_named(row.run)
+    before = yard.state()
+    result = _run(row, yard)
+    after = yard.state()
+    found = [result.broke] if result.broke else []
+    if not found:
+        found += ending(row, result)
+    found += disturbed(row, result, before, after)
+    if not found and row.check is not None and result.status == 0:
+        try:
+            row.check(result)
+        except AssertionError as error:
+            found.append(f"silently wrong: {error}")
+    return found
+
+
+def _run(row: Row, yard: Yard) -> Result:
+    if row.process is not None:
+        assert isinstance(row.run, tuple)
+        return _in_a_process(row.run, row.process, yard)
+    with standing_in(yard), within(SECONDS):
+        if isinstance(row.run, tuple):
+            return run_here(row.run, yard)
+        return _called(row, yard)
+
+
+def run_here(words: tuple[str, ...], yard: Yard) -> Result:
+    """Run a command in this process."""
+    out, err = io.StringIO(), io.StringIO()
+    status, broke = -1, ""
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            status = main(list(words))
+        except SystemExit as stop:
+            status = stop.code if isinstance(stop.code, int) else -1
+        except TooLong:
+            broke = f"hang: no answer within {SECONDS:g} s"
+        except BaseException as error:
+            broke = _told(error)
+    return Result(status, out.getvalue(), err.getvalue(), broke, yard)
+
+
+def _called(row: Row, yard: Yard) -> Result:
+    status, err, broke = 0, "", ""
+    try:
+        assert callable(row.run)
+        row.run(yard)
+    except ModelerError as error:
+        status, err = 1, f"modeler: {error}\n"
+    except TooLong:
+        broke = f"hang: no answer within {SECONDS:g} s"
+    except Exception as error:
+        broke = _told(error)
+    return Result(status, "", err, broke, yard)
+
+
+def _told(error: BaseException) -> str:
+    frames = traceback.extract_tb(error.__traceback__)
+    place = next((f for f in reversed(frames) if "modeler" in f.filename), frames[-1])
+    said = str(error).splitlines()
+    where = f"{Path(place.filename).name}:{place.lineno}"
+    return f"traceback: {type(error).__name__} in {where}: {said[0][:150] if said else ''}"
+
+
+@contextlib.contextmanager
+def standing_in(yard: Yard) -> Iterator[None]:
+    """The yard as the current folder, the temporary one, and home; warnings are errors."""
+    here, kept = Path.cwd(), tempfile.tempdir
+    home = os.environ.get("HOME")
+    os.chdir(yard.work)
+    tempfile.tempdir = str(yard.temporary)
+    os.environ["HOME"] = str(yard.home)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            yield
+    finally:
+        os.chdir(here)
+        tempfile.tempdir = kept
+        if home is not None:
+            os.environ["HOME"] = home
+
+
+@contextlib.contextmanager
+def within(seconds: float) -> Iterator[None]:
+    """`TooLong` in this thread after so many seconds."""
+
+    def stop(*_: object) -> None:
+        raise TooLong
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def _in_a_process(words: tuple[str, ...], how: Process, yard: Yard) -> Result:
+    env = {**os.environ, "HOME": str(yard.home), "TMPDIR": str(yard.temporary)}
+    env["MPLCONFIGDIR"] = str(yard.ground.folder / "matplotlib")  # its list of fonts takes seconds
+    env["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parents[2]), env.get("PYTHONPATH", "")])
+    for name, value in how.env.items():
+        if value is None:
+            env.pop(name, None)
+        elif value != AS_IT_IS:
+            env[name] = value.replace("YARD", str(yard.work))
+
+    def limited() -> None:
+        if how.file_limit is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (how.file_limit, how.file_limit))
+
+    command = f"{shlex.join([sys.executable, '-m', 'modeler.cli', *words])} {how.redirect}"
+    try:
+        done = subprocess.run(
+            ["/bin/sh", "-c", command], cwd=yard.work, env=env, capture_output=True, text=True,
+            errors="replace", timeout=how.seconds, preexec_fn=limited, check=False,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return Result(-1, "", "", f"hang: no answer within {how.seconds:g} s", yard)
+    broke = ""
+    if "Traceback" in done.stderr or "Exception ignored" in done.stderr:
+        broke = f"traceback: {done.stderr.strip().splitlines()[-1][:200]}"
+    return Result(done.returncode, done.stdout, done.stderr, broke, yard)
+
+
+def ending(row: Row, result: Result) -> list[str]:
+    """Exit status, and what was said."""
+    found = []
+    if row.outcome == "refused" or (row.outcome == "ends" and result.status != 0):
+        if result.status not in (1, 2):
+            return [f"silent: exit status {result.status}; expected 1 or 2 and a line"]
+        found += clear(row.run if isinstance(row.run, tuple) else (), result)
+        found += _lacking(row.words, result.err)
+    else:
+        if result.status != 0:
+            said = result.err.strip() or result.out.strip()
+            return [f"exit status {result.status}; expected 0: {said[-300:]}"]
+        if row.outcome in ("works", "ends") and result.err:
+            found.append(f"works, but complains: {result.err.strip()[:300]}")
+        found += _lacking(row.words, result.out + result.err)
+    return found
+
+
+def _lacking(words: tuple[str, ...], text: str) -> list[str]:
+    missing = missing_words(words, text)
+    return [f"does not say {', '.join(map(repr, missing))}: {text.strip()[-400:]}"] * bool(missing)
+
+
+def clear(words: tuple[str, ...], result: Result) -> list[str]:
+    """Why the complaint of a command is not one clear line; nothing, if it is."""
+    lines = result.err.splitlines()
+    if result.status == 2 and lines and lines[0].startswith("usage:"):
+        lines = [line for line in lines if line.startswith("modeler")]  # after the usage
+    if len(lines) != 1 or not result.err.endswith("\n"):
+        return [f"unclear: {len(lines)} lines on stderr; expected one: {result.err[:300]!r}"]
+    line, found = lines[0], []
+    if not line.startswith("modeler"):
+        found.append(f"unclear: does not say who speaks: {line[:200]}")
+    if len(line) > LONGEST:
+        found.append(f"unclear: {len(line)} characters: {line[:200]} ...")
+    if words and not _names_a_place(words, line):
+        found.append(f"unclear: names no file, option or argument: {line[:300]}")
+    usage = result.status == 2 and result.err.startswith("usage:")  # it says what to write
+    if not usage and not REMEDY.search(line.lower()):
+        found.append(f"unclear: says not what to do: {line[:300]}")
+    return found
+
+
+def _names_a_place(words: tuple[str, ...], line: str) -> bool:
+    """Whether the line names a word of the command, or the tool that is at fault."""
+    names = {_shown(Path(word.partition("@")[0]).name)[:40] for word in words[1:]} | set(words)
+    names |= {".:", 'got ""'} if {".", ""} & set(words) else set()
+    names |= {name.removesuffix(".toml") for name in names}
+    names |= {"compiler", "MODELER_CACHE", "stdout", "argument", "COMMAND", "required: "}
+    options = [word for word in words if word.startswith("--")]
+    names |= {option.strip("-").replace("-", "_") for option in options}
+    names |= {name.partition("=")[0] for name in names}
+    names |= {"decimation"} if "--decimate" in names else set()
+    return any(name and name in line for name in names - {*words[:1], ".", "-"})
+
+
+def _shown(name: str) -> str:
+    """A name of a file as a line can show it."""
+    return "".join(c if c.isprintable() else " " if c == "\n" else "?" for c in name)
+
+
+def disturbed(
+    row: Row, result: Result, before: Mapping[str, str], after: Mapping[str, str]
+) -> list[str]:
+    """Inputs that were changed, things left behind, outputs that are not whole."""
+    outputs = _outputs(row, result.status == 0)
+
+    def may(name: str) -> bool:
+        return any(name == out or name.startswith(f"{out}/") for out in outputs) or any(
+            out.startswith(f"{name}/") for out in outputs
+        )
+
+    found = [
+        f"destructive: {name} was {'changed' if name in after else 'removed'}"
+        for name in before
+        if after.get(name) != before[name] and not may(name)
+    ]
+    new = [name for name in after if name not in before]
+    found += [f"left behind: {name}" for name in new if not may(name)][:3]
+    for name in new:
+        if may(name):
+            found += _broken(result.yard.folder / name)
+    return found
+
+
+def _outputs(row: Row, done: bool) -> set[str]:
+    """What a command may write: only what stands beside it, if it was refused."""
+    words = row.run if isinstance(row.run, tuple) and done else ()
+    named = [b for a, b in itertools.pairwise(words) if a in OUTPUTS]
+    pairs = [word.partition("=") for word in words]
+    named += [value for option, equals, value in pairs if equals and option in OUTPUTS]
+    return {os.path.normpath(f"work/{name}") for name in (*named, *row.beside)}
+
+
+def _broken(path: Path) -> list[str]:
+    """Why a written file is not whole."""
+    try:
+        if path.suffix == ".json":
+            json.loads(path.read_text())
+        elif path.suffix == ".parquet":
+            pq.read_table(path)
+        elif path.suffix == ".html":
+            assert "</html>" in path.read_text()[-200:]
+    except Exception as error:
+        return [f"half-written: {path.name}: {error}"]
+    return []

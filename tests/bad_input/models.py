@@ -1,0 +1,198 @@
+"""Model files: edited, damaged, of another kind."""
+
+import copy
+import json
+from collections.abc import Callable
+from typing import Any
+
+from tests.bad_input.row import Outcome, Row, row
+from tests.bad_input.yard import Yard
+
+Raw = dict[str, Any]
+COMPARE = "compare bad.json b.csv --json c.json"
+
+
+def model(
+    what: str, outcome: Outcome, edit: Callable[[Raw], object], *words: str, run: str = COMPARE,
+    of: str = "m.json",
+) -> Row:  # fmt: skip
+    """A row of a model file that is edited in place, or replaced by the text that `edit` gives."""
+
+    def make(yard: Yard) -> None:
+        yard.model("bad.json", edit, of)
+
+    return row(f"model: {what}", outcome, run, *words, make=make)
+
+
+def set_at(*path: Any, to: Any) -> Callable[[Raw], None]:
+    """Puts `to` at a path of keys; a function of the old value is called."""
+
+    def edit(raw: Raw) -> None:
+        node: Any = raw
+        for key in path[:-1]:
+            node = node[key]
+        node[path[-1]] = to(node[path[-1]]) if callable(to) else to
+
+    return edit
+
+
+def gone(*path: Any) -> Callable[[Raw], None]:
+    """Takes the entry at a path of keys out."""
+
+    def edit(raw: Raw) -> None:
+        node: Any = raw
+        for key in path[:-1]:
+            node = node[key]
+        del node[path[-1]]
+
+    return edit
+
+
+def text(change: Callable[[str], str | bytes]) -> Callable[[Raw], str | bytes]:
+    """The file's own text, changed."""
+    return lambda raw: change(json.dumps(raw, indent=1))
+
+
+VALUE = ("fit", "parameters", 0, "value")
+CHANGED = "changed|damaged|checksum"
+
+DAMAGED = [
+    model("empty", "refused", lambda r: "", "bad.json", "not a model|empty"),
+    model("cut off", "refused", text(lambda t: t[: len(t) // 2]), "bad.json", "cut off"),
+    model("last brace lost", "refused", text(lambda t: t.rstrip()[:-1]), "bad.json", "cut off"),
+    model("text after it", "refused", text(lambda t: t + "x"), "bad.json"),
+    model("twice", "refused", text(lambda t: t + t), "bad.json"),
+    model("random bytes", "refused", lambda r: bytes(range(256)), "bad.json"),
+    model("UTF-16", "refused", text(lambda t: t.encode("utf-16")), "bad.json"),
+    model("zeros in its middle", "refused",
+          text(lambda t: t.encode()[:3000] + bytes(500) + t.encode()[3500:]), "bad.json"),
+    model("a list", "refused", lambda r: "[]", "bad.json", "not a model file"),
+    model("null", "refused", lambda r: "null", "bad.json", "not a model file"),
+    model("a number", "refused", lambda r: "3", "bad.json", "not a model file"),
+    model("JSON of derive", "refused", lambda r: '{"robot": "two-link"}', "not a model file"),
+    model("a manifest", "refused", lambda r: json.dumps(r["manifest"]), "not a model file"),
+    model("nested 1e5 deep", "refused", lambda r: "[" * 100000 + "]" * 100000, "bad.json"),
+    model("an entry nested 1e5 deep", "refused",
+          text(lambda t: t.replace('"logs": [', '"logs": [' + "[" * 100000 + "]" * 100000 + ",",
+          1)),
+          "bad.json"),
+    model("an integer of 10000 digits", "refused",
+          text(lambda t: t.replace('"format": 2', f'"format": {"9" * 10000}', 1)), "bad.json"),
+    model("a value of 10000 digits", "refused",
+          text(lambda t: t.replace('"samples": ', f'"samples": {"9" * 10000}', 1)), "bad.json"),
+    model("a key twice", "ends", text(lambda t: t.replace('"format"', '"kind": "x",\n"format"', 1)),
+          "bad.json"),
+    model("NaN among its numbers", "refused", set_at(*VALUE, to=float("nan")), "bad.json"),
+    model("a lone surrogate", "ends", text(lambda t: t.replace("two-link", "\\ud800", 1)), ""),
+    model("a robot file", "refused", lambda r: r["robot_text"], "bad.json", "not a model file"),
+    row("model: a log", "refused", "compare a.csv b.csv", "a.csv", "not a model file"),
+    row("model: Parquet", "refused", "compare c.parquet b.csv", "c.parquet", "not a model file"),
+    row("model: none", "refused", "compare nowhere.json b.csv", "nowhere.json"),
+    row("model: a folder", "refused", "compare c_code b.csv", "c_code", "folder|directory"),
+    row("model: a built-in robot", "refused", "compare two-link b.csv", "two-link"),
+    row("model: of another robot than the log", "told", "compare e.json d.csv", "unexplained"),
+    row("model: of a robot with other joints", "refused", "compare m.json e.csv", "e.csv", "q2"),
+    row("model: logs before it", "refused", "compare b.csv m.json", "b.csv", "not a model file"),
+    row("model: twice, no log", "refused", "compare m.json m.json", "m.json", ".csv"),
+]  # fmt: skip
+
+EDITED = [
+    model("kind", "refused", set_at("kind", to="modeler fit"), "bad.json", "not a model file"),
+    model("kind missing", "refused", gone("kind"), "bad.json", "not a model file"),
+    model("format 1", "refused", set_at("format", to=1), "bad.json", "format 1"),
+    model("format 99", "refused", set_at("format", to=99), "bad.json", "format 99"),
+    model("format a text", "refused", set_at("format", to="2"), "bad.json", "format"),
+    model("signature", "refused", set_at("signature", to="0" * 16), "bad.json", CHANGED),
+    model("signature missing", "refused", gone("signature"), "bad.json", "damaged|signature"),
+    model("a value 1 % larger", "refused", set_at(*VALUE, to=lambda v: 1.01 * v), "bad.json",
+        CHANGED),
+    model("a value of the other sign", "refused", set_at(*VALUE, to=lambda v: -v), CHANGED),
+    model("a value a text", "refused", set_at(*VALUE, to="0.48"), "bad.json"),
+    model("a value null", "refused", set_at(*VALUE, to=None), "bad.json"),
+    model("a value true", "refused", set_at(*VALUE, to=True), "bad.json"),
+    model("a value 1e308", "refused", set_at(*VALUE, to=1e308), "bad.json"),
+    model("a sigma negative", "refused", set_at("fit", "parameters", 0, "sigma", to=-1.0),
+        "bad.json"),
+    model("a sigma null", "ends", set_at("fit", "parameters", 0, "sigma", to=None),
+        "bad.json|error"),
+    model("parameters missing", "refused", gone("fit", "parameters"), "bad.json"),
+    model("parameters a table", "refused", set_at("fit", "parameters", to={}), "bad.json"),
+    model("a parameter missing", "refused", gone("fit", "parameters", 3), "bad.json",
+        "10 base|changed"),
+    model("a parameter twice", "refused",
+          lambda r: r["fit"]["parameters"].append(copy.copy(r["fit"]["parameters"][0])),
+          "bad.json"),
+    model("two parameters exchanged", "refused", lambda r: r["fit"]["parameters"].reverse(),
+          "bad.json"),
+    model("a parameter renamed", "refused", set_at("fit", "parameters", 0, "name", to="XX9"),
+          "bad.json"),
+    model("units changed", "refused", set_at("fit", "parameters", 0, "unit", to="g cm2"), CHANGED),
+    model("fit missing", "refused", gone("fit"), "bad.json", "fit"),
+    model("fit a list", "refused", set_at("fit", to=[]), "bad.json", "fit"),
+    model("covariance missing", "refused", gone("covariance"), "bad.json", "covariance"),
+    model("covariance a row short", "refused", lambda r: r["covariance"].pop(), "bad.json"),
+    model("covariance ragged", "refused", lambda r: r["covariance"][0].pop(), "bad.json"),
+    model("covariance of text", "refused", set_at("covariance", 0, 0, to="x"), "bad.json"),
+    model("a negative variance", "refused", set_at("covariance", 0, 0, to=-1.0), "bad.json"),
+    model("covariance not symmetric", "refused", set_at("covariance", 0, 1, to=1.0), "bad.json"),
+    model("covariance not a number", "refused", set_at("covariance", 0, 0, to=float("nan")),
+          "bad.json"),
+    model("covariance zero", "refused",
+          lambda r: r.update(covariance=[[0.0] * 10 for _ in range(10)]), "bad.json"),
+    model("logs missing", "refused", gone("logs"), "bad.json", "logs"),
+    model("logs a text", "refused", set_at("logs", to="a.csv"), "bad.json", "logs"),
+    model("a log without rows", "refused", gone("logs", 0, "rows"), "bad.json"),
+    model("a log's name", "refused", set_at("logs", 0, "name", to="other.csv"), CHANGED),
+    model("a log's fingerprint", "refused", set_at("logs", 0, "content", to="0" * 64), CHANGED),
+    model("robot text missing", "refused", gone("robot_text"), "bad.json", "robot_text"),
+    model("robot text empty", "refused", set_at("robot_text", to=""), "bad.json|model file"),
+    model("robot text of another robot", "refused",
+          lambda r: r.update(robot_text=r["robot_text"].replace("two-link", "three-link")),
+          CHANGED),
+    model("robot text with another length", "refused",
+          lambda r: r.update(robot_text=r["robot_text"].replace("L1 = 0.40", "L1 = 0.80")),
+          CHANGED),
+    model("robot text with another gravity", "refused",
+          lambda r: r.update(robot_text=r["robot_text"].replace("g = 9.81", "g = 1.62")), CHANGED),
+    model("robot text without friction", "refused",
+          lambda r: r.update(robot_text=r["robot_text"].replace('coulomb = "all"', "")),
+          "changed|damaged|checksum|[parameters]"),
+    model("robot text a list", "refused", set_at("robot_text", to=[]), "bad.json", "robot_text"),
+    model("manifest missing", "refused", gone("manifest"), "bad.json", "manifest"),
+    model("manifest of a length", "refused", set_at("manifest", "symbols", 1, "value", to=0.8),
+          "bad.json", CHANGED),
+    model("manifest without joints", "refused", gone("manifest", "joints"), "bad.json"),
+    model("manifest's joints a text", "refused", set_at("manifest", "joints", to="12"), "bad.json"),
+    model("manifest's prefix with C", "refused", set_at("manifest", "prefix", to="x;y"),
+        "bad.json"),
+    model("sources missing", "refused", gone("sources"), "bad.json", "sources"),
+    model("sources a list", "refused", set_at("sources", to=[]), "bad.json", "sources"),
+    model("sources that climb out of the folder", "refused",
+          set_at("sources", to=lambda s: {**s, "../../evil.c": "int x;"}), "bad.json",
+          run=COMPARE + " --run-embedded-c"),
+    model("sources of numbers", "refused", set_at("sources", to=lambda s: dict.fromkeys(s, 3)),
+          "bad.json", run=COMPARE + " --run-embedded-c"),
+    model("history a text", "refused", set_at("history", to="x"), "bad.json"),
+    model("history of another kind", "refused", set_at("history", to=[1]), "bad.json"),
+    model("processing missing", "refused", gone("fit", "processing"), "bad.json"),
+    model("processing with a negative cut-off", "refused",
+          set_at("fit", "processing", "position_cutoff", to=-5.0), "bad.json"),
+    model("processing of unknown words", "refused",
+          set_at("fit", "processing", "spline", to=3), "bad.json"),
+    model("an entry more", "refused", set_at("comment", to="mine"), "bad.json", CHANGED),
+    model("saved anew with other spaces", "works", lambda r: json.dumps(r, indent=4)),
+    model("saved anew with keys sorted", "ends", lambda r: json.dumps(r, sort_keys=True),
+          "error|checksum"),
+    model("with line ends of Windows", "works", text(lambda t: t.replace("\n", "\r\n"))),
+    model("edited, then diagnosed", "refused", set_at(*VALUE, to=5.0), "bad.json", CHANGED,
+          run="diagnose bad.json b.csv --json d.json"),
+    model("edited, then added to", "refused", set_at(*VALUE, to=5.0), "bad.json", CHANGED,
+          run="add bad.json offset a.csv --out n.json"),
+    model("undo of nothing", "refused", lambda r: None, "undo",
+          run="add bad.json undo a.csv --out n.json"),
+    model("history edited, then undone", "refused",
+          set_at("history", 0, "robot_text", to=lambda t: t.replace("0.40", "0.9")), CHANGED,
+          run="add bad.json undo a.csv --out n.json", of="added.json"),
+]  # fmt: skip
+
+ROWS = [*DAMAGED, *EDITED]

@@ -1,0 +1,132 @@
+"""Mutants of good inputs: of their bytes, of their words, of their structure."""
+
+import copy
+import json
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+
+EXAMPLES = int(os.environ.get("MODELER_FUZZ", "0"))
+"""Mutants per test from fresh seeds; 0: a fixed set of the size that the test names."""
+
+
+def mutants(count: int) -> settings:
+    """Settings of a fuzzer: the same mutants every time, unless MODELER_FUZZ asks for others."""
+    return settings(
+        max_examples=EXAMPLES or count, derandomize=not EXAMPLES, deadline=None, database=None,
+        suppress_health_check=list(HealthCheck),
+    )  # fmt: skip
+
+
+NUMBERS = ("0", "-1", "1e308", "-1e-308", "nan", "inf", "-inf", "1e400", "9" * 30, "0.1", "2",
+"1_0",
+           "0x7f", "1e17", "3.5")  # fmt: skip
+PLACE = st.integers(0, 10**6)
+_EDITS = ("cut", "repeat", "replace", "insert", "flip", "end", "exchange")
+
+
+def edits(most: int = 4) -> st.SearchStrategy[list[tuple[str, int, int, int]]]:
+    """A few edits: kind, place, extent, and which token."""
+    return st.lists(
+        st.tuples(st.sampled_from(_EDITS), PLACE, st.integers(1, 40), PLACE),
+        min_size=1, max_size=most,
+    )  # fmt: skip
+
+
+def edited_bytes(
+    data: bytes, made: list[tuple[str, int, int, int]], tokens: Sequence[str]
+) -> bytes:
+    """The bytes after the edits; places count modulo what is there."""
+    for kind, place, extent, which in made:
+        at = place % (len(data) + 1)
+        token = tokens[which % len(tokens)].encode()
+        head, part, tail = data[:at], data[at : at + extent], data[at + extent :]
+        data = {
+            "cut": head + tail,
+            "repeat": head + part * 3 + tail,
+            "replace": head + token + tail,
+            "insert": head + token + part + tail,
+            "flip": head + bytes(byte ^ (1 << which % 8) for byte in part[:1]) + part[1:] + tail,
+            "end": head if which % 8 == 0 else head + tail,
+            "exchange": head + part[::-1] + tail,
+        }[kind]
+    return data
+
+
+VALUES = st.one_of(
+    st.none(), st.booleans(), st.integers(-(10**20), 10**20), st.floats(), st.text(max_size=8),
+    st.sampled_from([[], {}, [[]], [1, [2, [3]]], {"a": {"b": 1}}, "q1", "pi/2", "1/0", "sin(",
+    "all",
+                     "L1", "q1 + q2", "x" * 500, 1e308, -0.0, "\x00", "../../x", "𝛑"]),
+)  # fmt: skip
+"""What may stand anywhere in a structure."""
+
+
+def structure_edits(most: int = 3) -> st.SearchStrategy[list[tuple[list[int], str, Any]]]:
+    """A few edits of a structure: the way down, what is done there, a value."""
+    ways = st.lists(PLACE, min_size=1, max_size=6)
+    kinds = st.sampled_from(("put", "put", "take out", "double", "rename", "copy"))
+    return st.lists(st.tuples(ways, kinds, VALUES), min_size=1, max_size=most)
+
+
+def edited_structure(raw: Any, made: list[tuple[list[int], str, Any]]) -> Any:
+    """The structure, edited in place."""
+    for way, kind, value in made:
+        node, others = raw, raw
+        for step in way[:-1]:
+            keys = list(_keys(node))
+            below = node[keys[step % len(keys)]] if keys else None
+            if not isinstance(below, dict | list) or not below:
+                break
+            node, others = below, node
+        keys = list(_keys(node))
+        if keys:
+            _edit(node, keys[way[-1] % len(keys)], kind, value, others)
+    return raw
+
+
+def _keys(node: Any) -> Any:
+    return node if isinstance(node, dict) else range(len(node))
+
+
+def _edit(node: Any, key: Any, kind: str, value: Any, others: Any) -> None:
+    if kind == "put":
+        node[key] = copy.deepcopy(value)
+    elif kind == "take out":
+        del node[key]
+    elif kind == "copy":  # what stands first one level up
+        node[key] = copy.deepcopy(
+            next(iter(others.values() if isinstance(others, dict) else others))
+        )
+    elif isinstance(node, list):
+        node.append(copy.deepcopy(node[key]))
+    elif kind == "double":
+        node[f"{key}2"] = copy.deepcopy(node[key])
+    else:
+        node[str(value)[:8]] = node.pop(key)
+
+
+def toml_text(document: dict[str, Any]) -> str:
+    """A structure as TOML: plain keys first, then tables."""
+    plain = {k: v for k, v in document.items() if not isinstance(v, dict)}
+    lines = [f"{json.dumps(k)} = {_toml(v)}" for k, v in plain.items()]
+    for name, table in document.items():
+        if isinstance(table, dict):
+            lines += [f"[{json.dumps(name)}]"]
+            lines += [f"{json.dumps(k)} = {_toml(v)}" for k, v in table.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(k)} = {_toml(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    if isinstance(value, bool) or value is None:
+        return str(bool(value)).lower()
+    if isinstance(value, float):
+        return repr(value)
+    return json.dumps(value)

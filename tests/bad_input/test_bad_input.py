@@ -1,0 +1,63 @@
+"""Every row of the table, and what it is in all."""
+
+from collections import Counter
+
+import pytest
+
+from tests.bad_input.judge import disturbed, ending, faults
+from tests.bad_input.row import Result
+from tests.bad_input.row import row as made
+from tests.bad_input.table import ROWS
+from tests.bad_input.yard import Ground, Yard
+
+
+@pytest.fixture(scope="module")
+def ground(tmp_path_factory: pytest.TempPathFactory) -> Ground:
+    return Ground(tmp_path_factory.mktemp("ground"))
+
+
+@pytest.mark.parametrize("row", [pytest.param(row, id=row.id) for row in ROWS])
+def test_a_bad_input_ends_as_it_must(row, ground, tmp_path):
+    found = faults(row, Yard(tmp_path, ground))
+    assert not found, f"{row.command[:200]}\n" + "\n".join(found)
+
+
+def test_the_table_is_large_and_no_row_stands_twice():
+    assert len(ROWS) >= 400
+    assert [name for name, count in Counter(row.id for row in ROWS).items() if count > 1] == []
+    outcomes = Counter(row.outcome for row in ROWS)
+    assert outcomes["refused"] > len(ROWS) / 2 and min(outcomes.values()) > 20
+
+
+@pytest.mark.parametrize(
+    ("err", "piece"),
+    [
+        ("", "silent"),
+        ("modeler: bad.toml: got 3; expected 4\nand more\n", "unclear: 2 lines"),
+        ("modeler: got 3; expected 4\n", "names no file"),
+        ("modeler: bad.toml: got 3\n", "says not what to do"),
+        ("bad.toml: got 3; expected 4\n", "who speaks"),
+        (f"modeler: bad.toml: got 3; expected {'x' * 2000}\n", "characters"),
+        ("modeler: bad.toml: got 4; expected 5\n", "does not say 'got 3'"),
+    ],
+)  # fmt: skip
+def test_the_judge_sees_an_unclear_line(err, piece, ground, tmp_path):
+    """The judge itself: lines that users must not get."""
+    yard = Yard(tmp_path, ground)
+    given = made("x: y", "refused", "derive bad.toml", "got 3")
+    found = ending(given, Result(1 if err else 0, "", err, "", yard))
+    assert any(piece in line for line in found)
+
+
+def test_the_judge_sees_what_was_changed_and_left(ground, tmp_path):
+
+    given = made("x: y", "works", "fit r.toml a.csv --out m.json")
+    yard = Yard(tmp_path, ground)
+    yard.write("m.json", "{")
+    result = Result(0, "", "", "", yard)
+    before = {"work/a.csv": "1", "work/r.toml": "2"}
+    after = {"work/a.csv": "3", "work/m.json": "4", "work/x.tmp": "5"}
+    found = " ".join(disturbed(given, result, before, after))
+    for piece in ("a.csv was changed", "r.toml was removed", "left behind: work/x.tmp",
+                  "half-written: m.json"):  # fmt: skip
+        assert piece in found

@@ -1,0 +1,164 @@
+"""Readers of printed formulas, by recursive descent: plain text and LaTeX to numbers.
+
+They share nothing with the program that prints. Precedence is that of mathematics and C: `a/b*c`
+is (a/b) c, `-a**2` is -(a**2); in LaTeX, factors beside each other are multiplied.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+Values = Mapping[str, np.ndarray]
+
+_FUNCTIONS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
+}  # fmt: skip
+_TEXT = re.compile(r"\d+(?:\.\d*)?(?:e[-+]?\d+)?|[A-Za-z]\w*|\*\*|[-+*/()]")
+_NAME = r"[A-Za-z](?:[A-Za-z]|\\_\w*)*(?:_\{(?:\w|\\_)+\})?"
+_LATEX = re.compile(
+    rf"\\left\(|\\right\)|\\(?:frac|sqrt|sin|cos|tan|pi|cdot)|\d+(?:\.\d*)?|{_NAME}|[-+^{{}}\[\]]"
+)
+
+
+class UnreadableError(Exception):
+    """Not a formula."""
+
+
+class _Reader:
+    def __init__(self, text: str, words: re.Pattern[str], values: Values) -> None:
+        if rest := words.sub("", text).strip():
+            raise UnreadableError(f"{text}: {rest}")
+        self.text, self.words, self.values = text, words.findall(text), values
+
+    def result(self) -> np.ndarray:
+        value = self.sum()
+        if self.words:
+            raise UnreadableError(f"{self.text}: left over {self.words}")
+        return value
+
+    @property
+    def next(self) -> str:
+        return self.words[0] if self.words else ""
+
+    def take(self, *expected: str) -> str:
+        if not self.words or (expected and self.next not in expected):
+            raise UnreadableError(f"{self.text}: {self.next!r}, expected {expected}")
+        return self.words.pop(0)
+
+    def sum(self) -> np.ndarray:
+        sign = -1.0 if self.next == "-" else 1.0
+        if self.next in ("-", "+"):
+            self.take()
+        value = sign * self.product()
+        while self.next in ("+", "-"):
+            value = value + self.product() if self.take() == "+" else value - self.product()
+        return value
+
+    def product(self) -> np.ndarray:
+        raise NotImplementedError
+
+    def letter(self, name: str) -> np.ndarray:
+        if name not in self.values:
+            raise UnreadableError(f"{self.text}: no {name}")
+        return self.values[name]
+
+
+class _Text(_Reader):
+    def product(self) -> np.ndarray:
+        value = self.power()
+        while self.next in ("*", "/"):
+            value = value * self.power() if self.take() == "*" else value / self.power()
+        return value
+
+    def power(self) -> np.ndarray:
+        base = self.atom()
+        if self.next != "**":
+            return base
+        self.take()
+        sign = -1.0 if self.next == "-" else 1.0
+        if self.next == "-":
+            self.take()
+        return base ** (sign * self.power())
+
+    def atom(self) -> np.ndarray:
+        word = self.take()
+        if word == "(" or word in _FUNCTIONS:
+            if word != "(":
+                self.take("(")
+            value = self.sum()
+            self.take(")")
+            return _FUNCTIONS[word](value) if word != "(" else value
+        if word[0].isdigit():
+            return np.float64(word)
+        return np.float64(np.pi) if word == "pi" else self.letter(word)
+
+
+class _Latex(_Reader):
+    def product(self) -> np.ndarray:
+        value = self.power()
+        while self.next not in ("", "+", "-", "}", "]", r"\right)"):
+            if self.next == r"\cdot":
+                self.take()
+            value = value * self.power()
+        return value
+
+    def power(self) -> np.ndarray:
+        word = self.next.removeprefix("\\")
+        if word in ("sin", "cos", "tan"):
+            self.take()
+            exponent = self.exponent()
+            return _FUNCTIONS[word](self.group()) ** exponent
+        return self.atom() ** self.exponent()
+
+    def exponent(self) -> np.ndarray:
+        if self.next != "^":
+            return np.float64(1.0)
+        self.take()
+        return self.group()
+
+    def group(self) -> np.ndarray:
+        self.take("{")
+        value = self.sum()
+        self.take("}")
+        return value
+
+    def atom(self) -> np.ndarray:
+        word = self.take()
+        if word == r"\left(":
+            value = self.sum()
+            self.take(r"\right)")
+            return value
+        if word == "{":
+            value = self.sum()
+            self.take("}")
+            return value
+        if word == r"\frac":
+            above = self.group()
+            return above / self.group()
+        if word == r"\sqrt":
+            root = np.float64(2.0)
+            if self.next == "[":
+                self.take()
+                root = self.sum()
+                self.take("]")
+            return self.group() ** (1 / root)
+        if word[0].isdigit():
+            return np.float64(word)
+        return np.float64(np.pi) if word == r"\pi" else self.letter(name_of_latex(word))
+
+
+def text_value(text: str, values: Values) -> np.ndarray:
+    """Value of `XXP + RP**2*sin(phi1)**2*M31`."""
+    return _Text(text, _TEXT, values).result()
+
+
+def latex_value(text: str, values: Values) -> np.ndarray:
+    r"""Value of `XXP + RP^{2} \sin^{2}{\left(phi_{1} \right)} M_{31}`."""
+    return _Latex(text, _LATEX, values).result()
+
+
+def name_of_latex(text: str) -> str:
+    r"""`ZZ2R` of `ZZ_{2R}`, `a_b` of `a\_b`."""
+    head, _, index = text.replace(r"\_", "\0").partition("_{")
+    return (head + index.removesuffix("}")).replace("\0", "_")

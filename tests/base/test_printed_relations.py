@@ -1,0 +1,149 @@
+"""Every printed form of every relation is read back and is the exact relation."""
+
+from pathlib import Path
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from modeler.base import BaseParameter, BaseParameters, Term, base_parameters
+from modeler.base.relation_text import name_latex, relation_latex, relation_text
+from modeler.codegen import Emitted, emit
+from modeler.core.errors import DerivationError, LoopError, RobotError
+from modeler.robot import read_robot
+from modeler.symbolic import derive_model
+from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
+from tests.base.printed_relations import Exact, printed_forms
+from tests.modules import module
+from tests.robots import ROBOTS
+
+NEAR = 1e-12
+FORMS = 7
+LETTERS = {"D4": 0.3, "rP": 0.4, "L_a": 0.55, "gam13": 0.7, "b": 0.85, "B2_x": 1.1}
+
+
+def wrong(robot: str, base: BaseParameters, emitted: Emitted, seed: int) -> list[str]:
+    """What is printed of a robot and is not its relation."""
+    exact, found, forms = Exact(base, seed), [], 0
+    for form, relations, read in printed_forms(robot, base, emitted):
+        forms += 1
+        if [name for name, _ in relations] != [p.name for p in base.parameters]:
+            found.append(f"{robot}, {form}: {[name for name, _ in relations]}")
+            continue
+        for parameter, (name, printed) in zip(base.parameters, relations, strict=True):
+            if not exact.differences(parameter, printed, read) <= NEAR:
+                found.append(f"{robot}, {form}: {name} = {printed}")
+    assert forms == FORMS
+    return found
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_all_printed_forms_are_the_exact_relations(name):
+    _, base, emitted = module(name)
+    assert wrong(name, base, emitted, seed=14) == []
+
+
+def test_all_printed_forms_of_robots_with_loops(loop_robots_folder: Path):
+    found, read = [], 0
+    for path in sorted(loop_robots_folder.glob("*.toml")):
+        try:
+            model = derive_model(read_robot(path))
+            base = base_parameters(model)
+        except (RobotError, DerivationError, LoopError):  # files that are there to be refused
+            continue
+        found += wrong(path.stem, base, emit(model, base), seed=15)
+        read += 1
+    assert read >= 8
+    assert found == []
+
+
+def numbers() -> st.SearchStrategy[sympy.Expr]:
+    return st.fractions(-3, 3, max_denominator=6).filter(bool).map(sympy.Rational)
+
+
+def coefficients() -> st.SearchStrategy[sympy.Expr]:
+    """Products, quotients, sums, powers and functions of lengths and angles, never 0."""
+    letters = st.sampled_from([sympy.Symbol(name) for name in LETTERS])
+    roots = st.sampled_from([sympy.sqrt(2), sympy.sqrt(3), sympy.pi])
+    leaves = numbers() | letters | roots
+    inner = st.recursive(
+        leaves,
+        lambda e: st.one_of(
+            st.tuples(e, e).map(lambda p: p[0] + p[1]),
+            st.tuples(e, e).map(lambda p: p[0] - p[1]),
+            st.tuples(e, e).map(lambda p: p[0] * p[1]),
+            st.tuples(e, e.filter(bool)).map(lambda p: p[0] / p[1]),
+            st.tuples(e.filter(bool), st.sampled_from([-2, -1, 2, 3])).map(lambda p: p[0] ** p[1]),
+            e.map(sympy.sin),
+            e.map(sympy.cos),
+            e.map(lambda x: sympy.sqrt(1 + x**2)),
+        ),
+        max_leaves=6,
+    )
+    return inner.filter(_sound)
+
+
+def _sound(value: sympy.Expr) -> bool:
+    """No part of it is so large at `LETTERS` that rounding could pass for a difference."""
+    parts = [_at_letters(part) for part in sympy.preorder_traversal(value)]
+    return all(p.is_real and abs(p) < 1e3 for p in parts) and abs(parts[0]) > 1e-3
+
+
+def _at_letters(value: sympy.Expr) -> sympy.Expr:
+    return value.xreplace({sympy.Symbol(n): sympy.Float(v, 40) for n, v in LETTERS.items()}).evalf(
+        40
+    )
+
+
+@settings(max_examples=400, deadline=None, derandomize=True)
+@given(st.lists(coefficients(), min_size=1, max_size=3))
+def test_any_coefficient_is_printed_as_it_is(found):
+    terms = (Term(sympy.Integer(1), "ZZ2"), *(Term(c, f"M{i}") for i, c in enumerate(found)))
+    parameter = BaseParameter("ZZ2R", 0, terms)
+    text, latex = (write(parameter).split(" = ")[1] for write in (relation_text, relation_latex))
+    for i, coefficient in enumerate(found):
+        values = LETTERS | {term.parameter: 0.0 for term in terms} | {f"M{i}": 0.7}
+        wanted = 0.7 * float(_at_letters(coefficient))
+        for printed, read in ((text, text_value), (latex, latex_value)):
+            assert abs(read(printed, values) - wanted) <= 1e-9 * max(abs(wanted), 1.0), printed
+
+
+@pytest.mark.parametrize(
+    ("coefficient", "text"),
+    [
+        ("1/(D13*sin(gam13))", "MY7/(D13*sin(gam13))"),
+        ("-sqrt(3)*rP/(2*L2)", "-sqrt(3)*rP*MY7/(2*L2)"),
+        ("-a - b", "-(a + b)*MY7"),
+        ("(a - b)/(a + b)", "(a - b)*MY7/(a + b)"),
+        ("a/b + c", "(a/b + c)*MY7"),
+        ("1/(a + b)**2", "MY7/(a + b)**2"),
+        ("sqrt(3)/2", "sqrt(3)/2*MY7"),
+        ("1/D4", "MY7/D4"),
+        (sympy.Float(13.73), "13.73*MY7"),
+        (-sympy.Float(0.04), "-0.04*MY7"),
+    ],
+)
+def test_what_is_divided_by_stays_together(coefficient, text):
+    parameter = BaseParameter("MY7R", 0, (Term(sympy.sympify(coefficient), "MY7"),))
+    assert relation_text(parameter) == f"MY7R = {text}"
+
+
+@pytest.mark.parametrize("name", ["ZZ2R", "MXP", "L_1", "L1", "L1_a", "a_b_c", "Ia11"])
+def test_names_differ_in_latex_and_are_read_back(name):
+    assert name_of_latex(name_latex(name)) == name
+
+
+@pytest.mark.parametrize("text", ["M5 + ", "M5*", "(M5", "M5)", "M5 $ M6", "M5 M6", "sin*M5"])
+def test_the_readers_refuse_what_is_no_formula(text):
+    with pytest.raises(UnreadableError):
+        text_value(text, {"M5": 1.0, "M6": 1.0})
+
+
+def test_a_lost_bracket_would_be_seen():
+    base = module("3rrr").base
+    exact = Exact(base, seed=1)
+    parameter = next(p for p in base.parameters if "/(2*L2)" in relation_text(p))
+    right = relation_text(parameter).split(" = ")[1]
+    assert exact.differences(parameter, right, text_value) <= NEAR
+    assert exact.differences(parameter, right.replace("/(2*L2)", "/2*L2"), text_value) > 0.01

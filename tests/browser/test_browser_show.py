@@ -1,0 +1,246 @@
+"""`modeler show` in a real browser: the same poses and loops as in Python, moved as a user does."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.show import Posture, Skeleton, home_posture, page_html, poses, skeleton_of
+from modeler.show.closing import gaps_of, jacobian, residuals
+from modeler.show.page import page_content
+from tests.browser.chromium import Chromium
+from tests.robots import ROBOTS
+
+SIZES = [(1280, 900), (400, 800)]
+
+
+def shown(browser: Chromium, place: Path, text: str, size: tuple[int, int] = SIZES[0]) -> Skeleton:
+    """The page of a robot in the browser, drawn."""
+    skeleton = skeleton_of(robot_from_text(text, "robot"))
+    page = place / "page.html"
+    page.write_text(page_html(skeleton, home_posture(skeleton)), encoding="utf-8")
+    browser.open(page, *size)
+    browser.until("window.modelerShow && modelerShow.view.items.length > 0")
+    return skeleton
+
+
+def moved(browser: Chromium, joint: str, value: float) -> np.ndarray:
+    """The slider of a joint dragged to a value and let go; u afterwards."""
+    browser.value(
+        f"(() => {{ const s = modelerShow.sliders.find((s) => modelerShow.robot.free[s.k] === "
+        f"'{joint}'); s.range.min = Math.min(s.range.min, {value}); "
+        f"s.range.max = Math.max(s.range.max, {value}); s.range.value = {value};"
+        "for (const name of ['input', 'change']) s.range.dispatchEvent(new Event(name)); })()"
+    )
+    return np.array(browser.value("modelerShow.u"))
+
+
+def largest_gap(skeleton: Skeleton, u: np.ndarray) -> float:
+    """Of all loops at u, by Python: m and rad."""
+    return max(max(gap.distance, gap.angle) for gap in gaps_of(skeleton, u))
+
+
+@pytest.fixture(scope="module")
+def calculator(browser: Chromium, tmp_path_factory: pytest.TempPathFactory) -> Chromium:
+    """A page whose functions are asked about any robot."""
+    shown(browser, tmp_path_factory.mktemp("calculator"), builtin_text("five-bar"))
+    return browser
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_poses_and_loops_are_those_of_python(calculator: Chromium, name: str) -> None:
+    skeleton = skeleton_of(read_robot(name))
+    home = home_posture(skeleton)
+    content = json.dumps(page_content(skeleton, home))
+    u = home.u + np.random.default_rng(5).uniform(-1.0, 1.0, len(home.u))
+    calculator.value(f"window.asked = {content}, window.at = {u.tolist()}, 0")
+    found = calculator.value("posesAt(asked, at)")
+    for pose, expected in zip(found, poses(skeleton, u), strict=True):
+        np.testing.assert_allclose(np.array(pose["R"]).T, expected[:3, :3], atol=1e-12)
+        np.testing.assert_allclose(pose["p"], expected[:3, 3], atol=1e-12)
+    if skeleton.robot.loops:
+        f, J = calculator.value("equations(asked, at)")
+        np.testing.assert_allclose(f, residuals(skeleton, u, home.size), atol=1e-12)
+        expected = jacobian(skeleton, u, home.size, range(len(u)))
+        np.testing.assert_allclose(J, expected, atol=1e-11)
+        for gap, ours in zip(
+            calculator.value("gapsAt(asked, at)"), gaps_of(skeleton, u), strict=True
+        ):
+            assert gap["distance"] == pytest.approx(ours.distance, abs=1e-12)
+            assert gap["angle"] == pytest.approx(ours.angle, abs=1e-7)
+
+
+@pytest.mark.parametrize("meets", ["4{i}", "0"])
+@pytest.mark.parametrize("kind", ["cylindrical", "prismatic", "planar", "universal", "rigid"])
+def test_every_kind_of_loop_has_its_slopes(calculator: Chromium, kind: str, meets: str) -> None:
+    text = builtin_text("stewart").replace('"4{i}",  "spherical"', f'"{meets}", "{kind}"')
+    assert f'"{kind}"' in text
+    skeleton = skeleton_of(robot_from_text(text, "stewart"))
+    u = skeleton.stated + np.random.default_rng(6).uniform(-0.3, 0.3, len(skeleton.free))
+    posture = Posture(u, 1.6, False, True)
+    calculator.value(
+        f"window.asked = {json.dumps(page_content(skeleton, posture))}, window.at = {u.tolist()}, 0"
+    )
+    f, J = calculator.value("equations(asked, at)")
+    np.testing.assert_allclose(f, residuals(skeleton, u, 1.6), atol=1e-12)
+    np.testing.assert_allclose(J, jacobian(skeleton, u, 1.6, range(len(u))), atol=1e-11)
+    for gap, ours in zip(calculator.value("gapsAt(asked, at)"), gaps_of(skeleton, u), strict=True):
+        assert gap["distance"] == pytest.approx(ours.distance, abs=1e-12)
+        assert gap["angle"] == pytest.approx(ours.angle, abs=1e-7)
+
+
+MOVES = {
+    "five-bar": ("11", 2.6),
+    "orthoglide-2003": ("12", 0.27),
+    "stewart": ("33", 0.86),
+    "delta": ("13", -0.25),
+    "sr400": ("7", 0.35),
+    "evra": ("s1", 0.6),
+    "3rrr": None,
+}
+
+
+@pytest.mark.parametrize("name", MOVES)
+def test_sliders_move_the_robot_with_its_loops_closed(browser, tmp_path, name: str) -> None:
+    skeleton = shown(browser, tmp_path, builtin_text(name))
+    home = np.array(browser.value("modelerShow.u"))
+    k = skeleton.given[0]
+    joint, value = MOVES[name] or (skeleton.free[k], home[k] + 0.3)
+    k = skeleton.free.index(joint)
+    u = moved(browser, joint, value)
+    assert u[k] == pytest.approx(value) and largest_gap(skeleton, u) < 1e-7
+    others = [i for i in skeleton.given if i != k]
+    np.testing.assert_array_equal(u[others], home[others])
+    assert np.max(np.abs(np.delete(u - home, k))) > 1e-3  # the others follow
+    assert browser.value("document.getElementById('message').textContent") == ""
+    assert browser.value("document.getElementById('state').textContent") == " · loops closed"
+    np.testing.assert_allclose(moved(browser, joint, home[k]), home, atol=1e-7)  # the way back
+    moved(browser, joint, value)
+    browser.value("document.getElementById('home').click()")
+    np.testing.assert_array_equal(browser.value("modelerShow.u"), home)
+    assert browser.complaints == []
+
+
+@pytest.mark.parametrize(("name", "joint"), [("3rrr", "11"), ("stewart", "31"), ("delta", "11")])
+def test_a_slider_stops_where_the_loops_stop(browser, tmp_path, name: str, joint: str) -> None:
+    skeleton = shown(browser, tmp_path, builtin_text(name))
+    k = skeleton.free.index(joint)
+    home = browser.value(f"modelerShow.u[{k}]")
+    u = moved(browser, joint, home + 6.0)
+    assert home < u[k] < home + 6.0 and largest_gap(skeleton, u) < 1e-7
+    message = browser.value("document.getElementById('message').textContent")
+    assert message.startswith(f"cannot close there: q{joint} stops at ")
+    thumb = browser.value(f"modelerShow.sliders.find((s) => s.k === {k}).range.valueAsNumber")
+    assert thumb == pytest.approx(u[k])
+    # It is the edge: one of the joints that follow is all but undetermined there.
+    posture = home_posture(skeleton)
+    follow = list(skeleton.solved)
+    sizes = [np.linalg.svd(jacobian(skeleton, v, posture.size, follow), compute_uv=False)[-1]
+             for v in (posture.u, u)]  # fmt: skip
+    assert sizes[1] < 0.1 * sizes[0]
+    back = moved(browser, joint, home)
+    np.testing.assert_allclose(back, posture.u, atol=1e-6)  # never another assembly mode
+
+
+def test_open_loops_are_closed_by_hand(browser, tmp_path) -> None:
+    far = builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0")
+    skeleton = shown(browser, tmp_path, far)
+    assert "do not close near [home]" in browser.value(
+        "document.getElementById('message').textContent"
+    )
+    assert browser.value("document.getElementById('state').textContent") == " · 1 of 1 loops open"
+    assert browser.value("document.querySelectorAll('.joint').length") == len(skeleton.free)
+    browser.value("document.getElementById('close').click()")
+    assert browser.value("document.getElementById('message').textContent") == (
+        "the loops do not close near here"
+    )
+    skeleton = shown(browser, tmp_path, builtin_text("five-bar"))
+    browser.value("document.getElementById('open').click()")
+    u = moved(browser, "21", -1.0)
+    assert u[1] == -1.0 and u[3] == browser.value("modelerShow.robot.home[3]")  # nothing follows
+    assert browser.value("document.querySelector('#loops .bad') !== null")
+    browser.value("document.getElementById('close').click()")
+    u = np.array(browser.value("modelerShow.u"))
+    assert largest_gap(skeleton, u) < 1e-7
+    assert browser.value("document.querySelectorAll('.joint').length") == len(skeleton.given)
+
+
+def test_home_is_copied_as_lines_of_the_file(browser, tmp_path) -> None:
+    shown(browser, tmp_path, builtin_text("orthoglide-2003"))
+    moved(browser, "11", 0.25)
+    u, lines = browser.value("[modelerShow.u, modelerShow.homeLines()]")
+    before, _, after = builtin_text("orthoglide-2003").partition("[home]")
+    text = f"{before}{lines}\n{after[after.index('[effects]') :]}"
+    skeleton = skeleton_of(robot_from_text(text, "copied"))
+    home = home_posture(skeleton)
+    assert home.closed and home.held
+    np.testing.assert_allclose(home.u, u, atol=1e-9)
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", ["stewart", "wrist"])
+def test_the_page_works_alone_at_any_width(browser, tmp_path, name: str, size) -> None:
+    skeleton = shown(browser, tmp_path, builtin_text(name), size)
+    assert browser.complaints == []
+    assert browser.requests == [(tmp_path / "page.html").resolve().as_uri()]
+    wide, room = browser.value(
+        "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
+    assert wide <= room == size[0]
+    for view in ("xy", "xz", "yz", "iso", "first"):
+        browser.value(f"document.querySelector('[data-view={view}]').click()")
+        browser.value(
+            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        )
+        assert inked(browser) > 0.002, view
+    frames = inked(browser)
+    browser.value("document.querySelector('[data-layers=frames]').click()")
+    browser.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    assert inked(browser) < frames
+    text = browser.value("document.body.innerText")
+    for joint in skeleton.robot.joints:
+        assert joint.name in text
+
+
+def inked(browser: Chromium) -> float:
+    """Share of the picture that is not white."""
+    share: float = browser.value(
+        "(() => { const c = document.getElementById('picture');"
+        "const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0;"
+        "for (let i = 0; i < d.length; i += 4) n += d[i] + d[i + 1] + d[i + 2] < 740;"
+        "return n / (c.width * c.height); })()"
+    )
+    return share
+
+
+def test_what_the_file_says_is_text(browser, tmp_path) -> None:
+    mark = "</script><img src=x onerror=window.ran=1>"
+    text = builtin_text("five-bar").replace('"tip"', f'"{mark}"')
+    text = text.replace('title = "', f'title = "{mark}').replace('notes = "', f'notes = "{mark}')
+    shown(browser, tmp_path, text)
+    assert browser.value("document.querySelectorAll('img').length + (window.ran || 0)") == 0
+    assert browser.value("document.querySelector('#loops td').textContent") == mark
+    assert browser.value("document.querySelector('header p').textContent").startswith(mark)
+
+
+def test_pointing_at_a_joint_tells_its_row(browser, tmp_path) -> None:
+    shown(browser, tmp_path, builtin_text("puma560"))
+    told: dict[str, Any] = browser.value(
+        "(() => { const v = modelerShow.view, p = v.flat(v.point([2, 0, 0, -0.07505]));"
+        "const c = document.getElementById('picture'), box = c.getBoundingClientRect();"
+        "c.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + p.x,"
+        "clientY: box.top + p.y, pointerId: 1}));"
+        "return {tip: document.getElementById('tip').innerText,"
+        "row: document.querySelector('tr.pointed').cells[0].textContent}; })()"
+    )
+    assert told["row"] == "3"
+    assert "row 3 · on 2 · revolute, actuated" in told["tip"]
+    assert "D3" in told["tip"] and "0.4318 m" in told["tip"] and "0.1501 m" in told["tip"]
+    browser.value("document.getElementById('numbers').click()")
+    cells = browser.value(
+        "[...document.querySelectorAll('tr[data-row=\"2\"] td')].map((c) => c.textContent)"
+    )
+    assert cells == ["3", "2", "1", "0", "0", "0.4318", "0", "0.1501", "0"]

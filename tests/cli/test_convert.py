@@ -1,0 +1,115 @@
+"""`modeler convert`, and `.par` files wherever a command reads a robot."""
+
+import json
+import shutil
+
+import pytest
+
+from modeler.cli import main
+from modeler.robot import read_robot
+from modeler.robot.builtin import builtin_file
+from tests.robot.par_files import par_text
+
+TWO = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2", "G": "-9.81,0,0"}, "arm")
+
+
+@pytest.fixture
+def par(tmp_path):
+    path = tmp_path / "arm.par"
+    path.write_text(TWO)
+    return path
+
+
+def run(capsys, *argv) -> tuple[int, str, str]:
+    status = main([str(a) for a in argv])
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_convert_writes_a_robot_file_and_says_what_it_decided(capsys, par, tmp_path):
+    out = tmp_path / "arm.toml"
+    status, told, err = run(capsys, "convert", par, "--out", out, "--json", tmp_path / "c.json")
+    assert (status, err) == (0, "")
+    assert told.startswith(f"arm: 2 joints, written to {out}\n* ")
+    result = json.loads((tmp_path / "c.json").read_text())
+    assert result["robot"] == "arm" and result["joints"] == ["1", "2"] and result["loops"] == []
+    assert [f"* {note}" for note in result["notes"]] == told.splitlines()[1:]
+    assert read_robot(out).symbols.keys() == {"L", "g"}
+
+
+def test_a_file_is_written_over_only_by_force(capsys, par, tmp_path):
+    out = tmp_path / "arm.toml"
+    assert run(capsys, "convert", par, "--out", out)[0] == 0
+    assert run(capsys, "convert", par, "--out", out)[0] == 0  # nothing would be lost
+    edited = out.read_text().replace("# no value in the file", "# measured")
+    out.write_text(edited)
+    status, told, err = run(capsys, "convert", par, "--out", out)
+    assert (status, told) == (1, "") and "--force" in err and err.count("\n") == 1
+    assert out.read_text() == edited
+    assert run(capsys, "convert", par, "--out", out, "--force")[0] == 0
+    assert "# measured" not in out.read_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "out", "told"),
+    [
+        ("arm.urdf", "arm.toml", "URDF is not read yet"),
+        ("arm.xacro", "arm.toml", "docs/converting.md"),
+        ("arm.toml", "new.toml", "is a robot file already"),
+        ("none.par", "new.toml", "cannot be read"),
+        ("arm.par", "other.par", "got .par"),
+        ("arm.par", "arm.par", "this is the robot file that is read"),
+        ("bad.par", "new.toml", "d: got 3 entries, expected 2"),
+    ],
+)
+def test_what_is_refused(capsys, par, monkeypatch, name, out, told):
+    monkeypatch.chdir(par.parent)
+    for other in ("arm.urdf", "arm.xacro", "arm.toml"):
+        (par.parent / other).write_text("<robot/>\n")
+    (par.parent / "bad.par").write_text(TWO.replace("0,L", "0,L,0"))
+    before = {path.name: path.read_bytes() for path in par.parent.iterdir()}
+    status, printed, err = run(capsys, "convert", name, "--out", out)
+    assert (status, printed) == (1, "") and told in err and err.count("\n") == 1
+    assert before == {path.name: path.read_bytes() for path in par.parent.iterdir()}
+
+
+def test_every_command_reads_a_par(capsys, par, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, "derive", par, "--no-terms")
+    assert status == 0 and "ZZ1R = ZZ1 + L**2*M2" in out
+    assert all(line.startswith(f"modeler: {par}: ") for line in err.splitlines())
+    assert "no values in the file: L" in err
+    assert run(capsys, "simulate", par, "--duration", "6", "--out", "a.parquet")[0] == 0
+    assert run(capsys, "fit", par, "a.parquet", "--out", "m.json")[0] == 0
+    assert run(capsys, "compare", "m.json", "a.parquet")[0] == 0
+    # The model holds the robot file, not the .par: it is mailed alone.
+    par.unlink()
+    assert run(capsys, "compare", "m.json", "a.parquet")[0] == 0
+    assert "[mdh]" in json.loads((tmp_path / "m.json").read_text())["robot_text"]
+
+
+def test_a_mistake_in_a_par_is_one_line_of_every_command(capsys, tmp_path):
+    bad = tmp_path / "bad.par"
+    bad.write_text(TWO.replace("Ant", "Antt"))
+    for argv in (["derive", bad], ["robots", "--show", bad], ["effects", "--robot", bad]):
+        status, out, err = run(capsys, *argv)
+        assert (status, out) == (1, "") and err.count("\n") == 1
+        assert f'{bad}: line 12: unknown keyword "Antt"' in err
+
+
+def test_a_par_is_shown_as_a_robot_file(capsys, par):
+    status, out, _ = run(capsys, "robots", "--show", par)
+    assert status == 0 and out.startswith('name = "arm"\n') and "[mdh]" in out
+
+
+def test_a_suffix_in_capitals_is_the_same(capsys, par, tmp_path):
+    loud = tmp_path / "ARM.PAR"
+    shutil.copy(par, loud)
+    assert run(capsys, "derive", loud, "--no-terms")[0] == 0
+
+
+def test_urdf_is_refused_by_every_command(capsys, tmp_path):
+    path = tmp_path / "arm.urdf"
+    path.write_text(builtin_file("rx90").read_text())
+    status, out, err = run(capsys, "derive", path)
+    assert (status, out) == (1, "") and "URDF is not read yet" in err

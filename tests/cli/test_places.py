@@ -1,0 +1,202 @@
+"""Nothing that a command reads is written over, nothing is written twice: of every command."""
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main, parser
+from modeler.cli.demo import _STORIES
+from modeler.cli.places import (
+    DemoFolder,
+    Input,
+    JsonFile,
+    ModuleFolder,
+    Output,
+    OutputFolder,
+    Word,
+)
+from modeler.codegen import write_emitted
+from modeler.robot.builtin import builtin_file
+from tests.modules import module
+
+FILES = ("arm.toml", "arm.par", "m.json", "a.parquet", "b.csv", "other.parquet", "load.parquet")
+
+READING = {  # what each command reads; outputs come after it
+    "derive": "derive arm.toml",
+    "home": "home arm.toml",
+    "generate": "generate arm.toml --out new_c",
+    "convert": "convert arm.par --out new.toml",
+    "simulate": "simulate arm.toml --out new.csv",
+    "fit": "fit arm.toml a.parquet b.csv@0:4 --payload-log load.parquet --out new.json",
+    "compare": "compare m.json a.parquet@2:",
+    "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
+    "add": "add m.json spring a.parquet --holdout other.parquet@:3 --out new.json",
+    "effects": "effects --robot arm.toml",
+    "robots": "robots --show arm.toml",
+    "reproduce": "reproduce houda",
+    "demo": "demo --out new",
+    "show": "show arm.toml",
+}
+
+
+@pytest.fixture
+def there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder with files that say nothing: what is refused here is refused before they are read;
+    afterwards they are as they were, and nothing has come.
+    """
+    monkeypatch.chdir(tmp_path)
+    for name in FILES:
+        (tmp_path / name).write_text(f"contents of {name}\n")
+    yield tmp_path
+    assert [(tmp_path / name).read_text() for name in FILES] == [
+        f"contents of {name}\n" for name in FILES
+    ]
+    left = {p.name for p in tmp_path.iterdir() if not p.name.startswith("alias")}
+    assert left - {"folder"} == set(FILES)
+
+
+def actions() -> Iterator[tuple[str, argparse.Action]]:
+    """Every argument of every command."""
+    (sub,) = (a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
+    for command, of_command in sub.choices.items():
+        for action in of_command._actions:
+            yield command, action
+
+
+def test_every_argument_says_what_it_is() -> None:
+    """A new one cannot be forgotten: a bare text might be the name of a file."""
+    kinds = (Word, Input, Output, OutputFolder)
+    for command, action in actions():
+        said = action.nargs == 0 or action.choices or action.type in (int, float)
+        said = said or (isinstance(action.type, type) and issubclass(action.type, kinds))
+        assert said, f"{command}: {action.dest} has no type of modeler.cli.places"
+
+
+def cases() -> Iterator[tuple[str, str, str, str]]:
+    """Command, output, input that it is given, and what the refusal calls that."""
+    read = "the robot file that is read"
+    whats = {"arm.toml": read, "arm.par": read, "m.json": "the model that is read"}
+    for command, action in actions():
+        if isinstance(action.type, type) and issubclass(action.type, Output):
+            words = READING[command].replace("@", " ").split()
+            for name in FILES:
+                if name in words:
+                    yield command, action.option_strings[0], name, whats.get(name, "a log")
+
+
+def answer(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """The one line of a refusal."""
+    status = main(list(words))
+    out, err = capsys.readouterr()
+    assert (status, out) == (1, "") and err.startswith("modeler: ") and err.count("\n") == 1, err
+    return err
+
+
+@pytest.mark.parametrize("way", ["itself", "./", "symlink", "hard link"])
+@pytest.mark.parametrize(("command", "option", "name", "what"), list(cases()))
+def test_an_input_is_never_an_output(there, capsys, command, option, name, what, way) -> None:
+    place = {"itself": name, "./": f"../{there.name}/./{name}"}.get(way, "alias")
+    if way == "symlink":
+        Path("alias").symlink_to(name)
+    elif way == "hard link":
+        os.link(name, "alias")
+    if option == "--out" and command == "simulate" and "link" in way:
+        place = "alias.csv"
+        Path("alias").rename(place)
+    err = answer(capsys, *READING[command].split(), option, place)
+    assert f"{option} {place}: this is {what}; expected a name of its own" in err
+
+
+@pytest.mark.parametrize("command", ["fit", "add", "compare", "diagnose", "derive"])
+def test_two_outputs_are_two_files(there, capsys, command) -> None:
+    options = [a.option_strings[0] for name, a in actions() if name == command
+               and isinstance(a.type, type) and issubclass(a.type, Output)]  # fmt: skip
+    first, second = options[:2]
+    Path("alias").symlink_to("same.html")  # which is not there yet
+    words = READING[command].split()
+    if first in words:
+        at = words.index(first)
+        del words[at : at + 2]
+    err = answer(capsys, *words, first, "same.html", second, "alias")
+    assert f"{second} alias: {first} writes this file too; expected a name of its own" in err
+
+
+def test_stdout_may_go_to_that_file(there, capsys, monkeypatch) -> None:
+    with Path("folder").open("w") as out:
+        monkeypatch.setattr(sys, "stdout", out)
+        status = main(["robots", "--json", "folder"])
+        monkeypatch.undo()
+    assert status == 1
+    assert "--json folder: stdout writes this file too" in capsys.readouterr().err
+
+
+def test_a_built_in_robot_is_an_input_too(there, capsys) -> None:
+    place = builtin_file("wrist")
+    before = place.read_bytes()
+    err = answer(capsys, "derive", "wrist", "--report", str(place))
+    assert "this is the robot file that is read" in err and place.read_bytes() == before
+
+
+@pytest.mark.parametrize("place", ["new.csv", "NEW.PARQUET"])
+@pytest.mark.parametrize("words", ["fit --out", "compare --report", "derive --json"])
+def test_what_is_no_log_is_not_named_like_one(there, capsys, words, place) -> None:
+    command, option = words.split()
+    err = answer(capsys, *READING[command].split(), option, place)
+    assert f"{option} {place}: this is a log; expected a name of its own" in err
+
+
+@pytest.mark.parametrize("command", READING)
+def test_places_that_cannot_be_written_are_refused_first(there, capsys, command) -> None:
+    Path("folder").write_text("a file")
+    words = READING[command].split()
+    for option, place in (("--json", "folder/below/x.json"), ("--json", "/proc/nowhere/x.json")):
+        assert f"{place}: cannot be written" in answer(capsys, *words, option, place)
+    if "--out" in words:
+        ends = ".csv" if command == "simulate" else ""
+        err = answer(capsys, *words, "--out", f"folder/below{ends}")
+        assert f"folder/below{ends}: cannot be written" in err
+
+
+def test_a_dash_is_for_json(there, capsys) -> None:
+    err = answer(capsys, "derive", "arm.toml", "--report", "-")
+    assert "--report -: only --json takes - for stdout; expected the name of a file" in err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("generate wrist --out folder --json folder/manifest.json", "manifest.json in it is what"),
+        ("generate wrist --out folder --json alias", "Makefile in it is what --json writes"),
+        ("demo --out folder --json folder/demo-arm/model.json", "demo-arm/model.json in it is"),
+        ("compare m.json folder/overview.csv --pictures folder", "overview.csv in it is a log"),
+    ],
+)
+def test_a_folder_keeps_its_names(there, capsys, words, message) -> None:
+    Path("folder").mkdir()
+    Path("folder/overview.csv").write_text("time,q1\n")
+    Path("alias").symlink_to("folder/Makefile")
+    option = "--pictures" if "--pictures" in words else "--out"
+    err = answer(capsys, *words.split())
+    assert f"{option} folder: " in err and message in err
+    assert "expected a folder of its own" in err
+    assert [path.name for path in Path("folder").iterdir()] == ["overview.csv"]
+
+
+def matches(folder: type[OutputFolder], name: str) -> bool:
+    return any(Path(name).match(pattern) for pattern in folder.writes)
+
+
+def test_folders_declare_what_they_get(tmp_path: Path) -> None:
+    for name in ("wrist", "five-bar"):
+        write_emitted(module(name).emitted, tmp_path / name)
+        assert all(matches(ModuleFolder, path.name) for path in (tmp_path / name).iterdir())
+    assert {f"{story.robot}/*" for story in _STORIES} == set(DemoFolder.writes)
+
+
+def test_every_command_is_tried_here_and_has_json() -> None:
+    assert not [c for c, a in actions() if a.dest == "json" and a.type is not JsonFile]
+    assert {command for command, _ in actions()} == set(READING)

@@ -1,0 +1,117 @@
+"""`modeler show`: what it prints, writes and refuses."""
+
+import json
+import re
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from modeler.cli import main
+from modeler.robot import builtin_text, read_robot
+from modeler.show import home_posture, picture, skeleton_of
+from tests.robots import ROBOTS
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_page_beside_the_user(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", "wrist"]) == 0
+    out = capsys.readouterr().out
+    assert out.splitlines()[-1] == "page: wrist.html"
+    assert "gravity 9.81 m/s2 along -y0" in out
+    assert re.search(r"^3 +2 +revolute, actuated +0.0000 +0.0000 +0.0000 +0.3000 +\+z0$", out, re.M)
+    assert [path.name for path in here.iterdir()] == ["wrist.html"]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_page_needs_nothing_else(here: Path, name: str) -> None:
+    assert main(["show", name, "--out", "p.html", "--json", "p.json"]) == 0
+    page = (here / "p.html").read_text(encoding="utf-8")
+    assert "default-src 'none'" in page
+    assert not re.search(r"https?://|<link|<iframe|\bsrc=|@import|url\(", page)
+    assert not re.search(r">[^<{]*\$[a-z]", page)  # a place of the template that nothing filled
+    assert len(page) < 400_000
+    robot, told = read_robot(name), json.loads((here / "p.json").read_text())
+    for joint in robot.joints:
+        assert f">{joint.name}</td>" in page
+    assert told["closed"] and told["as_stated"] and told["page"] == "p.html"
+    assert [frame["name"] for frame in told["frames"]] == [joint.name for joint in robot.joints]
+    assert set(told["home"]) == {joint.variable for joint in robot.moving}
+    assert len(told["loops"]) == len(robot.loops)
+    for loop in told["loops"]:
+        assert loop["closed"] and loop["gap"] < 1e-9 and loop["angle"] < 1e-7
+    if robot.loops:
+        by_name = {frame["name"]: np.array(frame["pose"]) for frame in told["frames"]}
+        loop = told["loops"][0]
+        gap = by_name[loop["frame"]][:3, 3] - by_name[loop["meets"]][:3, 3]
+        assert np.linalg.norm(gap) < 1e-9
+
+
+@pytest.mark.parametrize("name", ["wrist", "stewart", "five-bar", "emps"])
+def test_a_picture_is_drawn(here: Path, name: str) -> None:
+    for kind in ("png", "svg", "pdf"):
+        assert main(["show", name, "--png", f"{name}.{kind}"]) == 0
+    assert sorted(path.name for path in here.iterdir()) == [
+        f"{name}.{k}" for k in ("pdf", "png", "svg")
+    ]
+    pixels = imread(here / f"{name}.png")[:, :, :3]
+    assert pixels.shape[1] == 1400  # 3.5 inches of 400 dots
+    inked = np.mean(np.any(pixels < 0.95, axis=2))
+    assert 0.01 < inked < 0.6
+    margin = pixels[:8], pixels[-8:], pixels[:, :8], pixels[:, -8:]
+    assert all(np.all(edge == 1.0) for edge in margin)  # nothing is cut off
+    svg = (here / f"{name}.svg").read_text()
+    for joint in read_robot(name).joints:
+        if not joint.name.startswith("P"):
+            assert f">{joint.name}</text>" in svg
+    assert (here / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_the_same_robot_gives_the_same_picture() -> None:
+    skeleton = skeleton_of(read_robot("sr400"))
+    posture = home_posture(skeleton)
+    for kind in (".png", ".svg", ".pdf"):
+        assert picture(skeleton, posture, kind) == picture(skeleton, posture, kind)
+    assert imread(BytesIO(picture(skeleton, posture, ".png"))).ndim == 3
+
+
+def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
+    (here / "bad.toml").write_text(builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0"))
+    assert main(["show", "bad.toml", "--out", "b.html", "--png", "b.svg", "--json", "b.json"]) == 0
+    out = capsys.readouterr().out
+    assert 'loop "tip": 31 meets 32 (revolute): OPEN by ' in out
+    assert "the loops do not close near [home]: drawn as it is stated" in out
+    told = json.loads((here / "b.json").read_text())
+    assert not told["closed"] and told["loops"][0]["gap"] > 3.0
+    assert "#e00000" in (here / "b.svg").read_text()  # the gap, in red
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            "wrist --png w.jpg",
+            "--png w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf",
+        ),
+        ("wrist --png w", "--png w: got no ending; expected a name that ends in .png, .svg, .pdf"),
+        ("wrost", '"wrost" is neither a file nor a built-in robot'),
+        ("wrist --json wrist.html", "--json wrist.html: "),
+        ("wrist --out w.html --png w.html", "--png w.html: --out writes this file too"),
+        ("wrist --out folder", "folder: "),
+        ("wrist --out a/b", "a/b: cannot be written"),
+    ],
+)
+def test_what_is_refused_is_one_line_and_leaves_nothing(here, capsys, words, message) -> None:
+    (here / "folder").mkdir()
+    (here / "a").write_text("a file")
+    assert main(["show", *words.split()]) == 1
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith(f"modeler: {message}") and err.count("\n") == 1, err
+    assert {path.name for path in here.iterdir()} == {"folder", "a"}

@@ -1,0 +1,121 @@
+"""What answers at once loads nothing that takes long; an interrupt ends the program in one line."""
+
+import argparse
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from modeler.cli import parser
+from modeler.cli.derive import _CLOSED_FORMS, _FORMS, _TABLES
+from modeler.cli.parsers.derive import Form
+from modeler.effects import CATALOGUE
+from modeler.simulate import HIDDEN
+
+LONG = {
+    "sympy", "numpy", "scipy", "casadi", "pyarrow", "matplotlib", "plotly", "rich", "jinja2",
+    "cffi", "threadpoolctl",
+}  # fmt: skip
+
+_TRACED = """
+import sys
+sys.argv[0] = "modeler"
+from modeler.cli import main
+try:
+    status = main()
+except SystemExit as stop:
+    status = stop.code
+print("loaded:", *sorted({name.split(".")[0] for name in sys.modules}), file=sys.stderr)
+sys.exit(status)
+"""
+
+
+def loaded(*words: str) -> tuple[int, str, set[str]]:
+    """Exit status, stdout and top-level packages of a run of its own."""
+    command = [sys.executable, "-c", _TRACED, *words]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    *_, last = done.stderr.splitlines()
+    assert last.startswith("loaded: ")
+    return done.returncode, done.stdout, set(last.split()[1:])
+
+
+def commands() -> list[str]:
+    (sub,) = (a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
+    return list(sub.choices)
+
+
+SHORT = [
+    *(((word,), 0) for word in ("--help", "--version", "robots", "effects")),
+    *((words.split(), 0) for words in ("effects load_friction", "robots --show wrist")),
+    *(((name, "--help"), 0) for name in commands()),
+    ((), 2), (("dance",), 2), (("fit",), 2), (("fit", "emps", "--method", "x"), 2),
+    (("derive", "arm", "--no-such-option"), 2), (("demo", "--duration", "long"), 2),
+    (("derive", "wrist", "--json", "."), 1),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("words", "status"), SHORT, ids=lambda x: str(x)[:40])
+def test_what_answers_at_once_loads_nothing_long(words, status) -> None:
+    ended, out, packages = loaded(*words)
+    assert ended == status and bool(out) == (status == 0)
+    assert not packages & LONG
+
+
+def test_long_packages_would_be_noticed() -> None:
+    status, _, packages = loaded("derive", "two-link", "--no-terms")
+    assert status == 0 and packages >= {"sympy", "numpy"}
+
+
+def test_choices_are_those_that_commands_know() -> None:
+    assert set(_FORMS) == set(_CLOSED_FORMS) == set(_TABLES) == set(get_args(Form))
+    assert set(HIDDEN) == {effect.id for effect in CATALOGUE}  # what --hide offers
+
+
+# Plays a user who presses Ctrl-C while the last package of the command is loaded, and a package
+# that swallows what is raised in it.
+_INTERRUPTED = """
+import os, signal, sys
+wanted = sys.argv.pop(1)
+class Slow:
+    def find_spec(self, name, path=None, target=None):
+        if name == wanted:
+            try:
+                os.kill(os.getpid(), signal.SIGINT)
+                for _ in range(1000): pass
+            except BaseException:
+                pass
+sys.meta_path.insert(0, Slow())
+from modeler.cli import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize("package", ["argparse", "modeler.cli.derive", "numpy", "sympy"])
+def test_an_interrupt_while_loading_is_one_line(package: str) -> None:
+    command = [sys.executable, "-c", _INTERRUPTED, package, "derive", "two-link"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "modeler: interrupted\n"
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5])
+def test_an_interrupt_at_any_moment_is_one_line(tmp_path: Path, share: float) -> None:
+    """As a terminal sends it."""
+    command = [sys.executable, "-m", "modeler.cli", "generate", "scara", "--out"]
+    begun = time.perf_counter()
+    subprocess.run([*command, str(tmp_path / "whole")], check=True, capture_output=True)
+    whole = time.perf_counter() - begun
+    running = subprocess.Popen(
+        [*command, str(tmp_path / "cut")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(share * whole)
+    running.send_signal(signal.SIGINT)
+    _, err = running.communicate(timeout=60)
+    if running.returncode == 0:
+        pytest.skip("NOT CHECKED: it was faster than the interrupt")
+    assert (running.returncode, err) == (130, "modeler: interrupted\n")
+    assert not list(tmp_path.glob("cut/.modeler-*"))

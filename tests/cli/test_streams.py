@@ -1,0 +1,146 @@
+"""Results and complaints on streams that are full, closed, or short of letters."""
+
+import io
+import json
+import os
+import pty
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main
+from modeler.cli.console import say
+
+ARM = """\
+name = "arm"
+title = "Mânipulateur à un axe \N{ROBOT FACE}"
+gravity = ["-g", 0, 0]
+[symbols]
+g = 9.81
+[mdh]
+columns = ["j", "a", "sigma", "theta"]
+rows = [["1", "0", 0, "q1"]]
+"""
+
+# A file system that is full: what stdout goes to may not grow beyond a few bytes.
+_LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]), resource.RLIM_INFINITY))
+sys.argv[:2] = ["modeler"]
+from modeler.cli import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["--help", "fit --help", "--version", "robots", "effects", "robots --json -",
+     "robots --show wrist", "robots --json /dev/stdout"],
+)  # fmt: skip
+@pytest.mark.parametrize(("buffering", "room"), [("", "3"), ("1", "0")])
+def test_a_full_disk_under_stdout_is_one_line(
+    tmp_path: Path, words: str, buffering: str, room: str
+) -> None:
+    with (tmp_path / "out.txt").open("w") as out:
+        done = subprocess.run(
+            [sys.executable, "-c", _LIMITED, room, *words.split()], stdout=out, timeout=60,
+            stderr=subprocess.PIPE, text=True,
+            env=os.environ | {"PYTHONUNBUFFERED": buffering, "PYTHONDONTWRITEBYTECODE": "1"},
+        )  # fmt: skip
+    assert done.returncode == 1
+    assert done.stderr.startswith("modeler: stdout: cannot be written (File too large); choose")
+    assert done.stderr.count("\n") == 1
+    assert (tmp_path / "out.txt").stat().st_size <= 3
+
+
+class Full(io.StringIO):
+    """A stream on a disk without room: takes what is written, and fails where it is flushed."""
+
+    def flush(self) -> None:
+        raise OSError(28, "No space left on device")
+
+
+def test_what_is_only_told_at_the_end_is_told(monkeypatch, capsys) -> None:
+    monkeypatch.setattr(sys, "stdout", Full())
+    assert main(["robots"]) == 1
+    err = capsys.readouterr().err
+    assert err == (
+        "modeler: stdout: cannot be written (No space left on device); choose another place for "
+        "it\n"
+    )
+
+
+@pytest.mark.parametrize("closed", ["stdout", "stderr"])
+@pytest.mark.parametrize(("words", "status"), [("robots", 0), ("derive no-such-robot", 1)])
+def test_closed_streams_are_no_error(closed: str, words: str, status: int) -> None:
+    sign = {"stdout": ">&-", "stderr": "2>&-"}[closed]
+    command = f'"{sys.executable}" -m modeler.cli {words} {sign}'
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
+    assert done.returncode == status
+    assert "Traceback" not in done.stderr and "ignored" not in done.stderr
+
+
+def test_a_reader_that_has_gone_is_no_error_with_help() -> None:
+    command = f'"{sys.executable}" -m modeler.cli fit --help | true'
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
+    assert done.stderr == ""
+
+
+ASCII = [
+    {"PYTHONIOENCODING": "ascii"},
+    {"PYTHONIOENCODING": "ascii:strict"},
+    {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"},
+    {"LC_ALL": "C"},
+]
+
+
+@pytest.mark.parametrize("setting", ASCII, ids=str)
+def test_letters_that_a_terminal_lacks_are_shown_as_codes(tmp_path: Path, setting) -> None:
+    (tmp_path / "bräs.toml").write_text(ARM, encoding="utf-8")
+    for words, status in ((["bräs.toml"], 0), (["bräs.tom"], 1)):
+        done = subprocess.run(
+            [sys.executable, "-m", "modeler.cli", "derive", *words], cwd=tmp_path, timeout=60,
+            capture_output=True, env=os.environ | setting,
+        )  # fmt: skip
+        assert done.returncode == status and b"Traceback" not in done.stderr
+        text = done.stdout or done.stderr
+        assert b"nipulateur" in text or status == 1
+        if "PYTHONIOENCODING" in setting and status == 0:
+            assert rb"arm: M\xe2nipulateur \xe0 un axe \U0001f916" in text
+
+
+def test_progress_on_a_terminal_without_letters(tmp_path: Path) -> None:
+    """A title in brackets is no markup either."""
+    (tmp_path / "arm.toml").write_text(ARM, encoding="utf-8")
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "modeler.cli", "simulate", "arm.toml", "--duration", "1"]
+    try:
+        done = subprocess.run(
+            [*command, "--out", "[/b].csv"], cwd=tmp_path, stderr=theirs, timeout=60,
+            env=os.environ | {"PYTHONIOENCODING": "ascii", "TERM": "xterm"},
+        )  # fmt: skip
+        os.close(theirs)
+        shown = os.read(ours, 100_000)
+    finally:
+        os.close(ours)
+    assert done.returncode == 0 and b"simulating arm" in shown
+    assert max(shown) < 128
+
+
+def test_json_on_dev_stdout_is_only_json(tmp_path: Path) -> None:
+    if not Path("/dev/stdout").exists():
+        pytest.skip("NOT CHECKED: there is no /dev/stdout here")
+    command = [sys.executable, "-m", "modeler.cli", "derive", "two-link", "--json", "/dev/stdout"]
+    piped = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
+    with (tmp_path / "out.json").open("w") as out:
+        subprocess.run(command, stdout=out, check=True, timeout=60)
+    assert piped == (tmp_path / "out.json").read_text()
+    assert json.loads(piped)["robot"] == "two-link"
+
+
+def test_say_is_a_line(capsys) -> None:
+    say("words")
+    say()
+    assert capsys.readouterr().out == "words\n\n"

@@ -1,0 +1,129 @@
+"""Writing a module into a folder: over what an earlier run wrote, never over the user's work."""
+
+import dataclasses
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from modeler.codegen import write, write_emitted
+from modeler.codegen.record import RECORD
+from modeler.core.contract import Emitted
+from modeler.core.errors import ModelerError
+from tests.modules import module
+
+
+@pytest.fixture
+def emitted() -> Emitted:
+    return module("emps").emitted
+
+
+def changed(emitted: Emitted, *names: str) -> Emitted:
+    """The module as the next version of the robot gives it."""
+    files = {n: text + "\n" if n in names else text for n, text in emitted.files.items()}
+    return dataclasses.replace(emitted, files=files)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_only_changed_files_are_written_and_foreign_ones_stay(emitted, tmp_path):
+    (tmp_path / "controller.c").write_text("mine")
+    assert set(write_emitted(emitted, tmp_path)) == set(emitted.files)
+    assert write_emitted(emitted, tmp_path) == ()
+    assert write_emitted(changed(emitted, "emps.c"), tmp_path) == ("emps.c",)
+    assert (tmp_path / "controller.c").read_text() == "mine"
+    assert (tmp_path / "emps.c").read_text() == emitted.files["emps.c"] + "\n"
+
+
+def test_files_of_the_user_are_named_and_stay(emitted, tmp_path):
+    for name in ("README.md", "Makefile"):
+        (tmp_path / name).write_text("mine")
+    before = contents(tmp_path)
+    with pytest.raises(ModelerError) as told:
+        write_emitted(emitted, tmp_path)
+    assert str(told.value) == (
+        f"{tmp_path}: would write over Makefile, README.md, not known to be of an earlier "
+        "generate; choose another folder, or write over them with --force"
+    )
+    assert contents(tmp_path) == before
+    assert set(write_emitted(emitted, tmp_path, force=True)) == set(emitted.files)
+    assert write_emitted(changed(emitted, "Makefile"), tmp_path) == ("Makefile",)  # now ours
+
+
+def test_a_generated_file_that_was_edited_is_named_and_stays(emitted, tmp_path):
+    write_emitted(emitted, tmp_path)
+    (tmp_path / "emps.c").write_text("edited")
+    (tmp_path / "Makefile").unlink()
+    before = contents(tmp_path)
+    for new in (emitted, changed(emitted, "emps.c")):
+        with pytest.raises(ModelerError, match=r"over emps\.c, edited since an earlier generate;"):
+            write_emitted(new, tmp_path)
+        assert contents(tmp_path) == before
+    assert set(write_emitted(emitted, tmp_path, force=True)) == {"emps.c", "Makefile"}
+    assert write_emitted(emitted, tmp_path) == ()
+
+
+def test_a_folder_without_a_record_is_taken_where_it_says_the_same(emitted, tmp_path):
+    """As an earlier version of modeler left it, which kept no record."""
+    write_emitted(emitted, tmp_path)
+    (tmp_path / RECORD).unlink()
+    with pytest.raises(ModelerError, match=r"over emps\.h, not known to be of an earlier"):
+        write_emitted(changed(emitted, "emps.h"), tmp_path)
+    assert not (tmp_path / RECORD).exists()
+    assert write_emitted(emitted, tmp_path) == ()
+    assert write_emitted(changed(emitted, "emps.h"), tmp_path) == ("emps.h",)
+
+
+def test_another_robot_in_the_same_folder_and_back(emitted, tmp_path):
+    write_emitted(emitted, tmp_path)
+    write_emitted(module("wrist").emitted, tmp_path)
+    (tmp_path / "emps.c").write_text("edited")
+    with pytest.raises(ModelerError, match=r"over emps\.c, edited since"):
+        write_emitted(emitted, tmp_path)
+    (tmp_path / "emps.c").write_text(emitted.files["emps.c"])
+    assert "Makefile" in write_emitted(emitted, tmp_path)
+
+
+def test_a_run_that_was_stopped_can_be_repeated(emitted, tmp_path, monkeypatch):
+    write_emitted(emitted, tmp_path)
+    new = changed(emitted, *emitted.files)
+    real, calls = write.write_atomically, []
+
+    def stopped(path: Path, content: bytes | str) -> None:
+        calls.append(path)
+        if len(calls) == 4:
+            raise KeyboardInterrupt
+        real(path, content)
+
+    monkeypatch.setattr(write, "write_atomically", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        write_emitted(new, tmp_path)
+    monkeypatch.undo()
+    assert len(write_emitted(new, tmp_path)) == len(emitted.files) - 2
+    assert write_emitted(new, tmp_path) == ()
+
+
+def test_a_file_that_only_has_the_name_of_the_record_stays(emitted, tmp_path):
+    (tmp_path / RECORD).write_text("my notes\n")
+    with pytest.raises(ModelerError, match=rf"over {RECORD}, not known to be of an earlier"):
+        write_emitted(emitted, tmp_path)
+    assert list(contents(tmp_path)) == [RECORD]
+
+
+def test_a_pipe_of_that_name_is_not_waited_for(emitted, tmp_path):
+    os.mkfifo(tmp_path / "Makefile")
+    with pytest.raises(ModelerError, match="over Makefile, not known"):
+        write_emitted(emitted, tmp_path)
+
+
+def test_the_record_can_be_checked_by_others(emitted, tmp_path):
+    write_emitted(emitted, tmp_path)
+    lines = (tmp_path / RECORD).read_text().splitlines()
+    assert {line.split("  ")[1] for line in lines} == set(emitted.files)
+    if shutil.which("sha256sum") is None:
+        pytest.skip("NOT CHECKED: there is no sha256sum here")
+    subprocess.run(["sha256sum", "-c", "--strict", RECORD], cwd=tmp_path, check=True)

@@ -1,0 +1,216 @@
+"""The signature: of everything that the C is, and the same on every machine."""
+
+import dataclasses
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+import sympy
+
+from modeler.base import base_parameters
+from modeler.codegen import emit
+from modeler.core.contract import code_digest
+from modeler.core.errors import LoopError
+from modeler.core.expression import parse
+from modeler.core.rounded import FUNCTIONS, power
+from modeler.robot import read_robot
+from modeler.robot.read import robot_from_text
+from modeler.symbolic import derive_model
+from modeler.symbolic.closing import Closing, polished
+from modeler.symbolic.graph import Graph
+from tests.modules import module
+from tests.repository import ROOT
+from tests.robots import ROBOTS
+
+ARM = """
+name = "arm"
+gravity = [0, {gravity}, 0]
+
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0, 0, "q1", 0],
+  ["2", "1", 0, {alpha}, {d}, "q2", {r}],
+]
+"""
+
+TRIGONOMETRY = """
+name = "bent"
+gravity = ["-g*sin(tilt)", 0, "-g*cos(tilt)**3"]
+
+[symbols]
+g = "9.81*exp(0.001)**1.5"
+tilt = "tanh(0.3)"
+L = "sqrt(2)*sin(0.7)**2"
+a = "cos(0.2)"
+
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0, 0, "q1", 0],
+  ["2", "1", 0, "a", "L", "q2", 0],
+  ["3", "2", 0, "-a", "L*tan(0.4)", "q3", 0],
+]
+"""
+
+
+def emitted(gravity="-9.81", alpha="0.3", d="0.1", r="0"):
+    text = ARM.format(gravity=gravity, alpha=alpha, d=d, r=r)
+    model = derive_model(robot_from_text(text, "arm"))
+    return emit(model, base_parameters(model))
+
+
+def sources(made, signature=None):
+    """The C files; with another text for the signature if that is given."""
+    own = f'"{made.spec.signature()}"'
+    texts = {name: made.files[name] for name in made.spec.sources}
+    if signature is None:
+        return texts
+    return {name: text.replace(own, f'"{signature}"') for name, text in texts.items()}
+
+
+@pytest.mark.parametrize(
+    "change", [{"gravity": "-1.62"}, {"d": "0.2"}, {"alpha": "0.31"}, {"r": "0.05"}]
+)
+def test_a_number_of_the_table_is_in_the_signature(change):
+    """The manifests were the same: only the C has the number."""
+    one, other = emitted(), emitted(**change)
+    assert sources(one, "") != sources(other, "")
+    assert one.spec.signature() != other.spec.signature()
+    assert emitted().spec.signature() == one.spec.signature()
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_the_signature_covers_every_letter_of_the_c(name):
+    made = module(name).emitted
+    texts = sources(made, "")
+    assert made.spec.code == code_digest(texts)
+    assert sum(made.spec.signature() in made.files[n] for n in made.spec.sources) == 1
+    for file, text in texts.items():
+        changed = code_digest({**texts, file: text.replace("0", "1", 1) + " "})
+        other = dataclasses.replace(made.spec, code=changed)
+        assert other.signature() != made.spec.signature()
+
+
+def test_different_robots_have_different_signatures():
+    assert len({module(name).emitted.spec.signature() for name in ROBOTS}) == len(ROBOTS)
+
+
+def other_machine(core: str, seed: str) -> dict[str, str]:
+    """The environment of a processor without this one's newer instructions."""
+    found = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
+    tunables = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable"
+    return {
+        "NPY_DISABLE_CPU_FEATURES": " ".join(found),
+        "OPENBLAS_CORETYPE": core,
+        "GLIBC_TUNABLES": tunables,
+        "PYTHONHASHSEED": seed,
+    }
+
+
+@pytest.mark.parametrize(("core", "seed"), [("Prescott", "1"), ("Haswell", "77")])
+def test_signatures_are_the_same_on_every_machine(core, seed, tmp_path):
+    """Loops are closed by iteration, coefficients are sines: last digits that must not show."""
+    bent = tmp_path / "bent.toml"
+    bent.write_text(TRIGONOMETRY)
+    model = derive_model(robot_from_text(TRIGONOMETRY, "bent"))
+    names = ROBOTS if core == "Prescott" else [n for n in ROBOTS if module(n).model.closure]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), **other_machine(core, seed)}
+    ran = subprocess.run(
+        [sys.executable, Path(__file__).with_name("signatures.py"), *names, bent],
+        env=environment, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    expected = {name: module(name).emitted.spec.signature() for name in names}
+    expected[str(bent)] = emit(model, base_parameters(model)).spec.signature()
+    assert json.loads(ran.stdout) == expected
+
+
+def test_homes_are_the_doubles_next_to_closed_postures():
+    """Of the five-bar by the intersection of two circles, in 50 digits."""
+    made = module("five-bar").emitted
+    home = dict(zip(made.spec.closure.variables, made.spec.closure.home, strict=True))
+    mp = mpmath.MPContext()
+    mp.dps = 50
+    l0, l1, l2, l3, l4 = (mp.mpf(x) for x in ("0.2", "0.3", "0.4", "0.31", "0.42"))
+    q11, q12 = mp.mpf("2.2"), mp.mpf("0.9")
+    one = mp.expj(q11) * l1
+    other = mp.expj(q12) * l3 + l0
+    way = other - one
+    along = (l2**2 - l4**2 + abs(way) ** 2) / (2 * abs(way))
+    tips = [
+        one + way / abs(way) * mp.mpc(along, side * mp.sqrt(l2**2 - along**2)) for side in (1, -1)
+    ]
+    tip = max(tips, key=lambda z: z.imag)
+    assert home["21"] == float(mp.arg((tip - one) / mp.expj(q11)))
+    assert home["22"] == float(mp.arg((tip - other) / mp.expj(q12)))
+    assert (home["11"], home["12"]) == (2.2, 0.9)
+    assert ", ".join(map(repr, made.spec.closure.home)) in made.files["five_bar_loops.c"]
+
+
+@pytest.mark.parametrize("start", [0.0, 1e-7])
+def test_a_home_without_certain_digits_is_refused(start):
+    """q0**2 = 0: a double root, near which every posture is closed up to rounding."""
+    graph = Graph()
+    q = graph.symbol("q[0]")
+    closing = Closing(graph, {}, [q * q], [[q * 2]], (), (0,), (False,))
+    with pytest.raises(LoopError, match=r"two-link: \[home\]: .* all but singular there; state"):
+        polished(closing, np.array([start]), [0], read_robot("two-link"))
+
+
+@pytest.mark.parametrize("name", [name for name in ROBOTS if module(name).model.closure])
+def test_no_home_keeps_what_the_iteration_left(name):
+    """What is 0 is 0; 1e-17 may be right, where a joint stands at the double next to pi/2."""
+    assert all(x == 0.0 or abs(x) > 1e-20 for x in module(name).emitted.spec.closure.home)
+
+
+@pytest.mark.parametrize("name", ["ur10e", "panda", "kinova_gen3", "sr400", "five-bar", "evra"])
+def test_coefficients_are_the_doubles_next_to_their_formula(name):
+    """Of the decimals that the robot file has, evaluated by sympy in 50 digits."""
+    spec = module(name).emitted.spec
+    names = {symbol.name: sympy.Symbol(symbol.name) for symbol in spec.symbols}
+    values = {names[s.name]: sympy.Rational(repr(s.value)) for s in spec.symbols}
+    terms = {(t.coefficient, t.value) for base in spec.base for t in base.terms}
+    for text, value in terms:
+        exact = sympy.sympify(text, locals=names, rational=True).subs(values)
+        assert value == float(exact.evalf(50)), text
+    assert len(terms) > 3
+
+
+@pytest.mark.parametrize("name", ["sin", "cos", "tan", "exp", "tanh", "power"])
+def test_functions_give_the_nearest_double(name):
+    if np.finfo(np.longdouble).eps > 1e-18:
+        pytest.skip("NOT CHECKED: no extended precision on this machine")
+    rng = np.random.default_rng(2)
+    for x in rng.uniform(-3.0, 3.0, 300):
+        wide = np.longdouble(x)
+        if name == "power":
+            got, exact = power(abs(x), 2.7), np.abs(wide) ** np.longdouble(2.7)
+        else:
+            got, exact = FUNCTIONS[name](x), getattr(np, name)(wide)
+        assert abs(got - exact) <= 0.501 * np.spacing(abs(got))
+
+
+def test_functions_refuse_what_has_no_value():
+    for text, error in (
+        ("exp(1e9)", OverflowError), ("1e200**2", OverflowError), ("0**-1", ZeroDivisionError),
+        ("sqrt(-1)", ValueError), ("(-8)**0.5", TypeError),
+    ):  # fmt: skip
+        with pytest.raises(error):
+            parse(text).number()
+    assert parse("2**10 + (-2)**3 + 0**0").number() == 1017.0
+    assert parse("sign(-3)*abs(-2) + cos(0) + sin(1e22)").number() == pytest.approx(
+        -1 + math.sin(1e22)
+    )
+
+
+def test_the_signature_stands_in_one_line_of_the_c():
+    made = module("wrist").emitted
+    found = re.findall(r'return "([0-9a-f]{16})";', made.files["wrist.c"])
+    assert found == [made.spec.signature()]

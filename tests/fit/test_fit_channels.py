@@ -1,0 +1,153 @@
+"""Signs, units and exchanged channels in logs to which the model itself is fitted."""
+
+import json
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from modeler.api import compile_model, derive, generate, load, observe
+from modeler.cli import main
+from modeler.fit import identify
+from modeler.observation import read_log
+from modeler.observation.findings import findings_of_fit, findings_of_prediction
+from modeler.simulate import SimulationSettings, simulate, write_log
+
+ROBOTS = ("demo-arm", "ur10e", "puma560", "scara")
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Compiled robots, each with two simulated logs."""
+    folder, found = tmp_path_factory.mktemp("channels"), {}
+    for name in ROBOTS:
+        derivation = derive(load(name))
+        compiled = compile_model(generate(derivation))
+        logs = []
+        for seed in (1, 2):
+            settings = SimulationSettings(
+                duration=12.0, rate=250.0, seed=seed, torque_noise=0.01 * seed
+            )
+            place = folder / f"{name}{seed}.parquet"
+            write_log(place, simulate(derivation.robot, settings))
+            logs.append(read_log(place, compiled.spec))
+        found[name] = compiled, logs
+    return found
+
+
+def unit(compiled, j):
+    return 180.0 / np.pi if compiled.spec.joints[j].unit == "rad" else 1e3
+
+
+MISTAKES = {
+    "all units": (lambda c, q, tau, j, k: q.__imul__([unit(c, i) for i in range(len(q[0]))]),
+                  "the positions look like degrees"),
+    "unit": (lambda c, q, tau, j, k: q[:, j].__imul__(unit(c, j)), "its position looks like"),
+    "position sign": (lambda c, q, tau, j, k: q[:, j].__imul__(-1.0), "sign"),
+    "positions": (lambda c, q, tau, j, k: q.__setitem__(np.s_[:, [j, k]], q[:, [k, j]]),
+                  "positions look exchanged"),
+    "torques": (lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], tau[:, [k, j]]),
+                "torques look exchanged"),
+    "torque sign": (lambda c, q, tau, j, k: tau[:, j].__imul__(-1.0), "sign"),
+    "all signs": (lambda c, q, tau, j, k: tau.__imul__(-1.0), "check the signs"),
+}  # fmt: skip
+
+
+def fitted(compiled, log):
+    observation = observe(compiled, [log])
+    return observation, identify(observation).beta
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
+    compiled, logs = runs[name]
+    for log in logs:
+        observation, beta = fitted(compiled, log)
+        assert findings_of_fit(compiled, observation, beta) == ()
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistake):
+    """Of three for each robot at most two are missed, in words that name the joint or the swap."""
+    change, words = MISTAKES[mistake]
+    random, seen = np.random.default_rng(list(MISTAKES).index(mistake)), Counter()
+    for name in ROBOTS:
+        compiled, logs = runs[name]
+        for _ in range(3):
+            log = logs[int(random.integers(2))]
+            j, k = random.permutation(len(log.joints))[:2]
+            q, tau = log.q.copy(), log.tau.copy()
+            change(compiled, q, tau, j, k)
+            observation, beta = fitted(compiled, replace(log, q=q, tau=tau))
+            lines = [f.line for f in findings_of_fit(compiled, observation, beta) if f.certain]
+            named = lines and words in lines[0]
+            if named and mistake in ("unit", "position sign", "torque sign"):
+                named = f"joint {log.joints[j]}:" in lines[0]
+            seen[bool(named)] += 1
+    assert seen[False] <= 2, seen
+
+
+def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
+    compiled, (log, _) = runs["demo-arm"]
+    observation, beta = fitted(compiled, replace(log, tau=log.tau * [1.0, 1.0, 1000.0]))
+    (found, *_) = findings_of_fit(compiled, observation, beta)
+    assert found.certain
+    head, _, tail = found.line.partition(" times what the other joints say of it")
+    assert head.startswith("joint 3: the measured torque is ") and tail
+    assert float(head.split()[-1]) == pytest.approx(1000.0, rel=0.05)
+
+
+def test_compare_says_what_diagnose_says(runs):
+    compiled, (train, other) = runs["demo-arm"]
+    _, beta = fitted(compiled, train)
+    swapped = observe(compiled, [replace(other, tau=other.tau[:, [1, 0, 2]])])
+    lines = [found.line for found in findings_of_prediction(compiled, swapped, beta)]
+    assert any("looks like that of joint" in line for line in lines)
+    assert findings_of_prediction(compiled, observe(compiled, [other]), beta) == ()
+
+
+@pytest.fixture
+def arm(tmp_path, capsys):
+    """A folder with a simulated log, one in degrees with a spike, and a model of the first."""
+    for name, seed in (("run", "1"), ("other", "2")):
+        main(["simulate", "demo-arm", "--duration", "10", "--rate", "250", "--seed", seed,
+              "--out", str(tmp_path / f"{name}.parquet")])  # fmt: skip
+    table = pq.read_table(tmp_path / "other.parquet")
+    columns = {name: table[name].to_numpy().copy() for name in table.column_names}
+    columns["q2"] = np.degrees(columns["q2"])
+    columns["tau1"][1000] += 2000.0
+    pq.write_table(pa.table(columns), tmp_path / "bad.parquet")
+    words = ["fit", "demo-arm", tmp_path / "run.parquet", "--out", tmp_path / "m.json"]
+    assert main([str(word) for word in words]) == 0
+    capsys.readouterr()
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", ["fit", "compare"])
+def test_the_commands_print_and_write_the_doubts(arm, capsys, command):
+    words = {
+        "fit": ["fit", "demo-arm", arm / "bad.parquet", "--out", arm / "b.json"],
+        "compare": ["compare", arm / "m.json", arm / "bad.parquet"],
+    }[command]
+    assert main([str(word) for word in (*words, "--json", arm / "out.json")]) == 0
+    out = capsys.readouterr().out
+    content = json.loads((arm / "out.json").read_text())
+    for said in ("joint 2: its position looks like degrees", "tau1: a spike of "):
+        assert said in out
+        assert any(said in line for line in content["doubts"])
+    assert any(line.startswith("bad.parquet: tau1: a spike") for line in content["doubts"])
+
+
+def test_sound_logs_leave_the_doubts_empty(arm, capsys):
+    words = ["compare", arm / "m.json", arm / "other.parquet", "--json", arm / "out.json"]
+    assert main([str(word) for word in words]) == 0
+    assert json.loads((arm / "out.json").read_text())["doubts"] == []
+
+
+def test_damaged_values_are_used_when_asked_for(arm, capsys):
+    words = ["fit", "demo-arm", arm / "bad.parquet", "--out", arm / "b.json", "--keep-damaged"]
+    assert main([str(word) for word in words]) == 0
+    assert "values that no robot can have made are used as logged" in capsys.readouterr().out

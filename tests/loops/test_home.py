@@ -1,0 +1,305 @@
+"""[home] that is missing or poor is found, a singular one is refused."""
+
+import tomllib
+from functools import cache
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import LoopError
+from modeler.robot import Robot, builtin_text, robot_from_text
+from modeler.symbolic import HomeModes, derive_model, modes_near, with_home
+from modeler.symbolic.linkage import linkage_of
+from modeler.symbolic.singularity import SINGULAR
+from tests.loops.test_loops_mistakes import CRANK
+
+BUILT_IN = (
+    "orthoglide-2003", "orthoglide-2012", "evra", "stewart", "delta", "five-bar", "3rrr", "sr400",
+)  # fmt: skip
+SHARED = ("twoloops", "twoloops_mixed", "excavator", "excavator_bucket", "3rpr_sim", "rccc")
+CLOSED = 1e-9
+
+
+def without_home(text: str) -> str:
+    """The robot file without the table."""
+    kept, table = [], ""
+    for line in text.splitlines():
+        table = line.split("#")[0].strip() if line.startswith("[") else table
+        if table != "[home]":
+            kept.append(line)
+    assert "home" not in tomllib.loads("\n".join(kept))
+    return "\n".join(kept)
+
+
+@cache
+def of_text(text: str) -> Robot:
+    return robot_from_text(text, "robot.toml")
+
+
+def check(found: HomeModes) -> None:
+    """Laws of assembly modes: closed, regular, with the actuated joints together, all different."""
+    linkage = found.linkage
+    u = np.array([mode.posture for mode in found.modes])
+    assert np.max(np.abs(linkage.closing.residuals(u))) < CLOSED * linkage.closing.size
+    assert np.all(linkage.closing.aligned(u)) and np.min(linkage.sigma(u)) > SINGULAR
+    given = list(linkage.closing.given)
+    assert np.ptp(u[:, given], axis=0).max() == 0.0
+    shapes = linkage.shape(u)
+    apart = np.max(np.abs(shapes[:, None] - shapes), axis=2) + np.eye(len(u))
+    assert apart.min() > 1e-5
+    letters = [mode.letter for mode in found.modes]
+    assert letters[0] == "A" and len(set(letters)) == len(letters)
+
+
+def check_found(text: str) -> None:
+    """A home is found without [home], and the posture of the file is among the modes at its q."""
+    robot, bare = of_text(text), of_text(without_home(text))
+    home = with_home(bare)
+    assert "[home] found: mode A" in home.told
+    model = derive_model(bare)
+    assert model.robot.home == home.robot.home
+    check(modes_near(bare, {}))
+    actuated = {joint.name: robot.home.get(joint.name, 0.0) for joint in robot.coordinates}
+    found = modes_near(robot, actuated)
+    check(found)
+    assert found.own is not None
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_home_is_found_for_built_in_robots(name) -> None:
+    check_found(builtin_text(name))
+
+
+@pytest.mark.parametrize("name", SHARED)
+def test_home_is_found_for_further_robots(loop_robots_folder, name) -> None:
+    text = (loop_robots_folder / f"{name}.toml").read_text(encoding="utf-8")
+    if name == "rccc":  # its [home] is one that must be polished
+        robot = with_home(of_text(text)).robot
+        lines = [f"q{row} = {value!r}" for row, value in robot.home.items()]
+        text = without_home(text) + "\n[home]\n" + "\n".join(lines)
+    check_found(text)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_a_good_home_stays(name) -> None:
+    robot = of_text(builtin_text(name))
+    home = with_home(robot)
+    assert home.robot is robot and home.told == ""
+
+
+def test_the_modes_of_a_crank_are_those_of_its_triangle() -> None:
+    """R sin q1 + L sin(q1 + q2) = 0 has two solutions."""
+    found = modes_near(of_text(CRANK), {"1": 0.7})
+    check(found)
+    seen = sorted((mode.posture[1], mode.posture[2]) for mode in found.modes)
+    tilt = np.arcsin(0.10 * np.sin(0.7) / 0.35)
+    expected = sorted(
+        (way - 0.7, 0.10 * np.cos(0.7) + 0.35 * np.cos(way)) for way in (-tilt, tilt - np.pi)
+    )
+    turned = [((q2 + np.pi) % (2 * np.pi) - np.pi, q3) for q2, q3 in expected]
+    assert np.array(seen) == pytest.approx(np.array(sorted(turned)), abs=1e-9)
+    assert found.modes[0].posture[2] > 0.0  # the travel that is longer than zero
+
+
+@pytest.mark.parametrize("factor", [1e-3, 1e3])
+def test_modes_do_not_depend_on_the_unit_of_length(factor) -> None:
+    larger = CRANK.replace("R = 0.10", f"R = {0.10 * factor}").replace("0.35", f"{0.35 * factor}")
+    larger = larger.replace("q3 = 0.33", f"q3 = {0.33 * factor}")
+    one, other = modes_near(of_text(CRANK), {}), modes_near(of_text(larger), {})
+    check(other)
+    scale = np.where(one.linkage.lengths, factor, 1.0)
+    for mode, same in zip(one.modes, other.modes, strict=True):
+        assert same.posture / scale == pytest.approx(mode.posture, abs=1e-9)
+        assert same.sigma == pytest.approx(mode.sigma, rel=1e-3)
+
+
+def platform_angles(lengths: np.ndarray, R: float, r: float) -> list[float]:
+    """Angles of a planar 3-RPR platform with these legs, by a scan that knows no Newton.
+
+    For an angle of the platform, its place is where the circles of two legs meet; the third leg
+    says whether the angle is one.
+    """
+    feet = R * np.exp(1j * (np.pi / 2 + 2 * np.pi / 3 * np.arange(3)))
+    corners = feet / R * r
+    turn = np.linspace(-np.pi, np.pi, 200_001)
+    # Leg i: |p + corner_i e^(i turn) - foot_i| = length_i: circles of p around foot - corner.
+    centres = feet[:, None] - corners[:, None] * np.exp(1j * turn)
+    between = centres[1] - centres[0]
+    distance = np.abs(between)
+    along = (lengths[0] ** 2 - lengths[1] ** 2 + distance**2) / (2 * distance)
+    square = lengths[0] ** 2 - along**2
+    across = np.sqrt(np.where(square >= 0, square, np.nan))
+    angles = []
+    for side in (1, -1):
+        p = centres[0] + between / distance * (along + side * 1j * across)
+        miss = np.abs(p - centres[2]) - lengths[2]
+        angles += list(turn[:-1][miss[:-1] * miss[1:] < 0])
+    return sorted(angles)
+
+
+RPR = """\
+name = "rpr"
+gravity = [0, 0, 0]
+legs = ["1", "2", "3"]
+
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+  ["B1", "0", 0, 2, "pi/2", 0, 0.8, 0, 0],
+  ["B2", "0", 0, 2, "7*pi/6", 0, 0.8, 0, 0],
+  ["B3", "0", 0, 2, "11*pi/6", 0, 0.8, 0, 0],
+  ["1{i}", "B{i}", 0, 0, 0, 0, 0, "q1{i}", 0],
+  ["2{i}", "1{i}", 1, 1, 0, "-pi/2", 0, 0, "q2{i}"],
+  ["3{i}", "2{i}", 0, 2, 0, "pi/2", 0, 0, 0],
+  ["41", "P", 0, 2, "pi/2", 0, 0.2, 0, 0],
+  ["42", "P", 0, 2, "7*pi/6", 0, 0.2, 0, 0],
+  ["43", "P", 0, 2, "11*pi/6", 0, 0.2, 0, 0],
+]
+
+[platform]
+name = "P"
+motion = "planar"
+
+[loops]
+rows = [["leg {i}", "3{i}", "4{i}", "revolute"]]
+"""
+
+
+@pytest.mark.parametrize("lengths", [(0.7, 0.75, 0.65), (0.9, 0.6, 0.8), (0.75, 0.95, 0.85)])
+def test_all_modes_of_a_planar_platform_are_found(lengths) -> None:
+    found = modes_near(of_text(RPR), dict(zip(("21", "22", "23"), lengths, strict=True)))
+    check(found)
+    place = [joint.name for joint in found.linkage.free].index("P")
+    turns = sorted(mode.posture[place] for mode in found.modes)
+    expected = platform_angles(np.array(lengths), 0.8, 0.2)
+    assert len(expected) >= 2
+    assert turns == pytest.approx(expected, abs=1e-4)
+
+
+def test_a_cylinder_is_longer_than_zero() -> None:
+    """Of two ways to write a leg, [1.2, -0.7] and [1.2 - pi, 0.7], the second is meant."""
+    home = with_home(of_text(RPR)).robot.home
+    assert all(home[name] > 0.0 for name in ("21", "22", "23"))
+
+
+def test_an_excavator_gets_cylinders_longer_than_zero(loop_robots_folder) -> None:
+    text = (loop_robots_folder / "excavator_firsttry.toml").read_text(encoding="utf-8")
+    home = with_home(of_text(text))
+    assert home.robot.home["6"] > 0.0 and home.robot.home["8"] > 0.0
+    assert "[home] completed: moved q8 1.5 -> " in home.told and "\n" not in home.told
+    assert derive_model(of_text(text)).closure is not None
+
+
+def test_hints_choose_the_mode() -> None:
+    """A sign of one passive joint is enough; the joints that are stated stay where they can."""
+    left = CRANK[: CRANK.index("[home]")]
+    for way in (1, -1):
+        home = with_home(of_text(left + f"[home]\nq1 = 0.7\nq3 = {way * 0.3}\n")).robot.home
+        assert home["1"] == 0.7 and np.sign(home["3"]) == way
+
+
+def test_limits_choose_the_posture() -> None:
+    text = CRANK[: CRANK.index("[home]")] + "[limits]\n1 = [2.0, 2.4, 1, 1]\n3 = [-1, 0, 1, 1]\n"
+    home = with_home(of_text(text)).robot.home
+    assert home["1"] == pytest.approx(2.2) and home["3"] < 0.0
+
+
+def test_a_home_out_of_reach_is_moved_and_told() -> None:
+    home = with_home(of_text(CRANK.replace("R = 0.10", "R = 0.45")))
+    assert "crank: [home] completed: moved q1 1.571 -> " in home.told
+    assert abs(0.45 * np.sin(home.robot.home["1"])) < 0.35
+    derive_model(of_text(CRANK.replace("R = 0.10", "R = 0.45")))
+
+
+def test_a_poor_home_is_polished_to_the_mode_that_is_near(loop_robots_folder) -> None:
+    text = (loop_robots_folder / "twoloops_poorhome.toml").read_text(encoding="utf-8")
+    good = (loop_robots_folder / "twoloops.toml").read_text(encoding="utf-8")
+    home = with_home(of_text(text))
+    assert "[home] completed: what it leaves out was found; mode A of" in home.told
+    expected = of_text(good).home
+    moved = [home.robot.home[name] - value for name, value in expected.items()]
+    assert np.array(moved) == pytest.approx(0.0, abs=1e-5)
+
+
+def test_a_singular_home_is_refused_with_what_is_lost(loop_robots_folder) -> None:
+    """Three legs that meet in the middle of the platform let it turn."""
+    text = (loop_robots_folder / "3rpr_singular.toml").read_text(encoding="utf-8")
+    with pytest.raises(LoopError) as caught:
+        derive_model(of_text(text))
+    told = str(caught.value)
+    assert "the loops are singular at [home]: joints P, 11, 12, 13 could move there" in told
+    assert "(qP : q11 : q12 : q13 = 1 : -0.33 : -0.33 : -0.33; singular value " in told
+    stated = dict(entry.split(" = ") for entry in told.split("such as ")[1].split(", "))
+    lines = "\n".join(f"{name} = {value}" for name, value in stated.items())
+    again = of_text(without_home(text) + f"\n[home]\n{lines}\n")
+    assert with_home(again).robot is again  # the posture that is offered is good as it stands
+
+
+def test_small_singular_values_are_told_from_large_ones() -> None:
+    """Just off the singular posture it is no longer refused: the legs reach a little further."""
+    text = RPR + '[home]\nqP = 0.1\n"q1{i}" = 1.5\n"q2{i}" = LENGTH\n'
+    with pytest.raises(LoopError, match="singular"):
+        derive_model(of_text(text.replace("LENGTH", "0.6")))
+    model = derive_model(of_text(text.replace("LENGTH", "0.61")))
+    linkage = linkage_of(model)
+    assert linkage is not None and model.closure is not None
+    assert 0.01 < linkage.sigma(np.array([model.closure.home]))[0] < 0.3
+
+
+def test_a_found_home_is_the_same_as_a_written_one() -> None:
+    """Signatures are of the emitted text: to the last digit."""
+    bare = of_text(without_home(builtin_text("delta")))
+    found = derive_model(bare)
+    lines = [f"q{name} = {value!r}" for name, value in with_home(bare).robot.home.items()]
+    stated = derive_model(of_text(bare.text + "\n[home]\n" + "\n".join(lines)))
+    assert found.closure is not None and stated.closure is not None
+    assert found.closure.home == stated.closure.home
+    assert found.robot.relations.keys() == stated.robot.relations.keys()
+
+
+def test_a_parallelogram_is_not_crossed() -> None:
+    """Equal lengths keep directions; crossed, the same lengths close too."""
+    found = modes_near(of_text(without_home(builtin_text("sr400"))), {})
+    assert len(found.modes) == 2
+    bare = of_text(without_home(builtin_text("sr400")))
+    assert set(derive_model(bare).robot.relations) >= {"3", "8", "9"}
+
+
+PARALLELOGRAM = """\
+name = "parallelogram"
+gravity = [0, -9.81, 0]
+
+[mdh]
+columns = ["j", "a", "mu", "sigma", "d", "theta"]
+rows = [
+  ["1", "0", 1, 0, 0, "q1"],
+  ["2", "0", 0, 0, 0.2, "q2"],
+  ["3", "1", 0, 0, 0.5, "q3"],
+  ["2e", "2", 0, 2, 0.5, 0],
+  ["3e", "3", 0, 2, 0.2, 0],
+]
+
+[loops]
+rows = [["p", "3e", "2e", "revolute"]]
+
+[limits]
+1 = [-0.6, 0.6, 1, 1]
+"""
+
+
+def test_a_home_is_far_from_where_a_parallelogram_could_cross() -> None:
+    """In the middle of the limits it is flat; so it stands elsewhere within them, uncrossed."""
+    found = modes_near(of_text(PARALLELOGRAM), {})
+    check(found)
+    q1, q2, q3 = found.modes[0].posture
+    assert 0.3 < abs(q1) <= 0.6 and found.modes[0].kept
+    assert (q2, q3) == pytest.approx((q1, -q1), abs=1e-9)
+    assert len(found.modes) == 2 and found.modes[0].sigma > 0.1
+
+
+@pytest.mark.parametrize("name", ["wrist", "orthoglide-leg"])
+def test_without_a_loop_to_close_there_are_no_modes(name) -> None:
+    robot = of_text(builtin_text(name))
+    assert with_home(robot).robot is robot
+    with pytest.raises(LoopError, match=r"there is no loop to close; \[home\] is asked for robots"):
+        modes_near(robot, {})

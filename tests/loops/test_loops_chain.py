@@ -1,0 +1,94 @@
+"""Robots with loops through the whole story: a hidden effect is named, added, and gone after."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.robot import read_robot
+from modeler.simulate import HiddenEffect, SimulationSettings, simulate
+from tests.loops.chain import Chain, chain
+from tests.robots import TIED
+
+QUICK = ("five-bar", "orthoglide-2003")
+
+
+def check(story: Chain) -> None:
+    assert not any(story.statuses.values()), story.message
+    assert story.named, story.found
+    assert story.errors[-1] < story.errors[0]
+    assert story.hidden not in story.left
+
+
+@pytest.mark.parametrize("robot", QUICK)
+def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
+    check(chain(robot, tmp_path))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "robot", [name for name in TIED if name not in QUICK and read_robot(name).loops]
+)
+def test_on_every_robot_with_loops(robot: str, tmp_path: Path) -> None:
+    check(chain(robot, tmp_path))
+
+
+@pytest.mark.parametrize("file", ["excavator_sim", "3rpr_sim"])
+def test_on_robots_from_elsewhere(file: str, loop_robots_folder: Path, tmp_path: Path) -> None:
+    check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
+
+
+def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
+    words = ["simulate", robot, "--duration", "8", "--rate", "200", "--seed", str(seed)]
+    assert main([*words, *hidden, "--out", str(folder / name)]) == 0
+    return str(folder / name)
+
+
+def test_what_is_found_and_cannot_be_added_is_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A spring reads the position, which the C of a robot with loops does not give to effects."""
+    hidden = ("--hide", "spring@12")
+    train = logged("orthoglide-2003", tmp_path, "a.csv", 1, *hidden)
+    held_out = logged("orthoglide-2003", tmp_path, "b.csv", 2, *hidden)
+    models = [str(tmp_path / f"m{k}.json") for k in (1, 2)]
+    assert main(["fit", "orthoglide-2003", train, "--out", models[0]]) == 0
+    capsys.readouterr()
+    words = ["add", models[0], "auto", train, "--holdout", held_out, "--out", models[1]]
+    assert main([*words, "--report", str(tmp_path / "page.html")]) == 0
+    out, err = capsys.readouterr()
+    assert "left out: spring, joint 12 (spring: cannot be added (orthoglide-2003 has loops" in out
+    assert "nothing is added: the model stays as it was fitted" in out and err == ""
+    assert not (tmp_path / "page.html").exists()
+    assert main(["compare", models[1], held_out]) == 0
+
+
+def test_a_load_on_the_platform_is_called_a_load(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The mass of a platform that translates is felt like masses of the legs that end on it."""
+    hidden = ("--hide", "payload:mass=1.983")
+    plain = logged("orthoglide-2003", tmp_path, "a.csv", 1)
+    loaded = [logged("orthoglide-2003", tmp_path, f"{k}.csv", k, *hidden) for k in (2, 3)]
+    model = str(tmp_path / "m.json")
+    assert main(["fit", "orthoglide-2003", plain, "--out", model]) == 0
+    capsys.readouterr()
+    assert main(["diagnose", model, loaded[0], "--holdout", loaded[1]]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("missing: a load on the last link (payload)"), said
+    assert "payload" not in said.split("cannot show:")[-1]
+
+
+@pytest.mark.parametrize("robot", ["five-bar", "orthoglide-2003", "delta"])
+def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
+    """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
+    source = read_robot(robot)
+    still = SimulationSettings(duration=6.0, rate=50.0, torque_noise=0.0, process_noise=0.0)
+    with_friction = SimulationSettings(
+        duration=6.0, rate=50.0, torque_noise=0.0, hidden=(HiddenEffect("passive_friction"),)
+    )
+    before, after = (simulate(source, settings).truth.tau for settings in (still, with_friction))
+    needed = np.sqrt(np.mean(before**2, axis=0))
+    share = np.sqrt(np.mean((after - before) ** 2, axis=0)) / needed
+    assert 0.03 < share.max() < 0.5

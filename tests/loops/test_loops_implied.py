@@ -1,0 +1,278 @@
+"""Relations that loops imply, and the rank of the torques over all that is reached.
+
+The law on every robot with loops: relations hold at closed postures found by other means, and the
+number of base parameters is the rank of the torques there.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+from modeler.base import base_parameters
+from modeler.base.numeric import regressor_values
+from modeler.base.render import as_json, proof_text
+from modeler.core.errors import LoopError
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.symbolic import derive_model
+from modeler.symbolic.closed_states import closed_motion, closing_of
+from tests.loops.own_walk import Linkage, evaluated
+from tests.modules import module
+from tests.robots import TIED
+
+LOOPED = [name for name in TIED if read_robot(name).loops]
+
+# file -> inertial base parameters and all, by an independent program; kind of proof
+FILES = {
+    "offset_parallelogram": (3, 5, "exact"),
+    "rccc": (16, 16, "numeric"),
+    "rccc_wide": (16, 16, "numeric"),
+    "twoloops": (22, 22, "exact at the given values"),
+    "twoloops_poorhome": (22, 22, "exact at the given values"),
+    "twoloops_mixed": (22, 22, "exact at the given values"),
+    "excavator": (40, 49, "exact"),
+    "excavator_bucket": (60, 60, "exact"),
+    "3rpr_sim": (19, 28, "exact"),
+}
+
+
+def home_of(robot):
+    """A closed posture near [home], by Newton of the tests."""
+    linkage = Linkage(robot)
+    home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free])[None]
+    for _ in range(4):
+        home = linkage.corrected(home, np.zeros((1, len(linkage.given))), 3)
+    home = home[0]
+    assert np.max(np.abs(linkage.residuals(home[None]))) < 1e-10 * linkage.size
+    return linkage, home
+
+
+def check_laws(robot, model, base):
+    """Relations and rank at closed postures of a kinematics of its own."""
+    linkage, home = home_of(robot)
+    u = linkage.walked(home)
+    assert len(u) > 20
+    known = linkage.variables(u)
+    for name, expression in model.robot.relations.items():
+        error = known[f"q{name}"] - evaluated(expression, known)
+        assert np.max(np.abs(error)) < 1e-9, (name, expression.text)
+    singular = spectrum(model, np.stack([known[j.variable] for j in model.robot.free], axis=1))
+    dropped = singular[base.rank] if base.rank < len(singular) else 1e-16
+    assert singular[base.rank - 1] > 1e3 * max(dropped, 1e-15)
+
+
+def spectrum(model, u, seed=4):
+    """Singular values of the torque regressor at closed postures, columns of length 1."""
+    rng = np.random.default_rng(seed)
+    rows = len(u) * len(model.robot.coordinates)
+    u = np.concatenate([u] * (1 + 3 * len(model.columns) // rows))
+    if model.closure is None:
+        ud, udd = rng.normal(size=(2, *u.shape))
+    else:
+        u = closing_of(model).closed(u)
+        qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
+        motion = closed_motion(model, u, qd)
+        ud = np.einsum("nij,nj->ni", motion.coupling, qd)
+        udd = np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
+    W = regressor_values(model, (u, ud, udd)).reshape(-1, len(model.columns))
+    lengths = np.linalg.norm(W, axis=0)
+    W = W[:, lengths > 1e-12 * lengths.max()]
+    return np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
+
+
+@pytest.mark.parametrize("name", LOOPED)
+def test_relations_and_rank_hold_over_wide_postures(name):
+    check_laws(read_robot(name), module(name).model, module(name).base)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_further_robots(name, loop_robots_folder):
+    robot = read_robot(str(loop_robots_folder / f"{name}.toml"))
+    model = derive_model(robot)
+    base = base_parameters(model)
+    inertial, count, kind = FILES[name]
+    assert (base.counts()["inertial"], base.rank, base.proof.kind) == (inertial, count, kind)
+    if name == "twoloops_poorhome":  # from there Newton of the tests goes to another mode
+        robot = read_robot(str(loop_robots_folder / "twoloops.toml"))
+    check_laws(robot, model, base)
+
+
+def changed(text, rng):
+    """The file with other lengths and angles."""
+
+    def other(match):
+        factor = 1.0 if match[1] == "g" else rng.uniform(0.96, 1.04)
+        return f"{match[1]} = {float(match[2]) * factor:.6f}"
+
+    head, symbols, tail = re.split(r"(?ms)(^\[symbols\].*?)(?=^\[)", text, maxsplit=1)
+    return head + re.sub(r"(?m)^(\w+) = (-?[\d.]+)(?=\s*(#.*)?$)", other, symbols) + tail
+
+
+FOUR_BAR = """
+name = "four-bar"
+gravity = [0, 0, "-g"]
+[symbols]
+g = 9.81
+a = 0.2
+b = 0.45
+c = 0.35
+f = 0.4
+[mdh]
+columns = ["j", "a", "mu", "sigma", "alpha", "d", "theta"]
+rows = [
+    ["w", "0", 1, 0, 0, 0, "qw"],
+    ["1", "w", 1, 0, "pi/2", 0, "q1"],
+    ["2", "1", 0, 0, 0, "a", "q2"],
+    ["w2", "w", 0, 2, "pi/2", "f", 0],
+    ["3", "w2", 0, 0, 0, 0, "q3"],
+    ["2e", "2", 0, 2, 0, "b", 0],
+    ["3e", "3", 0, 2, 0, "c", 0],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["p", "2e", "3e", "revolute"]]
+[home]
+q1 = 1.2
+q2 = -0.8
+q3 = 1.4
+"""
+
+PANTOGRAPH = """
+name = "pantograph"
+gravity = [0, "-g", 0]
+[symbols]
+g = 9.81
+a = 0.2
+b = 0.35
+c = 0.3
+h = 0.18
+[mdh]
+columns = ["j", "a", "mu", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+    ["x", "0", 1, 1, "pi/2", 0, 0, "qx"],
+    ["xz", "x", 0, 2, "-pi/2", 0, 0, 0],
+    ["1", "xz", 0, 0, 0, 0, "q1", 0],
+    ["2", "1", 0, 0, 0, "a", "q2", 0],
+    ["3", "1", 0, 0, 0, "a + b", "q3", 0],
+    ["4", "2", 0, 0, 0, "c", "q4", 0],
+    ["4e", "4", 0, 2, 0, "b", 0, 0],
+    ["3e", "3", 0, 2, 0, "c", 0, 0],
+    ["s0", "0", 0, 2, 0, "h", 0, 0],
+    ["s", "s0", 1, 1, "pi/2", 0, 0, "qs"],
+    ["se", "s", 0, 2, "-pi/2", 0, 0, 0],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["p", "4e", "3e", "revolute"], ["t", "4", "se", "revolute"]]
+[home]
+q1 = 0.6
+q2 = 0.9
+q3 = 0.9
+q4 = -0.9
+qs = -0.41
+"""
+
+OFFSET = """
+name = "offset"
+gravity = [0, "-g", 0]
+[symbols]
+g = 9.81
+L = 0.5
+D = 0.2
+w = 0.4
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "d", "theta"]
+rows = [
+    ["1", "0", 1, 0, 0, 0, "q1"],
+    ["2", "0", 0, 0, "w", "D", "q2"],
+    ["3", "1", 0, 0, 0, "L", "q3"],
+    ["2e", "2", 0, 2, 0, "L", 0],
+    ["3e", "3", 0, 2, "w", "D", 0],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["p", "3e", "2e", "revolute"]]
+[home]
+q1 = 1.2
+q2 = 0.8
+q3 = -1.2
+"""
+
+WRITTEN = {"four-bar": (FOUR_BAR, 19), "pantograph": (PANTOGRAPH, 8), "offset": (OFFSET, 3)}
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_relations_around_loops_are_exact_in_letters(name):
+    """Products of inertia of a swinging four-bar, first moments of a pantograph on sliders."""
+    text, rank = WRITTEN[name]
+    robot = robot_from_text(text, name)
+    model = derive_model(robot)
+    base = base_parameters(model)
+    assert (base.rank, base.proof.kind) == (rank, "exact")
+    check_laws(robot, model, base)
+
+
+@pytest.mark.parametrize("name", [*LOOPED, *WRITTEN])
+def test_nothing_false_is_found_at_other_lengths(name):
+    """Values changed at random: what still closes obeys the laws; relations in letters stay."""
+    text = WRITTEN[name][0] if name in WRITTEN else builtin_text(name)
+    before = derive_model(robot_from_text(text, name))
+    rng = np.random.default_rng(8)
+    for _ in range(6):
+        robot = robot_from_text(changed(text, rng), name)
+        try:
+            model = derive_model(robot)
+        except LoopError:
+            continue
+        texts = [{n: e.text for n, e in m.robot.relations.items()} for m in (before, model)]
+        assert texts[0] == texts[1] and not before.special
+        check_laws(robot, model, base_parameters(model))
+        return
+    pytest.fail(f"{name} closes at none of six choices of lengths")
+
+
+@pytest.mark.parametrize(
+    ("change", "relation", "special"),
+    [
+        (("w = 0.4", "w = 0.4"), "q1 - w", False),
+        (("w = 0.4", 'v = 0.1\nw = "pi/4 + 3*v/2"'), "q1 - 3*v/2 - pi/4", False),
+        (("w = 0.4", 'v = 0.3\nw = "sqrt(v)"'), "q1 - w", False),
+        (('"w"', "0.4123"), "q1 - 4123/10000", False),
+        (('"w",  0.2', '"w", 0.2'), "q1 - w", False),
+        ((', "L", 0],\n    ["3e"', ', "K", 0],\n    ["3e"'), "q1 - w", True),
+    ],
+)
+def test_constants_of_relations(change, relation, special):
+    """Sums of symbols and pi, symbols that are no such sums, numbers; equal values by chance."""
+    text = OFFSET.replace(*change).replace("D = 0.2", "D = 0.2\nK = 0.5")
+    model = derive_model(robot_from_text(text, "offset"))
+    assert {n: e.text for n, e in model.robot.relations.items()} == {"3": "-q1", "2": relation}
+    assert bool(model.special) == special and not model.unproven
+    assert base_parameters(model).proof.kind == (
+        "exact at the given values" if special else "exact"
+    )
+
+
+def test_what_is_not_proven_is_not_used():
+    """A table with a number of 16 digits: the relation has no short constant."""
+    text = OFFSET.replace('"w"', "0.41234567891234567")
+    model = derive_model(robot_from_text(text, "offset"))
+    assert not model.robot.relations and set(model.unproven) == {"2", "3"}
+    base = base_parameters(model)
+    assert base.rank == 3
+    assert "not provably, are solved for: 3, 2" in base.proof.statement
+
+
+def test_the_proof_says_how_far_the_postures_went(loop_robots_folder):
+    robot = read_robot(str(loop_robots_folder / "rccc_wide.toml"))
+    base = base_parameters(derive_model(robot))
+    sampling = base.proof.sampling
+    assert sampling is not None
+    low, high = sampling.ranges["1"]
+    assert -3.0 <= low < -2.5 and 2.5 < high <= 3.0
+    assert base.proof.gap[0] > 1e6 * base.proof.gap[1]
+    text = " ".join(proof_text(base.proof).split())
+    assert "closed postures on walks from [home]" in text and "q1 -" in text
+    told = as_json(robot.name, base)["certificate"]["sampling"]
+    assert told["ranges"]["1"] == [low, high]
+    assert told["distance_to_singularity"] == sampling.distance > 0.01

@@ -1,0 +1,252 @@
+"""Leaps, wraps, spikes and repeated values: named with joint, time and size, and mended."""
+
+import dataclasses
+import re
+from collections import Counter
+
+import numpy as np
+import pytest
+from physical import KINDS, rough_log
+from stand_in import Row, StandIn, planar_arm, rotor, slider
+
+from modeler.core.contract import JointSpec
+from modeler.observation import Log, Processing, observe, processing_from_json, read_log
+from modeler.observation.damage import repaired
+
+ARMS = {
+    "slider": slider(),
+    "rotor": rotor(),
+    "planar": planar_arm(),
+    "four": StandIn([Row(), Row(np.pi / 2), Row(d=0.4), Row(-np.pi / 2)]),
+}
+
+
+def drawn(random, name, rate=None, noise=None):
+    """A log of Fourier motion of one of the arms, and the parameters that made its torques."""
+    arm = ARMS[name]
+    joints = len(arm.rows)
+    rate = rate or random.choice([100, 200, 500, 1000, 2000])
+    t = np.arange(int(6.0 * rate)) / rate
+    w = 2 * np.pi * random.uniform(0.1, 0.9, (3, joints))
+    size = random.uniform(0.2, 0.8, (3, joints)) / np.arange(1, 4)[:, None]
+    angle = t[:, None, None] * w + random.uniform(0.0, 6.0, (3, joints))
+    q = (size * np.sin(angle)).sum(1)
+    qd = (size * w * np.cos(angle)).sum(1)
+    qdd = -(size * w**2 * np.sin(angle)).sum(1)
+    beta = random.uniform(0.5, 2.0, len(arm.spec.base))
+    tau = arm.base_regressor(q, qd, qdd) @ beta
+    noise = 10 ** random.uniform(-3.0, -1.0) if noise is None else noise
+    tau = tau + noise * np.sqrt(np.mean(tau**2, axis=0)) * random.normal(size=tau.shape)
+    counts = 2 * np.pi / 10 ** random.uniform(3.5, 6.0)
+    measured = np.round((q + 0.3 * counts * random.normal(size=q.shape)) / counts) * counts
+    return Log("run", tuple(j.name for j in arm.spec.joints), t, measured, tau), beta
+
+
+@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize("rate", [100, 500, 2000])
+def test_honest_logs_are_left_as_they_are(name, rate):
+    """Coulomb friction leaps at every reversal; noise and steps of the encoder are drawn."""
+    for seed in range(6):
+        log, _ = drawn(np.random.default_rng([seed, rate]), name, rate)
+        mended, found = repaired(log, ARMS[name].spec)
+        assert found == ()
+        assert np.array_equal(mended.q, log.q) and np.array_equal(mended.tau, log.tau)
+        assert mended.segment is None
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(4))
+def test_blows_stops_sticking_and_kicks_are_physics(kind, seed):
+    log = rough_log(seed, 1000, kind)
+    spec = rotor().spec
+    for every in (1, 2, 10):
+        slower = dataclasses.replace(
+            log, time=log.time[::every], q=log.q[::every], tau=log.tau[::every]
+        )
+        assert repaired(slower, spec)[1] == ()
+
+
+def leap(random, log, j, k, size):
+    log.q[k:, j] += size * random.choice([-1, 1])
+
+
+def spike(random, log, j, k, size):
+    log.q[k : k + random.integers(1, 6), j] += size * random.choice([-1, 1])
+
+
+def turn(random, log, j, k, size):
+    log.q[k:, j] += 2 * np.pi * random.choice([-1, 1])
+
+
+def wrap(random, log, j, k, size):
+    log.q[:, j] = np.mod(log.q[:, j] - 0.5 * (log.q[k, j] + log.q[k - 1, j]), 2 * np.pi)
+
+
+def glitch(random, log, j, k, size):
+    low, high = np.quantile(log.tau[:, j], [0.01, 0.99])
+    stop = k + random.integers(1, 4)
+    log.tau[k:stop, j] += random.uniform(0.5, 5.0) * (high - low) * random.choice([-1, 1])
+
+
+def frozen(random, log, j, k, size):
+    log.q[k : k + random.integers(5, 25), j] = log.q[k, j]
+
+
+DEFECTS = {
+    "zero": leap, "spike": spike, "turn": turn, "wrap": wrap, "glitch": glitch, "frozen": frozen,
+}  # fmt: skip
+NAMED = {"turn": {"wrap"}, "glitch": {"spike"}, "zero": {"zero", "lost"}}
+
+
+def damaged(random, defect, name):
+    """A log with one defect: the log, its joint and its time; None where it would not show."""
+    log, _ = drawn(random, name)
+    j, k = int(random.integers(len(log.joints))), int(random.integers(40, log.rows - 60))
+    top = np.quantile(np.abs(np.diff(log.q[:, j])), 0.98)
+    size = max(10 ** random.uniform(np.log10(0.02), 0.0), 2.0 * top)
+    if defect in ("turn", "wrap") and ARMS[name].spec.joints[j].kind == "prismatic":
+        return None
+    if defect == "frozen" and abs(log.q[k + 4, j] - log.q[k, j]) < 2.5 * top:
+        return None  # it hardly moved: what was repeated was true
+    DEFECTS[defect](random, log, j, k, size)
+    if defect == "wrap":  # wherever it comes by: the first time counts, if it is not the start
+        k = int(np.flatnonzero(np.abs(np.diff(log.q[:, j])) > 3.0)[0]) + 1
+    return log, log.joints[j], log.time[k]
+
+
+@pytest.mark.parametrize("defect", DEFECTS)
+def test_defects_drawn_at_random_are_named_with_joint_and_time(defect):
+    """Of 40 each at least nine in ten, and nothing besides."""
+    random, seen = np.random.default_rng(list(DEFECTS).index(defect)), Counter()
+    while seen.total() < 40:
+        name = str(random.choice(list(ARMS)))
+        drawn_one = damaged(random, defect, name)
+        if drawn_one is None:
+            continue
+        log, joint, time = drawn_one
+        _, found = repaired(log, ARMS[name].spec)
+        right = [
+            one
+            for one in found
+            if one.kind in NAMED.get(defect, {defect})
+            and one.joint == joint
+            and min(abs(np.subtract(one.times, time))) < 3 * log.step
+        ]
+        assert len(found) == len(right), [one.line for one in found]
+        seen[bool(right)] += 1
+    assert seen[True] >= 36
+
+
+def sample(defect, name="planar", joint=1, row=3000, size=0.5):
+    """A quiet log of 1 kHz with one defect of known size."""
+    log, beta = drawn(np.random.default_rng(3), name, 1000, 1e-3)
+    q, tau = log.q, log.tau
+    if defect == "spike":
+        q[row : row + 3, joint] += size
+    if defect == "zero":
+        q[row:, joint] += size
+    if defect == "wrap":
+        cut = q[row, joint] + 1e-4
+        q[:, joint] = cut + np.mod(q[:, joint] - cut, 2 * np.pi)
+    if defect == "glitch":
+        tau[row, joint] += 100.0 * size
+    if defect == "lost":
+        keep = np.r_[:row, row + 60 : log.rows]
+        log = dataclasses.replace(log, time=log.time[: len(keep)], q=q[keep], tau=tau[keep])
+    return log, beta
+
+
+LINES = {
+    "spike": (r"q2: leaps by 0\.[45]\d* rad and back at 3 s, which no joint can; 3 samples "
+              r"\(0\.05 % of the rows\) not used; check the encoder"),
+    "zero": r"q2: leaps by 0\.5 rad at 3 s and goes on from there: .* as in run@3:",
+    "wrap": r"q2: leaps by whole turns of 2 pi rad .* first at [\d.]+ s; counted on",
+    "glitch": (r"tau2: a spike of (49|50)[\d.]* N m at 3 s, far above .* which no other joint "
+               r"feels; 1 sample \(0\.017 % of the rows\) not used; check the wiring"),
+    "lost": r"q[12]: leaps along its motion by .* at 3 s: rows are missing",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("defect", LINES)
+def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
+    model = planar_arm()
+    log, beta = sample(defect)
+    seen = observe(model, [log])
+    text = "\n".join(seen.report.summary())
+    lines = [line for line in text.splitlines() if line.startswith("  ")]
+    assert any(re.search(LINES[defect], line) for line in lines), text
+    assert "--keep-damaged takes them as logged" in text and "resampled" not in text
+    (doubt, *_) = seen.report.doubts()
+    assert doubt.startswith("run: ")
+    raw = observe(model, [log], Processing(keep_damaged=True))
+    assert "are used as logged" in "\n".join(raw.report.summary())
+    clean, _ = drawn(np.random.default_rng(3), "planar", 1000, 1e-3)
+    honest = rms(observe(model, [clean]), beta)
+    assert rms(seen, beta) < 2.0 * honest
+    assert rms(raw, beta) > 2.0 * rms(seen, beta) or defect == "glitch"
+    assert seen.used.mean() > 0.9 * observe(model, [clean]).used.mean()
+
+
+def rms(seen, beta):
+    return float(np.sqrt(np.mean((seen.W @ beta - seen.y) ** 2)))
+
+
+def test_a_new_zero_is_joined_to_the_longest_stretch():
+    log, _ = sample("zero", row=4000)
+    whole, _ = drawn(np.random.default_rng(3), "planar", 1000, 1e-3)
+    mended, (found,) = repaired(log, planar_arm().spec)
+    assert (found.kind, found.size) == ("zero", pytest.approx(0.5, abs=0.01))
+    assert np.max(np.abs(mended.q - whole.q)) < 0.01
+    early, _ = sample("zero", row=1000)
+    mended, _ = repaired(early, planar_arm().spec)
+    assert np.allclose(mended.q[1000:], early.q[1000:])  # the later part is the longer one
+    assert np.max(np.abs(mended.q[:1000] - whole.q[:1000] - [0.0, 0.5])) < 0.01
+
+
+def test_where_rows_are_lost_a_piece_begins():
+    log, _ = sample("lost")
+    seen = observe(planar_arm(), [log])
+    assert seen.report.logs[0].pieces == 2
+    assert {part.segment.time[0] for part in seen.stretches} == {0.0, 3.0}
+
+
+def test_spikes_of_logged_velocities_are_left_out():
+    model = planar_arm()
+    random = np.random.default_rng(8)
+    log, _ = drawn(random, "planar", 500, 1e-3)
+    qd = np.gradient(log.q, log.time, axis=0) + 1e-3 * random.normal(size=log.q.shape)
+    qd[1000, 0] += 5.0
+    log = dataclasses.replace(log, qd=qd)
+    (found,) = repaired(log, model.spec)[1]
+    assert (found.column, found.unit, found.times) == ("qd1", "rad/s", (2.0,))
+
+
+def test_the_choice_is_kept_in_the_model_file():
+    raw = Processing(keep_damaged=True).to_json()
+    assert processing_from_json(raw).keep_damaged
+
+
+def stranger(names, folder):
+    """A manifest for a log of which only the columns are known."""
+    slides = {"emps": {"1"}, "dvrk_psm": {"3"}}.get(folder, set())
+    joints = tuple(
+        JointSpec(n, "prismatic" if n in slides else "revolute", "m" if n in slides else "rad",
+                  "N m", True, 1.0) for n in names
+    )  # fmt: skip
+    return dataclasses.replace(rotor().spec, joints=joints)
+
+
+@pytest.mark.measured
+def test_nothing_is_found_in_measured_logs(measured_folder):
+    """Each was looked at: none has such a defect. Kicks, sticking and stops they do have."""
+    count = 0
+    for path in sorted(measured_folder.glob("*/*.parquet")):
+        if "static_map" in path.name or path.name == "log_motor.parquet":
+            continue  # no time series of joints
+        folder = path.parent.name
+        names = [str(j) for j in range(1, 8)]
+        joints = {"emps": 1, "odrive_cogging": 1, "ur10e": 6, "tx40": 6}.get(folder, 7)
+        spec = stranger(names[:joints], folder)
+        assert repaired(read_log(path, spec), spec)[1] == (), path.name
+        count += 1
+    assert count >= 30

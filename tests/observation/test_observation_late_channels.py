@@ -1,0 +1,58 @@
+"""A channel of another time than the rest is named, with its delay; physics is not called late."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.observation import observe, read_log
+from modeler.observation.late_channels import late_channels
+from modeler.simulate import SimulationSettings, hidden_from_text, simulate, write_log
+from tests.modules import compiled, module
+
+RATE = 200.0
+
+
+def observed(folder, name, seed, hidden=(), **late):
+    """An observation of a simulated log; late: {column of `Log`: (joints, samples)}."""
+    settings = SimulationSettings(
+        duration=10.0, rate=RATE, seed=seed, hidden=tuple(hidden_from_text(h) for h in hidden)
+    )
+    write_log(folder / "log.parquet", simulate(module(name).model.robot, settings))
+    log = read_log(folder / "log.parquet", compiled(name).spec)
+    for column, (joints, samples) in late.items():
+        values = getattr(log, column).copy()
+        for j in joints:
+            values[samples:, j] = values[:-samples, j]
+        log = dataclasses.replace(log, **{column: values})
+    return observe(compiled(name), [log])
+
+
+@pytest.mark.parametrize("name", ["two-link", "demo-arm", "puma560"])
+def test_whose_time_and_by_how_much(name, tmp_path):
+    rng = np.random.default_rng([8, *name.encode()])
+    c = compiled(name)
+    n = len(c.spec.joints)
+    for column, what in (("q", "position"), ("tau", "torque"), ("tau", "all")):
+        joints = range(n) if what == "all" else [int(rng.integers(min(n, 3)))]
+        samples = int(rng.integers(5, 17))
+        told = late_channels(
+            c, observed(tmp_path, name, int(rng.integers(1000)), **{column: (joints, samples)})
+        )
+        assert len(told) == 1
+        whose = "all torques" if what == "all" else f"joint {c.spec.joints[joints[0]].name}: its"
+        assert told[0].startswith(whose) and what in told[0] and " late, by" in told[0]
+        ms = float(told[0].partition(" ms")[0].split()[-1])
+        assert ms == pytest.approx(1e3 * samples / RATE, abs=5.0)
+
+
+@pytest.mark.parametrize("name", ["demo-arm", "ur10e"])
+@pytest.mark.parametrize(
+    "hidden",
+    ["", "stribeck", "elasticity", "backlash", "presliding", "cable_hysteresis", "load_friction",
+     "counterbalance", "external_force", "asymmetric_viscous", "payload", "motor_ripple"],
+)  # fmt: skip
+def test_physics_is_not_late(name, hidden, tmp_path):
+    rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])
+    seen = observed(tmp_path, name, int(rng.integers(1000)), hidden=[hidden] if hidden else [])
+    assert late_channels(compiled(name), seen) == ()

@@ -1,0 +1,127 @@
+"""The logged velocity of one joint that comes late: told with its delay, and not used."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from stand_in import planar_arm
+
+from modeler.observation import Log, Processing, observe, read_log
+from modeler.observation.consistency import consistency
+from modeler.observation.segments import split
+
+ARM = planar_arm()
+
+
+def motion(random, rate, joints=2, seconds=12.0):
+    """Time, q, qd, qdd of a Fourier motion."""
+    t = np.arange(int(seconds * rate)) / rate
+    w = 2 * np.pi * random.uniform(0.2, 1.2, (3, joints))
+    size = random.uniform(0.2, 0.8, (3, joints)) / np.arange(1, 4)[:, None]
+    angle = t[:, None, None] * w + random.uniform(0.0, 6.0, (3, joints))
+    return (t, (size * np.sin(angle)).sum(1), (size * w * np.cos(angle)).sum(1),
+            -(size * w**2 * np.sin(angle)).sum(1))  # fmt: skip
+
+
+def drawn(random, rate, lags, joints=2):
+    """A log whose velocities come late by `lags`, s, and the parameters of its torques."""
+    t, q, qd, qdd = motion(random, rate, joints)
+    beta = random.uniform(0.5, 2.0, len(ARM.spec.base))
+    tau = ARM.base_regressor(q, qd, qdd) @ beta if joints == 2 else 1.0 + q
+    noisy = qd + 0.01 * np.std(qd, axis=0) * random.normal(size=qd.shape)
+    late = np.column_stack([np.interp(t - lag, t, v) for lag, v in zip(lags, noisy.T, strict=True)])
+    measured = np.round(q / 2e-4) * 2e-4
+    names = tuple(str(j + 1) for j in range(joints))
+    return Log("run", names, t, measured, tau, late), beta
+
+
+def told(log, cutoff=5.0):
+    pieces, _ = split(log, 0, True)
+    return consistency(log, pieces, cutoff)
+
+
+@pytest.mark.parametrize("rate", [100, 250, 1000])
+@pytest.mark.parametrize("joints", [2, 4, 7])
+def test_the_late_joint_is_named_with_its_delay(rate, joints):
+    """12 to 80 ms, drawn; six of each."""
+    random = np.random.default_rng([rate, joints])
+    for _ in range(6):
+        j, lag = int(random.integers(joints)), random.uniform(0.012, 0.08)
+        log, _ = drawn(random, rate, [lag * (k == j) for k in range(joints)], joints)
+        found = told(log)
+        (late,) = found.late
+        assert late.column == f"qd{j + 1}" and late.of == f"q{j + 1}"
+        assert late.seconds == pytest.approx(lag, abs=max(0.1 * lag, 0.2 / rate))
+        assert f"qd{j + 1} lags behind the derivative of q{j + 1} by 0.0" in found.notes[0]
+        assert "and not all joints do" in found.notes[0]
+        assert not np.concatenate(found.bad).any()
+
+
+@pytest.mark.parametrize("joints", [1, 2, 7])
+def test_velocities_in_time_are_believed(joints):
+    random = np.random.default_rng(joints)
+    for rate in (100, 250, 1000):
+        log, _ = drawn(random, rate, [0.0] * joints, joints)
+        assert told(log).late == ()
+
+
+def test_two_joints_late_by_different_times_are_told_apart():
+    log, _ = drawn(np.random.default_rng(2), 500, [0.05, 0.0, 0.02, 0.0], 4)
+    late = {one.column: one.seconds for one in told(log).late}
+    assert late == {"qd1": pytest.approx(0.05, abs=2e-3), "qd3": pytest.approx(0.02, abs=2e-3)}
+
+
+def test_a_joint_that_reads_the_speed_backwards_is_not_called_late():
+    log, _ = drawn(np.random.default_rng(3), 500, [0.0, 0.0])
+    wrong = dataclasses.replace(log, qd=log.qd * [1.0, -1.0])
+    pieces, _ = split(wrong, 0, True)
+    assert consistency(wrong, pieces, 5.0, refuse=False).late == ()
+
+
+def rms(seen, beta):
+    return float(np.sqrt(np.mean((seen.W @ beta - seen.y) ** 2)))
+
+
+@pytest.mark.parametrize("lags", [(0.0, 0.04), (0.03, 0.03)])
+def test_late_velocities_are_not_used_where_they_do_harm(lags):
+    """Positions are differentiated; with --derivatives log they are used all the same, and told."""
+    log, beta = drawn(np.random.default_rng(5), 500, lags)
+    seen = observe(ARM, [log])
+    (report,) = seen.report.logs
+    assert report.derivatives == "qd and qdd by differentiating q, as logged derivatives come late"
+    assert any("the positions are differentiated instead" in note for note in report.notes)
+    assert report.contradicted == 0
+    kept = observe(ARM, [log], Processing(derivatives="log"))
+    (note,) = (note for note in kept.report.logs[0].notes if "lags behind" in note)
+    assert "used as logged; fit with --derivatives position to avoid it" in note
+    assert rms(kept, beta) > 5.0 * rms(seen, beta)
+
+
+def test_a_small_delay_does_no_harm_and_the_velocities_are_used():
+    """1.5 ms of motion below 2 Hz: 1 % of the speed."""
+    log, _ = drawn(np.random.default_rng(6), 1000, (0.0015, 0.0015))
+    quiet = dataclasses.replace(log, q=np.round(log.q / 1e-3) * 1e-3)
+    report = observe(ARM, [quiet]).report.logs[0]
+    assert report.derivatives == "qd as logged, qdd from it"
+
+
+@pytest.mark.measured
+def test_only_the_panda_filters_its_velocities(measured_folder):
+    """5 ms in all joints, which its controller's filter makes; told, and small enough to use."""
+    for path in sorted(measured_folder.glob("*/*.parquet")):
+        joints = {"ur10e": 6, "dualarm7": 7, "kinova_gen3": 7, "panda": 7, "dvrk_psm": 7}
+        if path.parent.name not in joints:
+            continue
+        first = ARM.spec.joints[0]
+        spec = dataclasses.replace(
+            ARM.spec,
+            joints=tuple(dataclasses.replace(first, name=str(j + 1), drive_gain=1.0)
+                         for j in range(joints[path.parent.name])),
+        )  # fmt: skip
+        log = read_log(path, spec)
+        late = told(log, 10.0).late
+        if path.parent.name == "panda":
+            (one,) = late
+            assert one.column == "qd" and 0.004 < one.seconds < 0.007 and one.share < 0.02
+        else:
+            assert late == (), path.name

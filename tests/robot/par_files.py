@@ -1,0 +1,71 @@
+"""SYMORO files written from tables of ours, in that program's format."""
+
+from collections.abc import Mapping
+
+from modeler.robot import Robot
+
+INERTIA = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+_HEAD = """\
+(*****************************)
+(*   Parameters of a robot   *)
+(*****************************)
+
+(* General parameters *)
+"""
+
+
+def par_text(lists: Mapping[str, str], name: str = "arm", links: int = 0, joints: int = 0) -> str:
+    """A file of these lists (without braces); those of the geometry that are left out are 0."""
+    frames = lists["Ant"].count(",") + 1
+    links, joints = links or frames, joints or frames
+    zeros = ",".join("0" * frames)
+    geometry = dict.fromkeys(("Ant", "Sigma", "B", "d", "R", "gamma", "Alpha", "Mu"), zeros)
+    geometry |= {"Mu": ",".join("1" * frames), "Theta": zeros, "G": "0,0,-9.81"}
+    kind = 2 if joints > links else 0
+    lines = [
+        f"(* Robotname = '{name}' *)",
+        f"NF = {frames}",
+        f"NL = {links}",
+        f"NJ = {joints}",
+        f"Type = {kind} (* a comment *)",
+        "",
+        *(f"{key}  = {{\n        {cells}}}" for key, cells in (geometry | dict(lists)).items()),
+        "",
+        "(* End of definition *)",
+    ]
+    return _HEAD + "\n".join(lines) + "\n"
+
+
+def par_of(robot: Robot, letters: bool) -> str:
+    """The file of a robot whose rows are 1, 2, ... and whose loops are rigid, last rows first.
+
+    Args:
+        robot: without relations, platform and effects.
+        letters: lengths as symbols without values; otherwise all as rounded numbers.
+    """
+    links = len(robot.joints) - 2 * len(robot.loops)
+    joints = len(robot.joints) - len(robot.loops)
+    values = {name: value.number() for name, value in robot.symbols.items() if not value.names}
+
+    def cell(expression, variable: str | None, ours: str) -> str:
+        if variable in expression.names:
+            return expression.text.replace(variable, ours)
+        if letters or expression.is_zero:
+            return expression.text.replace("pi", "Pi")
+        return f"{expression.number(values):.5g}"
+
+    columns: dict[str, list[str]] = {}
+    for joint in robot.joints:
+        number = joint.name
+        for key, column in (("B", "b"), ("d", "d"), ("R", "r"), ("gamma", "gamma"),
+                            ("Alpha", "alpha"), ("Theta", "theta")):  # fmt: skip
+            text = cell(
+                getattr(joint, column), joint.variable if joint.moves else None, f"t{number}"
+            )
+            columns.setdefault(key, []).append(text)
+        columns.setdefault("Ant", []).append(joint.antecedent)
+        columns.setdefault("Sigma", []).append(str(int(joint.kind)))
+        columns.setdefault("Mu", []).append(str(int(joint.actuated)))
+    gravity = [e.text if letters else f"{e.number(values):.5g}" for e in robot.gravity]
+    lists = {key: ",".join(cells) for key, cells in columns.items()} | {"G": ",".join(gravity)}
+    return par_text(lists, robot.name, links, joints)

@@ -1,0 +1,474 @@
+"""SYMORO's `.par` files are robot files: the same robot, exact; what is lost is told."""
+
+import math
+import re
+import tomllib
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from modeler.base.render import as_json
+from modeler.core.errors import RobotError
+from modeler.derivation import derive
+from modeler.robot import read_robot, robot_from_text
+from modeler.robot.par import par_to_toml
+from modeler.robot.par.angles import exact_angle
+from tests.robot.par_files import INERTIA, par_of, par_text
+
+
+def convert(text: str, where: str = "arm.par"):
+    data = text if isinstance(text, bytes) else text.encode()
+    found = par_to_toml(data, where)
+    return robot_from_text(found.text, where), found
+
+
+def poses(robot, positions):
+    """Frames of the rows in frame 0, from the definition of the table."""
+    values = {}
+    for name, value in robot.symbols.items():
+        values[name] = value.number(values)
+    frames = {"0": np.eye(4)}
+    for joint in robot.joints:
+        here = values | {joint.variable: positions.get(joint.name, 0.0)}
+        step = {c: getattr(joint, c).number(here)
+                for c in ("gamma", "b", "alpha", "d", "theta", "r")}  # fmt: skip
+        frames[joint.name] = (
+            frames[joint.antecedent]
+            @ moved(2, step["gamma"], step["b"])
+            @ moved(0, step["alpha"], step["d"])
+            @ moved(2, step["theta"], step["r"])
+        )
+    return frames
+
+
+def moved(axis, angle, length):
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    step = np.eye(4)
+    step[[i, i, j, j], [i, j, i, j]] = [
+        math.cos(angle), -math.sin(angle), math.sin(angle), math.cos(angle),
+    ]  # fmt: skip
+    step[axis, 3] = length
+    return step
+
+
+TWINS = ("rx90", "puma560", "scara", "sr400-tree", "sr400", "tx40")
+
+
+@pytest.mark.parametrize("name", TWINS)
+@pytest.mark.parametrize("letters", [True, False])
+def test_the_frames_of_a_twin_are_the_same(name, letters):
+    robot = read_robot(name)
+    twin, found = convert(par_of(robot, letters=letters))
+    if letters:  # the stand-ins are not the values
+        values = {n: f"{n} = {v.number()!r}" for n, v in robot.symbols.items()}
+        text = re.sub(
+            r"^(\w+) = .*# .*no value in the file$", lambda m: values[m[1]], found.text, flags=re.M
+        )
+        twin = robot_from_text(text, "twin")
+    rng = np.random.default_rng(4)
+    for _ in range(5):
+        positions = {joint.name: rng.uniform(-3, 3) for joint in robot.moving}
+        ours, theirs = poses(robot, positions), poses(twin, positions)
+        assert ours.keys() == theirs.keys()
+        for frame, pose in ours.items():
+            assert np.allclose(theirs[frame], pose, atol=1e-9), frame
+    assert [j.actuated for j in twin.joints] == [j.actuated for j in robot.joints]
+    pull = [
+        [e.number({n: v.number() for n, v in r.symbols.items()}) for e in r.gravity]
+        for r in (robot, twin)
+    ]
+    assert np.allclose(*pull)
+
+
+@pytest.mark.parametrize("name", ["rx90", "puma560", "sr400"])
+def test_a_twin_has_the_same_base_parameters(name):
+    robot = read_robot(name)
+    text = convert(par_of(robot, letters=True))[1].text
+    for symbol, value in robot.symbols.items():
+        text = re.sub(rf"^{symbol} = \S+ ", f"{symbol} = {value.text} ", text, flags=re.M)
+    if robot.loops:
+        home = "\n".join(f"q{row} = {value!r}" for row, value in robot.home.items())
+        text += f"\n[home]\n{home}\n"
+    ours, theirs = (
+        as_json("x", derive(each).base) for each in (robot, robot_from_text(text, "twin"))
+    )
+    assert theirs["base"] == ours["base"]
+    assert theirs["rank"] == ours["rank"]
+    assert theirs["unidentifiable"] == ours["unidentifiable"]
+
+
+def test_numbers_keep_the_structure_of_a_loop():
+    """Equal lengths of the parallelogram stay one letter: SR400 from numbers alone."""
+    robot = read_robot("sr400")
+    twin, found = convert(par_of(robot, letters=False))
+    home = "\n".join(f"q{row} = {value!r}" for row, value in robot.home.items())
+    twin = robot_from_text(f"{found.text}\n[home]\n{home}\n", "twin")
+    base = derive(twin).base
+    assert base.rank == derive(robot).base.rank == 39
+    assert base.proof.exact_rank == 39
+    assert any(note.startswith("lengths of one loop that are equal") for note in found.notes)
+    assert len(twin.symbols) == 6  # g, D2, D3, D4, R4, D8: RL4 is on no loop, and no length of it
+
+
+@pytest.mark.parametrize(
+    ("digits", "angle"),
+    [
+        ("1.5708", "pi/2"), ("-1.571", "-pi/2"), ("1.57", "pi/2"), ("1.57080", "pi/2"),
+        ("1.57079632679000", "pi/2"), ("0.7854", "pi/4"), ("3.14159", "pi"), ("3.1415", "pi"),
+        ("3.14", "pi"), ("1.0472", "pi/3"), ("0.2618", "pi/12"), ("-4.7124", "-3*pi/2"),
+        ("6.2832", "2*pi"), ("1.5707963267948966", "pi/2"), ("15.708e-1", "pi/2"),
+        ("0", None), ("0.0001", None), ("1.5710", "pi/2"), ("2.880", "11*pi/12"), ("2.88", None),
+        ("0.260000", None),
+        ("1.58", None), ("0.79", None),
+        ("1.6", None), ("2", None), ("3", None), ("1.57090", None), ("1.572", None),
+        ("3.1417", None),
+        ("0.785398163", "pi/4"),
+        ("0.785398173", None),
+    ],
+)  # fmt: skip
+def test_rounded_angles(digits, angle):
+    assert exact_angle(digits) == angle
+
+
+@pytest.mark.parametrize("decimals", [3, 4, 6, 9, 12])
+def test_every_multiple_is_found_in_its_rounding_and_hardly_ever_elsewhere(decimals):
+    for k in range(-24, 25):
+        if k:
+            found = exact_angle(f"{k * math.pi / 12:.{decimals}f}")
+            assert found is not None
+            assert eval(found, {"pi": math.pi}) == pytest.approx(k * math.pi / 12, abs=1e-12)
+            assert Fraction(k, 12) == Fraction(eval(found, {"pi": 1})).limit_denominator(12)
+    rng = np.random.default_rng(1)
+    wrong = sum(
+        exact_angle(f"{angle:.{decimals}f}") is not None for angle in rng.uniform(0.1, 6, 2000)
+    )
+    # Two units of the last digit around a multiple, of the pi/12 between two.
+    assert wrong <= 3 + 2000 * 3 * 10.0**-decimals / (math.pi / 12)
+
+
+def test_letters_and_numbers():
+    lists = {
+        "Ant": "0,1,2,3",
+        "Sigma": "0,0,1,2",
+        "d": "0,0.25,L*2,-0.25",
+        "R": "RL1,0,r3,0.1",
+        "gamma": "0,0,0,0.3",
+        "Alpha": "0,Pi/2,-1.5708,0",
+        "Theta": "th1,th2 - 1.571,0,0",
+        "Mu": "1,0,1,0",
+    }
+    robot, found = convert(par_text(lists, "my arm"))
+    rows = tomllib.loads(found.text)["mdh"]["rows"]
+    assert rows == [
+        ["1", "0", 1, 0, 0, 0, 0, "q1", "RL1"],
+        ["2", "1", 0, 0, 0, "pi/2", "D2", "q2 - pi/2", 0],
+        ["3", "2", 1, 1, 0, "-pi/2", "L*2", 0, "q3"],
+        ["4", "3", 0, 2, "gam4", 0, "-D4", 0, "R4"],
+    ]
+    values = {name: value.number() for name, value in robot.symbols.items()}
+    assert values["D2"] == 0.25 and values["D4"] == 0.25  # no loops: letters of their own
+    assert values["R4"] == 0.1 and values["gam4"] == 0.3
+    assert values["L"] != values["RL1"]
+    assert robot.name == "my-arm" and robot.title == "my arm"
+    told = "\n".join(found.notes)
+    assert "no values in the file: RL1, L" in told
+    assert "-1.5708 is -pi/2" in told and "1.571 is pi/2" in told
+    assert "th1, th2, r3" in told
+    assert "# no value in the file" in found.text
+    assert all(note in robot.notes for note in found.notes)
+
+
+def test_lists_may_be_short_of_what_is_the_default():
+    robot, _ = convert("Ant = {0,1}\nSigma = {0,0}\nd = {0,0.3}\nTheta = {t1,t2}\n", "my_own.par")
+    assert robot.name == "my_own"
+    assert [joint.actuated for joint in robot.joints] == [True, True]
+    assert [entry.text for entry in robot.gravity] == ["0", "0", "-g"]
+
+
+def test_joint_variables():
+    """Conventional letters, other letters, none, constants, and a joint that follows."""
+    lists = {"Ant": "0,1,2,3,4", "Theta": "0,phi,0.4,q4 + Pi, phi - q4", "Mu": "1,1,1,1,0"}
+    robot, found = convert(par_text(lists))
+    assert [joint.theta.text for joint in robot.joints][:4] == ["q1", "q2", "q3 + off3", "q4 + pi"]
+    assert robot.relations["5"].text == "q2 - q4"
+    assert any("q1, q3" in note for note in found.notes)
+
+
+def test_names_that_mean_something_else_are_changed():
+    lists = {"Ant": "0,1,2,3,4,5", "d": "0,lambda,M2,double,qd1,β", "Theta": "t1,t2,t3,t4,t5,t6"}
+    robot, found = convert(par_text(lists))
+    assert [joint.d.text for joint in robot.joints] == [
+        "0", "lambda_", "M2_", "double_", "qd1_", "s1",
+    ]  # fmt: skip
+    told = "\n".join(found.notes)
+    for was in ("lambda", "M2", "double", "qd1", "β"):
+        assert f"{was} is called" in told
+
+
+def test_bodies_with_and_without_parameters():
+    lists = {
+        "Ant": "0,1,2",
+        "Theta": "t1,t2,t3",
+        "Mu": "1,1,0",
+        "XX": "XX1,0.5,0", "XY": "0,0,0", "XZ": "0,0,0", "YY": "0,0.25,0", "YZ": "0,0,0",
+        "ZZ": "J,1e-2,0", "MX": "MX1,0,0", "MY": "0,0,0", "MZ": "0,0,0", "M": "M1,3,0",
+        "IA": "IA1,0,IA3", "FV": "FV1,FV2,FV3", "FS": "0,1.5,0",
+    }  # fmt: skip
+    robot, found = convert(par_text(lists))
+    assert robot.inertial("1") == ("XX", "ZZ", "MX", "M")
+    assert set(robot.inertial("2")) == set(INERTIA)  # numbers: 0 is a value
+    assert robot.inertial("3") == ()
+    assert robot.parameters["ZZ2"] == 0.01 and robot.parameters["XY2"] == 0
+    assert robot.parameters["Fs2"] == 1.5
+    uses = {use.effect: use.joints for use in robot.effects}
+    assert uses == {"rotor_inertia": ("1",), "viscous": ("1", "2", "3"), "coulomb": ("2",)}
+    told = "\n".join(found.notes)
+    assert "ZZ1 (there J)" in told and "IA3: left out" in told
+
+
+@pytest.mark.parametrize(
+    ("lists", "told"),
+    [
+        ({"FX": "0,FX2"}, "FX are left out"),
+        ({"W0": "0,0,w"}, "W0 are left out"),
+        ({"V0": "0.5,0,0"}, "V0 are left out"),
+        ({"VP0": "0,0,1"}, "VP0 are left out"),
+        ({"QP": "QP1,0.5"}, "QP are left out"),
+        ({"eta": "0,1"}, "eta are left out"),
+        ({"Z": "1,0,0,0,0,1,0,0,0,0,1,0.5,0,0,0,1"}, "Z is left out"),
+        ({"Mu": "0,0"}, "all are taken as actuated"),
+    ],
+)
+def test_what_is_not_carried_over_is_told(lists, told):
+    basis = {"Ant": "0,1", "Theta": "t1,t2", "QDP": "QDP1,QDP2", "WP0": "0,0.0,0"}
+    _, found = convert(par_text(basis | lists))
+    assert sum(told in note for note in found.notes) == 1
+    _, without = convert(par_text(basis))
+    assert not any("left out" in note for note in without.notes)
+
+
+def test_fixed_frames_carry_nothing():
+    lists = {"Ant": "0,1", "Sigma": "0,2", "Theta": "t1,0", "d": "0,0.3", "M": "3,2", "XX": "1,0"}
+    robot, found = convert(par_text(lists))
+    assert [joint.name for joint in robot.moving] == ["1"] and not robot.parameters.keys() & {"M2"}
+    assert any("parameters of frame 2 are left out" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(("kind", "notes"), [("0", 0), ("1", 0), ("2", 1)])
+def test_a_type_that_says_otherwise_is_told(kind, notes):
+    text = par_text({"Ant": "0,1", "Theta": "t1,t2"}).replace("Type = 0", f"Type = {kind}")
+    _, found = convert(text)
+    assert len([note for note in found.notes if note.startswith("Type is")]) == notes
+
+
+@pytest.mark.parametrize("theta", ["q0,q1,q2", "q1,q3,q2", "q2,q3,q4 + Pi", "a,b,c"])
+def test_variables_are_those_of_the_rows(theta):
+    robot, _ = convert(par_text({"Ant": "0,1,2", "Theta": theta}))
+    assert [min(joint.theta.names) for joint in robot.joints] == ["q1", "q2", "q3"]
+    assert not robot.symbols.keys() - {"g"}
+
+
+def test_a_letter_beside_a_variable_before_is_no_constant():
+    """q1 + phi in row 2: phi is the variable of row 2, and such a table is refused."""
+    with pytest.raises(RobotError, match=r'row "2", column theta'):
+        convert(par_text({"Ant": "0,1", "Theta": "q1,q1 + phi"}))
+
+
+def test_a_base_that_moves_stands_still():
+    basis = {"Ant": "0,1", "Theta": "t1,t2", "M": "M0,M1,M2"}
+    text = par_text(basis).replace("Type = 0", "is_floating = True\nType = 0")
+    robot, found = convert(text)
+    assert robot.inertial("1") == ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+    assert any("stands still here" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("lists", "gravity"),
+    [
+        ({"G": "0,0,9.81"}, [0, 0, 9.81]),
+        ({"G": "0,-9.8,0"}, [0, -9.8, 0]),
+        ({"G": "0,0,G3"}, [0, 0, -9.81]),
+        ({"G": "0,0,-GZ"}, [0, 0, 9.81]),
+        ({"G": "0,0,0"}, [0, 0, 0]),
+        ({"G": "0,0,0", "VP0": "0,0,9.81"}, [0, 0, -9.81]),
+        ({"G": "0,1.5,-3"}, [0, 1.5, -3]),
+    ],
+)
+def test_gravity(lists, gravity):
+    robot, _ = convert(par_text({"Ant": "0", "Theta": "t1"} | lists))
+    values = {name: value.number() for name, value in robot.symbols.items()}
+    assert [entry.number(values) for entry in robot.gravity] == pytest.approx(gravity)
+
+
+BOOM = {
+    # A boom on the base, moved by a cylinder: base eye at a, boom eye at c. Links 1 boom,
+    # 2 cylinder, 3 rod; cut joint 4 at the boom eye, its second frame 5 on the boom.
+    "Ant": "0,0,2,3,1",
+    "Sigma": "0,0,1,0,2",
+    "B": "0,0,0,0,0",
+    "d": "0,a,0,0,c",
+    "R": "0,0,r3,0,0",
+    "Alpha": "Pi/2,Pi/2,-Pi/2,Pi/2,0",
+    "gamma": "0,0,0,0,gam5",
+    "Theta": "t1,t2,0,t4,0",
+    "Mu": "0,0,1,0,0",
+}
+
+
+HAND_BOOM = """
+name = "boom"
+gravity = [0, 0, "-g"]
+symbols = {{g = 9.81, a = {a}, c = {c}, gam5 = {gam5}}}
+[mdh]
+columns = ["j",   "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+          ["1",   "0",  0,    0,       0,     "pi/2",   0,   "q1",     0],
+          ["2",   "0",  0,    0,       0,     "pi/2",  "a",  "q2",     0],
+          ["3",   "2",  1,    1,       0,     "-pi/2",  0,   0,      "q3"],
+          ["rod", "3",  0,    2,       0,     "pi/2",   0,   0,        0],
+          ["eye", "1",  0,    2,     "gam5",   0,      "c",  0,        0],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["eye", "rod", "eye", "revolute"]]
+[home]
+"""
+
+
+def test_cut_joints_are_loops():
+    robot, found = convert(par_text(BOOM, "boom", links=3, joints=4))
+    assert [(loop.frame, loop.meets, loop.kind) for loop in robot.loops] == [("4", "5", "rigid")]
+    assert robot.inertial("4") == () and len(robot.inertial("3")) == 10
+    assert [joint.name for joint in robot.coordinates] == ["3"]
+    values = {name: value.number() for name, value in robot.symbols.items()}
+    q1 = 0.5  # close by hand: the vector from the base eye to the boom eye
+    x = values["c"] * math.cos(q1 + values["gam5"]) - values["a"]
+    z = values["c"] * math.sin(q1 + values["gam5"])
+    home = {"1": q1, "2": math.atan2(z, x) - math.pi / 2, "3": math.hypot(x, z)}
+    home["4"] = q1 + values["gam5"] - home["2"]
+    ends = poses(robot, home)
+    assert np.allclose(ends["4"], ends["5"])
+    lines = "\n".join(f"q{row} = {value!r}" for row, value in home.items())
+    base = derive(robot_from_text(f"{found.text}\n[home]\n{lines}\n", "boom")).base
+    # The same with the cut joint as a pin between two fixed frames.
+    by_hand = HAND_BOOM.format(**values) + "\n".join(lines.splitlines()[:3])
+    expected = as_json("boom", derive(robot_from_text(by_hand, "by hand")).base)
+    assert as_json("boom", base)["base"] == expected["base"]
+    assert base.proof.exact_rank == base.rank
+    assert any("[home]" in note for note in found.notes)
+
+
+def test_atan2_of_two_letters_is_exact():
+    lists = BOOM | {"d": "0,a,0,0,sqrt(e**2 + f**2)", "gamma": "0,0,0,0,Pi - atan2(e, f)"}
+    lists["B"] = "0,f,0,0,0"
+    robot, found = convert(par_text(lists, "boom", links=3, joints=4))
+    fifth = robot.joints[4]
+    assert (fifth.d.text, fifth.gamma.text) == ("L1", "pi - A1")
+    values = {}
+    for name, value in robot.symbols.items():
+        values[name] = value.number(values)
+    assert math.hypot(values["e"], values["f"]) == pytest.approx(values["L1"])
+    assert math.atan2(values["e"], values["f"]) == pytest.approx(values["A1"])
+    assert any("L1*sin(A1)" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("gamma", "value"),
+    [
+        ("ArcTan[f, e]", lambda e, f: math.atan2(e, f)),
+        ("atan2(-e, f)", lambda e, f: math.atan2(-e, f)),
+        ("atan2(e, -f)", lambda e, f: math.atan2(e, -f)),
+        ("atan2(-e, -f)", lambda e, f: math.atan2(-e, -f)),
+        ("atan2(2*e, f)", lambda e, f: math.atan2(2 * e, f)),
+        ("ArcSin[e/(e + f)] + Pi/4", lambda e, f: math.asin(e / (e + f)) + math.pi / 4),
+        ("acos(Cos[e])", lambda e, f: e),
+        ("atan2(e, f) - atan2(f, e)", lambda e, f: math.atan2(e, f) - math.atan2(f, e)),
+    ],
+)
+def test_inverse_functions_have_their_value(gamma, value):
+    lists = BOOM | {"d": "0,e,0,0,f", "gamma": f"0,0,0,0,{gamma}"}
+    robot, _ = convert(par_text(lists, "boom", links=3, joints=4))
+    values = {}
+    for name, worth in robot.symbols.items():
+        values[name] = worth.number(values)
+    expected = value(values["e"], values["f"])
+    turns = (robot.joints[4].gamma.number(values) - expected) / (2 * math.pi)
+    assert turns == pytest.approx(round(turns), abs=1e-9)
+
+
+def test_encodings_and_line_ends():
+    lists = {"Ant": "0,1", "Theta": "t1,t2"}
+    plain = par_text(lists, "Nœud é").replace("a comment", "1 rue de la Noë")
+    expected = convert(plain)[1].text
+    for data in (
+        plain.encode("cp1252"),
+        plain.encode("utf-8-sig"),
+        plain.encode("utf-16"),
+        plain.replace("\n", "\r\n").encode(),
+        plain.replace("\n", "\r").encode(),
+        plain.encode() + b"\x1a",
+    ):
+        assert convert(data)[1].text == expected
+
+
+GOOD = par_text({"Ant": "0,1,2", "Theta": "t1,t2,t3", "XX": "XX1,XX2,XX3"})
+
+MISTAKES = [
+    ("d  = {\n        0,0,0}", "d  = {\n        0,0}", "line 18: d: got 2 entries, expected 3"),
+    ("XX1,XX2,XX3", "XX1,XX2,XX3,XX4", "XX: got 4 entries, expected 3 (NL); remove 1"),
+    ("0,1,2}", "0,1,5}", 'Ant, entry 3: got "5"; expected the base, 0, or a frame before it'),
+    ("0,1,2}", "0,1,x}", 'Ant, entry 3: got "x"'),
+    ("Sigma  = {\n        0,0,0}", "Sigma  = {\n        0,3,0}", 'Sigma, entry 2: got "3"'),
+    ("Mu  = {\n        1,1,1}", "Mu  = {\n        1,yes,0}", 'Mu, entry 2: got "yes"'),
+    ("NF = 3", "NF = 4", "NF: got 4, expected 3, which is 2 NJ - NL"),
+    ("NL = 3", "NL = 4", "got NL = 4, NJ = 3; expected 1 <= NL <= NJ"),
+    ("NL = 3", "NL = three", 'NL: got "three"; expected a count'),
+    ("Type = 0", "is_mobile = maybe\nType = 0", 'is_mobile: got "maybe"; expected 0 or 1'),
+    ("Alpha", "Alhpa", 'unknown keyword "Alhpa" (did you mean "alpha"'),
+    ("Mu  =", "Alpha  =", "alpha stands twice, first on line"),
+    ("t1,t2,t3}", "t1,t2,t3", "theta: the list is not closed"),
+    ("t1,t2,t3}", "t1,t2,}", "theta, entry 3: is empty"),
+    ("t1,t2,t3}", "t1,a+c,t3}", 'theta, entry 2: got "a+c"; expected the joint variable'),
+    ("t1,t2,t3}", "t1,2 Pi,t3}", 'theta, entry 2: got "2 Pi"; expected a number, a letter'),
+    ("t1,t2,t3}", "t1,f(2),t3}", 'theta, entry 2: got "f(2)"'),
+    ("t1,t2,t3}", "t1,atan2(3),t3}", "theta, entry 2: got"),
+    ("t1,t2,t3}", "t1,2.5?,t3}", "theta, entry 2: got"),
+    ("gamma  = {\n        0,0,0}", "gamma  = {\n        0,90,0}", "entry 2: got 90, which is"),
+    ("Type = 0", "Type = closed", 'Type: got "closed"; expected 0 (simple), 1 (tree) or 2'),
+    ("NJ = 3", "NJ = {3}", "NJ: got a list; expected one number"),
+    ("d  = {\n        0,0,0}", "d = 0", 'd: got "0"; expected a list in braces'),
+    ("(* End", "nonsense (* End", 'got "nonsense"; expected KEY = {...} or KEY = number'),
+    ("(* End of definition *)", "(* End", 'the comment "(*" is not closed'),
+    ("Ant  = {\n        0,1,2}", "", "is no SYMORO file: the list Ant is missing"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "told"), MISTAKES)
+def test_mistakes_are_told_in_one_line(old, new, told):
+    assert old in GOOD
+    with pytest.raises(RobotError) as error:
+        convert(GOOD.replace(old, new))
+    message = str(error.value)
+    assert message.startswith("arm.par") and told in message and "\n" not in message
+
+
+@pytest.mark.parametrize("data", [b"", b"\x00\x01\x02", b"PK\x03\x04", b"name = 1", b"<robot/>"])
+def test_what_is_no_such_file_is_told(data):
+    with pytest.raises(RobotError, match=r"^arm\.par: "):
+        convert(data)
+
+
+def test_random_damage_is_told_or_read():
+    """No letter changed, dropped or doubled gives anything but a robot or one line."""
+    rng = np.random.default_rng(7)
+    text = par_text(BOOM, "boom", links=3, joints=4)
+    for _ in range(300):
+        at = int(rng.integers(len(text)))
+        letter = str(rng.choice(list('{},=()*0129.ePi-\n é"\\;[^')))
+        end = at + int(rng.integers(2))
+        damaged = text[:at] + letter + text[end:]
+        try:
+            convert(damaged)
+        except RobotError as error:
+            assert "\n" not in str(error)

@@ -1,0 +1,82 @@
+"""`passive_friction` in a robot file: viscous and Coulomb friction of joints without motor."""
+
+import pytest
+
+from modeler.core.errors import RobotError
+from modeler.effects import PASSIVE_FRICTION_IS
+from modeler.robot import read_robot, robot_from_text
+from modeler.robot.edit import with_effect, with_effects
+
+BARE = with_effects(read_robot("five-bar").text, {})
+
+
+def with_lines(*lines: str) -> str:
+    return BARE.replace("[effects]", "\n".join(["[effects]", *lines]))
+
+
+def joints_of(text: str) -> dict[str, tuple[str, ...]]:
+    return {use.effect: use.joints for use in robot_from_text(text, "five-bar").effects}
+
+
+@pytest.mark.parametrize(("cell", "joints"), [('["21"]', ("21",)), ('"all"', ("21", "22"))])
+def test_it_is_read_as_what_it_is_made_of(cell: str, joints: tuple[str, ...]) -> None:
+    assert joints_of(with_lines(f"passive_friction = {cell}")) == dict.fromkeys(
+        PASSIVE_FRICTION_IS, joints
+    )
+
+
+def test_it_stands_beside_the_friction_of_the_motors() -> None:
+    found = joints_of(with_lines('passive_friction = "all"', 'viscous = "all"'))
+    assert found == {"viscous": ("11", "21", "12", "22"), "coulomb": ("21", "22")}
+    written = joints_of(with_lines('viscous = ["11", "12", "21", "22"]', 'coulomb = ["21", "22"]'))
+    assert found == written
+
+
+def test_all_of_them_leaves_the_platform_out() -> None:
+    """What moves a platform is no joint."""
+    text = with_effects(read_robot("delta").text, {"passive_friction": "all"})
+    robot = robot_from_text(text, "delta")
+    rubbing = joints_of(text)["viscous"]
+    expected = [j.name for j in robot.moving if not j.actuated and j.name not in robot.platform]
+    assert list(rubbing) == expected and robot.platform
+
+
+@pytest.mark.parametrize(
+    ("lines", "pieces"),
+    [
+        (['passive_friction = ["11"]'], ['joint "11" has a motor', "write viscous and coulomb"]),
+        (
+            ['passive_friction = ["21"]', 'coulomb = ["21"]'],
+            ["passive_friction", 'joint "21" has coulomb already', "out of one of them"],
+        ),
+        (['passive_friction = ["21", "21"]'], ["stands there twice"]),
+        (['passive_friction = ["31"]'], ["31", "no moving joint"]),
+        (["passive_friction = 3"], ["got 3", "expected the joints"]),
+    ],
+)
+def test_mistakes_are_told(lines: list[str], pieces: list[str]) -> None:
+    with pytest.raises(RobotError) as caught:
+        robot_from_text(with_lines(*lines), "five-bar.toml")
+    assert all(piece in str(caught.value) for piece in pieces), caught.value
+
+
+def test_a_robot_whose_joints_all_have_motors_has_none() -> None:
+    text = with_effects(read_robot("two-link").text, {"passive_friction": "all"})
+    with pytest.raises(RobotError, match=r"passive_friction: acts on joints without motor"):
+        robot_from_text(text, "two-link")
+
+
+def test_its_values_stay_with_it_and_leave_with_it() -> None:
+    values = {"Fv21": 0.3, "Fs21": 0.4}
+    lines = "\n".join(["[parameters]", *(f"{name} = {value}" for name, value in values.items())])
+    text = with_lines('passive_friction = ["21"]').replace("[parameters]", lines)
+    kept = with_effects(text, {"passive_friction": ["21"], "viscous": ["11"]})
+    assert values.items() <= robot_from_text(kept, "five-bar").parameters.items()
+    gone = robot_from_text(with_effects(text, {}), "five-bar").parameters
+    assert gone and not values.keys() & gone.keys()
+
+
+def test_friction_of_one_more_joint_is_written_beside_it() -> None:
+    text = with_lines('passive_friction = ["21"]', 'viscous = "all"')
+    more = with_effect(text, "viscous", "22", {}, ["11", "12"])
+    assert joints_of(more)["viscous"] == ("11", "21", "12", "22")

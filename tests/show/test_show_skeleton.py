@@ -1,0 +1,182 @@
+"""The skeleton against the simulator's geometry, which shares only the robot file."""
+
+from pathlib import Path
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.show import gaps_of, home_posture, poses, skeleton_of
+from modeler.show.closing import closed_from, jacobian, residuals
+from modeler.show.view import good_view, joint_points
+from modeler.simulate.closing import followed
+from modeler.simulate.constraints import constraints_of
+from modeler.simulate.geometry import world_frames
+from tests.robots import ROBOTS, TIED
+
+
+def variables(skeleton, u):
+    """(moving rows,) by the relations' own expressions."""
+    robot = skeleton.robot
+    values = {
+        **robot.symbol_values(),
+        **{f"q{n}": x for n, x in zip(skeleton.free, u, strict=True)},
+    }
+    left = dict(robot.relations)
+    while left:
+        for name in list(left):
+            if left[name].names <= values.keys():
+                values[f"q{name}"] = left.pop(name).number(values)
+    return np.array([values[joint.variable] for joint in robot.moving])
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_frames_are_where_the_simulator_has_them(name: str) -> None:
+    skeleton = skeleton_of(read_robot(name))
+    u = np.random.default_rng(1).uniform(-2.0, 2.0, len(skeleton.free))
+    q = ca.SX.sym("q", len(skeleton.robot.moving))
+    frames = world_frames(skeleton.robot, q)
+    found = poses(skeleton, u)
+    for row, pose in zip(skeleton.robot.joints, found, strict=True):
+        frame = frames[row.name]
+        both = ca.Function("pose", [q], [ca.horzcat(frame.rotation, frame.position)])
+        np.testing.assert_allclose(pose[:3], both(variables(skeleton, u)).full(), atol=1e-12)
+        np.testing.assert_array_equal(pose[3], [0, 0, 0, 1])
+
+
+@pytest.mark.parametrize("name", TIED)
+def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
+    robot = read_robot(name)
+    skeleton = skeleton_of(robot)
+    home = home_posture(skeleton)
+    assert home.closed and home.held
+    start = home.u[list(skeleton.given)]
+    theirs = followed(robot, constraints_of(robot), start[None])[0]
+    np.testing.assert_allclose(variables(skeleton, home.u), theirs, atol=1e-8)
+    assert all(gap.distance < 1e-9 and gap.angle < 1e-7 for gap in gaps_of(skeleton, home.u))
+
+
+@pytest.mark.parametrize("name", [n for n in TIED if read_robot(n).loops])
+def test_slopes_are_those_of_the_residuals(name: str) -> None:
+    skeleton = skeleton_of(read_robot(name))
+    home = home_posture(skeleton)
+    u = home.u + np.random.default_rng(2).uniform(-0.2, 0.2, len(home.u))
+    J = jacobian(skeleton, u, home.size, range(len(u)))
+    way = np.random.default_rng(3).uniform(-1.0, 1.0, len(u))
+    ahead, behind = (residuals(skeleton, u + s * 1e-6 * way, home.size) for s in (1, -1))
+    np.testing.assert_allclose(J @ way, (ahead - behind) / 2e-6, atol=1e-8)
+
+
+@pytest.mark.parametrize("kind", ["universal", "cylindrical", "prismatic", "planar", "rigid"])
+def test_a_gap_is_what_a_joint_does_not_let_free(kind: str) -> None:
+    """A body on six free joints beside the base, moved by what the joint forbids, and allows."""
+    text = f"""
+name = "free"
+gravity = [0, 0, -9.81]
+[mdh]
+columns = ["j", "a", "mu", "sigma", "theta"]
+rows = [["0e", "0", 0, 2, 0], ["1", "0", 1, 0, "q1"]]
+[platform]
+name = "P"
+motion = "free"
+[loops]
+rows = [["L", "P", "0e", "{kind}"]]
+"""
+    robot = robot_from_text(text, "free")
+    skeleton = skeleton_of(robot)
+    u = dict.fromkeys(skeleton.free, 0.0)
+    if kind == "universal":  # the axes of the cross are perpendicular
+        u["Pa"] = np.pi / 2
+
+    def gap(**moved: float) -> tuple[float, float]:
+        values = np.array([{**u, **moved}[name] for name in skeleton.free])
+        found = gaps_of(skeleton, values)[0]
+        return found.distance, found.angle
+
+    allowed = {"universal": [], "cylindrical": ["Pz", "P"], "prismatic": ["Pz"],
+               "planar": ["Px", "Py", "P"], "rigid": []}[kind]  # fmt: skip
+    assert gap() == pytest.approx((0.0, 0.0), abs=1e-12)
+    for name in set(skeleton.free) - {"1"}:
+        if kind == "universal" and name in ("P", "Pb"):
+            continue
+        distance, angle = gap(**{name: u[name] + 0.1})
+        expected = 0.0 if name in allowed else 0.1
+        turn = name in ("Pa", "Pb", "P")
+        assert (angle if turn else distance) == pytest.approx(expected, abs=1e-9), name
+
+
+def test_loops_that_cannot_close_are_seen_open() -> None:
+    text = builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0")
+    posture = home_posture(skeleton := skeleton_of(robot_from_text(text, "five-bar")))
+    assert not posture.closed
+    np.testing.assert_array_equal(posture.u, skeleton.stated)
+    assert gaps_of(skeleton, posture.u)[0].distance > 3.0
+
+
+def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
+    text = builtin_text("five-bar").replace("q11 = 2.2", "q11 = -2.2")
+    text = text.replace("q12 = 0.9", "q12 = 0.2").replace("L2 = 0.40", "L2 = 0.2")
+    posture = home_posture(skeleton_of(robot_from_text(text, "five-bar")))
+    assert posture.closed and not posture.held
+
+
+def test_what_could_move_with_the_motors_locked_is_told(loop_robots_folder: Path) -> None:
+    singular = skeleton_of(read_robot(loop_robots_folder / "3rpr_singular.toml"))
+    assert {"P"} <= set(home_posture(singular).loose)  # cylinders through one point: it turns
+    other = skeleton_of(read_robot(loop_robots_folder / "3rpr_sim.toml"))
+    assert home_posture(other).loose == ()
+
+
+def test_a_stretched_linkage_is_singular() -> None:
+    text = builtin_text("five-bar").replace("L0 = 0.20", "L0 = 1.43")
+    for name, value in (("q11 = 2.2", 0.0), ("q21 = -1.37", 0.0)):
+        text = text.replace(name, f"{name.split()[0]} = {value}")
+    text = text.replace("q12 = 0.9", 'q12 = "pi"').replace("q22 = 1.46", "q22 = 0.0")
+    posture = home_posture(skeleton_of(robot_from_text(text, "stretched")))
+    assert posture.closed and set(posture.loose) == {"21", "22"}
+    for name in TIED:
+        assert home_posture(skeleton_of(read_robot(name))).loose == ()
+
+
+def test_opposite_axes_are_not_closed() -> None:
+    text = builtin_text("sr400").replace('["9",  "8",  0,    0,       0,       0, ',
+                                         '["9",  "8",  0,    0,       0,       "pi", ')  # fmt: skip
+    skeleton = skeleton_of(robot_from_text(text, "sr400"))
+    assert "pi" in skeleton.robot.joint("9").alpha.text
+    posture = home_posture(skeleton)
+    assert not posture.closed and gaps_of(skeleton, posture.u)[0].angle == pytest.approx(np.pi)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_view_is_a_rotation_that_shows_the_robot(name: str) -> None:
+    skeleton = skeleton_of(read_robot(name))
+    posture = home_posture(skeleton)
+    view = good_view(skeleton, posture)
+    np.testing.assert_allclose(view.rotation @ view.rotation.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(view.rotation) == pytest.approx(1.0)
+    points = joint_points(skeleton, posture.u)
+    seen = points @ view.rotation[:2].T
+    assert np.ptp(seen, axis=0).max() >= 0.5 * np.ptp(points, axis=0).max()
+
+
+def test_a_planar_robot_is_seen_straight_on() -> None:
+    for name, normal in (("five-bar", 2), ("3rrr", 2)):
+        skeleton = skeleton_of(read_robot(name))
+        view = good_view(skeleton, home_posture(skeleton))
+        assert abs(view.rotation[2, normal]) == pytest.approx(1.0)
+    assert skeleton_of(read_robot("five-bar")).gravity @ view.rotation[1] < 0.0  # down is down
+
+
+def test_robots_of_the_folder_stand_closed(loop_robots_folder: Path) -> None:
+    tried = 0
+    for path in sorted(loop_robots_folder.glob("*.toml")):
+        if path.stem == "3rpr_passive":  # names an effect that may not stand in a file
+            continue
+        skeleton = skeleton_of(read_robot(path))
+        home = home_posture(skeleton)
+        assert home.closed, path.stem
+        again = closed_from(skeleton, home.u, skeleton.solved, home.size)
+        np.testing.assert_allclose(again, home.u, atol=1e-9)
+        tried += 1
+    assert tried > 5
