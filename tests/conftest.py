@@ -6,6 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
+from hypothesis.internal.conjecture import providers
+
+# Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
+# which are depends on the tests that ran before in the process: examples shall be the same always.
+providers._get_local_constants = lambda: providers._local_constants
 
 ROOT = Path(__file__).resolve().parents[1]
 

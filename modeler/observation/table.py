@@ -12,6 +12,8 @@ import pyarrow.parquet
 from modeler.core.errors import DataError
 from modeler.observation.csv_text import check_csv
 
+_TINY = 1e-100  # in any unit; the square of what is measured smaller is no number any more
+
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
 
@@ -53,7 +55,7 @@ class Table:
         )
 
     def numbers(self, name: str) -> np.ndarray:
-        """The column as floats, (rows,); null, NaN and infinite entries are NaN.
+        """The column as floats, (rows,); null, NaN and infinite entries are NaN, specks are 0.
 
         Raises:
             DataError: the column is missing or holds something else than numbers.
@@ -68,6 +70,7 @@ class Table:
             raise DataError(self._not_a_number(name, column))
         values = np.array(pc.cast(column, pa.float64(), safe=False).to_numpy(), dtype=float)
         values[~np.isfinite(values)] = np.nan
+        values[np.abs(values) < _TINY] = 0.0
         return values
 
     def _not_a_number(self, name: str, column: pa.ChunkedArray) -> str:

@@ -256,3 +256,10 @@ def test_the_fingerprint_tells_measurements_and_not_files(tmp_path, spec):
     assert not shared_rows(piece, "another", 0.15, 0.16)
     nameless = dataclasses.replace(piece, content="")
     assert not shared_rows(nameless, "", 0.15, 0.16)
+
+
+def test_a_speck_is_nothing(tmp_path, spec):
+    """The squares of such numbers underflow, and their inverses overflow."""
+    table = columns()
+    table["tau1"] = 3.5e-177 * table["tau1"]
+    assert not read_log(write(tmp_path / "run.parquet", table), spec).tau[:, 0].any()
