@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from hypothesis.internal.conjecture import providers
 
+from tests.further_robots import FurtherRobots
+
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
 # which are depends on the tests that ran before in the process: examples shall be the same always.
 providers._get_local_constants = lambda: providers._local_constants
@@ -49,12 +51,12 @@ def measured_folder() -> Path:
 
 
 @pytest.fixture(scope="session")
-def loop_robots_folder() -> Path:
+def loop_robots_folder() -> FurtherRobots:
     """The folder of robots with loops beside the checkout; they are not part of the project."""
-    folder = ROOT.parent / "shared" / "robots"
-    if not folder.is_dir():
-        pytest.skip(f"NOT CHECKED: no further robots with loops, there is no {folder}")
-    return folder
+    robots = FurtherRobots()
+    if not any(robots.all()):
+        pytest.skip(f"NOT CHECKED: no further robots with loops, there are none in {robots.folder}")
+    return robots
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,7 +1,5 @@
 """Every printed form of every relation is read back and is the exact relation."""
 
-from pathlib import Path
-
 import pytest
 import sympy
 from hypothesis import given, settings
@@ -15,6 +13,7 @@ from modeler.robot import read_robot
 from modeler.symbolic import derive_model
 from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
 from tests.base.printed_relations import Exact, printed_forms
+from tests.further_robots import FurtherRobots
 from tests.modules import module
 from tests.robots import ROBOTS
 
@@ -44,9 +43,9 @@ def test_all_printed_forms_are_the_exact_relations(name):
     assert wrong(name, base, emitted, seed=14) == []
 
 
-def test_all_printed_forms_of_robots_with_loops(loop_robots_folder: Path):
+def test_all_printed_forms_of_robots_with_loops(loop_robots_folder: FurtherRobots):
     found, read = [], 0
-    for path in sorted(loop_robots_folder.glob("*.toml")):
+    for path in loop_robots_folder.all():
         try:
             model = derive_model(read_robot(path))
             base = base_parameters(model)

@@ -15,9 +15,9 @@ from pathlib import Path
 
 from modeler.cli import main
 from modeler.robot import Robot, read_robot
+from tests.further_robots import FurtherRobots
 from tests.robots import TIED
 
-FURTHER = Path(__file__).resolve().parents[3] / "shared" / "robots"
 RATE = "200"
 EFFECT = "asymmetric_viscous"
 
@@ -122,7 +122,7 @@ def told(story: Chain) -> str:
 
 
 def _all() -> Sequence[str]:
-    return [*TIED, *(str(path) for path in sorted(FURTHER.glob("*.toml")))]
+    return [*TIED, *(str(path) for path in FurtherRobots().all())]
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import pytest
 from modeler.cli import main
 from modeler.robot import read_robot
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate
+from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
 from tests.robots import TIED
 
@@ -35,7 +36,9 @@ def test_on_every_robot_with_loops(robot: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("file", ["excavator_sim", "3rpr_sim"])
-def test_on_robots_from_elsewhere(file: str, loop_robots_folder: Path, tmp_path: Path) -> None:
+def test_on_robots_from_elsewhere(
+    file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
+) -> None:
     check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
 
 

@@ -1,7 +1,5 @@
 """The skeleton against the simulator's geometry, which shares only the robot file."""
 
-from pathlib import Path
-
 import casadi as ca
 import numpy as np
 import pytest
@@ -13,6 +11,7 @@ from modeler.show.view import good_view, joint_points
 from modeler.simulate.closing import followed
 from modeler.simulate.constraints import constraints_of
 from modeler.simulate.geometry import world_frames
+from tests.further_robots import FurtherRobots
 from tests.robots import ROBOTS, TIED
 
 
@@ -121,7 +120,7 @@ def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
     assert posture.closed and not posture.held
 
 
-def test_what_could_move_with_the_motors_locked_is_told(loop_robots_folder: Path) -> None:
+def test_what_could_move_with_the_motors_locked_is_told(loop_robots_folder: FurtherRobots) -> None:
     singular = skeleton_of(read_robot(loop_robots_folder / "3rpr_singular.toml"))
     assert {"P"} <= set(home_posture(singular).loose)  # cylinders through one point: it turns
     other = skeleton_of(read_robot(loop_robots_folder / "3rpr_sim.toml"))
@@ -168,9 +167,9 @@ def test_a_planar_robot_is_seen_straight_on() -> None:
     assert skeleton_of(read_robot("five-bar")).gravity @ view.rotation[1] < 0.0  # down is down
 
 
-def test_robots_of_the_folder_stand_closed(loop_robots_folder: Path) -> None:
+def test_robots_of_the_folder_stand_closed(loop_robots_folder: FurtherRobots) -> None:
     tried = 0
-    for path in sorted(loop_robots_folder.glob("*.toml")):
+    for path in loop_robots_folder.all():
         if path.stem == "3rpr_passive":  # names an effect that may not stand in a file
             continue
         skeleton = skeleton_of(read_robot(path))
