@@ -1,9 +1,4 @@
-"""A robot as it looks in the posture that every other command starts from.
-
-from modeler.api import load, show
-
-show(load("five-bar"), page="five-bar.html", picture="five-bar.pdf")
-"""
+"""A robot as it looks in the posture that every other command starts from."""
 
 import dataclasses
 from dataclasses import dataclass

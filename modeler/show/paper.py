@@ -16,6 +16,9 @@ PICTURE_KINDS = (".png", ".svg", ".pdf")
 SETTINGS: Any = {"svg.hashsalt": "modeler", "svg.fonttype": "none", "font.size": 7}
 """Of matplotlib, while it draws."""
 
+_FRONT = {"frames": 0.03, "base": 0.03, "gap": 1.0, "ground": -0.03}
+"""Of the robot's size, by which lines of a layer are painted as if they were nearer."""
+
 _UNIT = 0.62  # points, of a thin line
 _METADATA: dict[str, Any] = {
     ".png": {"Software": None},
@@ -132,7 +135,7 @@ def _lines(scene: Scene, sheet: Sheet, size: float) -> list[Any]:
         length = float(np.linalg.norm(end - start))
         if length < 1e-7 * size:
             continue
-        front = {"frames": 0.03 * size, "base": 0.03 * size, "gap": size}.get(line.layer, 0.0)
+        front = size * _FRONT.get(line.layer, 0.0)
         count = 1 if line.arrow or line.dashed else max(1, int(np.ceil(length / (0.06 * size))))
         cuts = np.linspace(0.0, 1.0, count + 1)[:, None]
         points = sheet.seen(start + cuts * (end - start))

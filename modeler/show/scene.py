@@ -185,13 +185,21 @@ class _Maker:
         for start, end in ((np.zeros(3), turn), (turn, ankle)):
             if np.linalg.norm(end - start) > 1e-9 * self.size:
                 ends = ((a, _tuple(start)), (a, _tuple(end)))
-                yield Line(of, ends, self.color(carrier), 2.5 if a == BASE else 5.0, "links")
+                width = 2.5 if a == BASE else 5.0
+                yield Line(of, ends, self.color(carrier), width, self._layer(carrier))
         slides = row.joint.moves and not row.joint.angular
         if not slides and abs(self.r[i]) <= 1e-9 * self.size:
             return
-        color = self.color(i if slides else self.skeleton.body(i))
+        carrier = i if slides else self.skeleton.body(i)
         for ends in self._along(i, row, (a, _tuple(ankle))):
-            yield Line(i, ends, color, 3.0 if slides else 5.0, "links")
+            width = 3.0 if slides else 5.0
+            yield Line(i, ends, self.color(carrier), width, self._layer(carrier))
+
+    def _layer(self, body: int) -> str:
+        """Of links: the ground lies behind what moves on it, the platform has a face."""
+        if body == BASE:
+            return "ground"
+        return "platform" if self.skeleton.rows[body].virtual else "links"
 
     def _along(self, i: int, row: Row, ankle: Point) -> list[tuple[Point, Point]]:
         """The way along z of row j, without what is inside its joint."""

@@ -140,7 +140,7 @@ class View {
     for (const [part, start, end] of [...parts, ...this.gaps()]) {
       const way = minus(end, start);
       if (norm(way) < least) continue;
-      const front = this.robot.size * ({ frames: 0.03, base: 0.03, gap: 1 }[part.layer] ?? 0);
+      const front = this.robot.size * ({ frames: 0.03, base: 0.03, gap: 1, ground: -0.03 }[part.layer] ?? 0);
       const count = part.arrow || part.dashed ? 1 : Math.max(1, Math.ceil(norm(way) / (0.06 * this.robot.size)));
       for (let i = 0; i < count; i += 1) {
         const [a, b] = [i / count, (i + 1) / count].map((s) => this.flat(plus(start, times(s, way))));
