@@ -10,7 +10,8 @@
     model = fit(derivation, emitted, observation)
     print(compare(model, ["pulses.parquet"]).summary())
 
-Each step is a function of the stage of that name; use the stages directly for more choices.
+Each step is a function of the stage of that name; use the stages directly for more choices. `show`
+draws the robot that was loaded.
 """
 
 import dataclasses
@@ -41,6 +42,7 @@ from modeler.observation.findings import findings_of_fit
 from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
+from modeler.showing import show as show
 
 
 def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:

@@ -20,9 +20,10 @@ STAGES: dict[str, set[str]] = {
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
+    "showing": {"core", *NORTH, "show"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
-    "api": {"core", *NORTH, *SOUTH, "derivation", "improve"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "improve", "api"},
+    "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
+    "cli": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing", "improve", "api"},
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -43,6 +44,7 @@ PACKAGES: dict[str, set[str]] = {
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "show": {"numpy", "matplotlib"},
     "derivation": set(),
+    "showing": set(),
     "improve": {"numpy", "threadpoolctl"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},

@@ -15,8 +15,6 @@ def run_convert(args: argparse.Namespace) -> Json:
     """Writes the robot file, when it has been read as one; prints the notes."""
     found = converted(Path(args.file))
     out = Path(args.out)
-    if out.suffix.lower() == ".par":
-        raise ModelerError(f"--out {out}: got .par; expected the name of a robot file, x.toml")
     robot = robot_from_text(found.text, f"{args.file}, as a robot file")
     if not args.force and _is_other(out, found.text):
         raise ModelerError(

@@ -2,40 +2,31 @@
 
 import argparse
 import dataclasses
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from modeler.cli.console import Json, say, working
-from modeler.cli.mode_pictures import modes_drawing, modes_page
+from modeler.cli.mode_pictures import MODE_PICTURES, modes_file
+from modeler.cli.robots import read_told
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
-from modeler.robot import Robot, builtin_names, read_robot
+from modeler.robot import Robot, builtin_names
+from modeler.robot.converted import OTHER_PROGRAMS
 from modeler.robot.home_text import home_lines, with_home_text
 from modeler.robot.loops import read_home
 from modeler.robot.place import Place
 from modeler.symbolic import AssemblyMode, HomeModes, Linkage, modes_near, written
 
 _MOST_VALUES = 6
-_PICTURES: dict[str, Callable[[HomeModes], str]] = {
-    ".html": modes_page,
-    ".htm": modes_page,
-    ".svg": modes_drawing,
-}
 
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
-    draw = _drawing(args)
-    if args.write and args.robot in builtin_names():
-        raise DataError(
-            f"--write: {args.robot} is built in; save it with `modeler robots --show {args.robot}` "
-            "as a file of your own, and write into that"
-        )
-    if args.write and Path(args.robot).is_file():
-        check_writable(Path(args.robot))
-    robot = read_robot(args.robot)
+    kind = _kind_of(args.pictures)
+    if args.write:
+        _check_ours(args.robot)
+    robot = read_told(args.robot)
     near = _near(args, robot)
     meant = dataclasses.replace(robot, home={}) if args.anew else robot
     with working(f"closing the loops of {robot.name}"):
@@ -43,8 +34,8 @@ def run_home(args: argparse.Namespace) -> Json:
     chosen = _chosen(args, found)
     for line in _table(found):
         say(line)
-    if draw is not None:
-        write_atomically(Path(args.pictures), draw(found))
+    if args.pictures is not None:
+        write_atomically(Path(args.pictures), modes_file(found, kind))
         say(f"written: {args.pictures}")
     home = written(found.linkage, found.modes[chosen].posture)
     if args.write:
@@ -57,16 +48,31 @@ def run_home(args: argparse.Namespace) -> Json:
     return _as_json(robot, found, chosen)
 
 
-def _drawing(args: argparse.Namespace) -> Callable[[HomeModes], str] | None:
-    if args.pictures is None:
-        return None
-    suffix = Path(args.pictures).suffix.lower()
-    if suffix not in _PICTURES:
+def _check_ours(robot: str) -> None:
+    """What --write cannot write into is refused before any work."""
+    if robot in builtin_names():
         raise DataError(
-            f"--pictures {args.pictures}: got {suffix or 'no suffix'}; expected a name that ends "
-            "in .html or .svg"
+            f"--write: {robot} is built in; save it with `modeler robots --show {robot}` "
+            "as a file of your own, and write into that"
         )
-    return _PICTURES[suffix]
+    path = Path(robot)
+    if path.suffix.lower() in OTHER_PROGRAMS:
+        raise DataError(
+            f"--write: {path} is another program's file, which states no posture; convert it with "
+            f"`modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
+        )
+    if path.is_file():
+        check_writable(path)
+
+
+def _kind_of(pictures: str | None) -> str:
+    kind = "" if pictures is None else Path(pictures).suffix.lower()
+    if pictures is not None and kind not in MODE_PICTURES:
+        raise DataError(
+            f"--pictures {pictures}: got {kind or 'no ending'}; expected a name that ends in "
+            f"{', '.join(MODE_PICTURES)}"
+        )
+    return kind
 
 
 def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float]:

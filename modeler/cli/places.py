@@ -18,6 +18,7 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import check_folder_writable, check_writable, page_place
 from modeler.core.window import file_and_window
 from modeler.robot.builtin import builtin_file, builtin_names
+from modeler.robot.converted import OTHER_PROGRAMS
 
 _LOGS = (".csv", ".parquet")
 
@@ -125,8 +126,9 @@ def check_places(args: argparse.Namespace) -> None:
     Links are followed; a window of a log is that log.
 
     Raises:
-        ModelerError: an output is an input, is named like a log, is named twice, or cannot be
-            written; or it lies where a folder of this command has a file of its own.
+        ModelerError: an output is an input, is named like a log or like another program's robot
+            file, is named twice, or cannot be written; or it lies where a folder of this command
+            has a file of its own.
     """
     given = list(_given(args))
     read = [(place.what, found) for _, place in given if isinstance(place, Input)
@@ -178,6 +180,7 @@ def _checked(
             what = LogFile.what
         if what is not None:
             raise DataError(f"{given}: this is {what}; expected a name of its own")
+        _check_ours(given, path)
     check_writable(place.file)
     found = destination(place.file)
     if found.kind is Kind.FILE:
@@ -188,6 +191,16 @@ def _checked(
                 f"{given}: {other_option} writes this file too; expected a name of its own"
             )
     return found
+
+
+def _check_ours(given: str, path: Path) -> None:
+    """Refuse a name that another program takes for a robot file of its own."""
+    ending = path.suffix.lower()
+    if ending in OTHER_PROGRAMS:
+        raise DataError(
+            f"{given}: got {ending}, which is another program's robot file; expected another "
+            "ending, .toml for a robot file"
+        )
 
 
 def _same(one: Destination, other: Destination) -> bool:

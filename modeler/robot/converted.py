@@ -7,6 +7,9 @@ from modeler.robot.par import Converted, par_to_toml
 
 _NOT_READ = {".urdf": "URDF", ".xacro": "xacro", ".sdf": "SDF", ".mjcf": "MJCF", ".xml": "XML"}
 
+OTHER_PROGRAMS = (".par", *_NOT_READ)
+"""Endings of their robot files: nothing of ours is ever written into one."""
+
 
 def converted(path: Path) -> Converted:
     """Another program's robot file as the text of ours.

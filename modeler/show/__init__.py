@@ -9,10 +9,12 @@ from modeler.show.closing import Gap as Gap
 from modeler.show.closing import Posture as Posture
 from modeler.show.closing import gaps_of as gaps_of
 from modeler.show.closing import home_posture as home_posture
+from modeler.show.modes import modes_bytes as modes_bytes
 from modeler.show.page import page_html as page_html
-from modeler.show.picture import PICTURE_KINDS as PICTURE_KINDS
-from modeler.show.picture import picture as picture
+from modeler.show.paper import PICTURE_KINDS as PICTURE_KINDS
+from modeler.show.picture import picture_bytes as picture_bytes
 from modeler.show.pose import poses as poses
+from modeler.show.pose import size_of as size_of
 from modeler.show.skeleton import Skeleton as Skeleton
 from modeler.show.skeleton import skeleton_of as skeleton_of
 from modeler.show.summary import described as described

@@ -54,6 +54,7 @@ class Posture:
         held: True if the actuated joints stand where [home] states them.
         loose: joints that could move there with the actuated joints locked: the posture is
             singular, or the loops determine too little.
+        note: a line on where the posture comes from; "" for [home] as the file states it.
     """
 
     u: np.ndarray
@@ -61,6 +62,7 @@ class Posture:
     closed: bool
     held: bool
     loose: tuple[str, ...] = ()
+    note: str = ""
 
 
 def home_posture(skeleton: Skeleton) -> Posture:

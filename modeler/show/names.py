@@ -30,7 +30,10 @@ class Name:
 
 
 def placed_names(
-    names: Sequence[Name], lines: Sequence[np.ndarray], paper: tuple[float, float]
+    names: Sequence[Name],
+    lines: Sequence[np.ndarray],
+    sleeves: Sequence[np.ndarray],
+    paper: tuple[float, float],
 ) -> list[Name]:
     """The names where they are written: `at` is the left end of the text, at half its height.
 
@@ -40,6 +43,7 @@ def placed_names(
     Args:
         names: with what they name.
         lines: (2, 2) straight lines in the picture, points.
+        sleeves: the same of bars that are as thick as what is named.
         paper: width and height, points.
     """
     groups: list[list[Name]] = []
@@ -50,14 +54,15 @@ def placed_names(
         else:
             near.append(name)
     steps = np.linspace(0.0, 1.0, 60)[:, None]
-    dense = [line[0] + steps * (line[1] - line[0]) for line in lines]
+    dense, bars = ([line[0] + steps * (line[1] - line[0]) for line in these]
+                   for these in (lines, sleeves))  # fmt: skip
     taken: list[np.ndarray] = []
     found = []
     for group in groups:
         widths = [_wide(name.text) for name in group]
         width = sum(widths) + _BLANK * (len(group) - 1)
         others = [each[0] for each in groups if each is not group]
-        box = _best(group, width, _Beside(taken, dense, others), paper)
+        box = _best(group, width, _Beside(taken, dense, bars, others), paper)
         taken.append(box)
         x = box[0, 0]
         for name, wide in zip(group, widths, strict=True):
@@ -68,10 +73,11 @@ def placed_names(
 
 @dataclass(frozen=True)
 class _Beside:
-    """What names should not cover: names that stand, points of lines, what else is named."""
+    """What names should not cover: names that stand, points of lines and bars, what is named."""
 
     taken: Sequence[np.ndarray]
     lines: Sequence[np.ndarray]
+    bars: Sequence[np.ndarray]
     named: Sequence[Name]
 
 
@@ -98,6 +104,8 @@ def _best(
             cost = 8.0 * sum(_overlap(box, other) for other in beside.taken) + 0.7 * ring
             cost += min(4, sum(_through(points, box) for points in beside.lines))
             cost += 2.0 * sum(_covers(box, name) for name in beside.named)
+            wide = box + np.array([[-0.7], [0.7]]) * bulk
+            cost += 2.0 * sum(_through(points, wide) for points in beside.bars)
             cost += 20.0 * (np.any(box[0] < 3.0) or np.any(box[1] > np.array(paper) - 3.0))
             if best is None or cost < best_cost - 1e-9:
                 best, best_cost = box, cost

@@ -28,6 +28,7 @@ def page_html(skeleton: Skeleton, posture: Posture) -> str:
         name=html.escape(robot.name),
         title=html.escape(robot.title),
         notes=html.escape(" ".join(robot.notes.split())),
+        posture=html.escape(posture.note),
         gravity=html.escape(gravity_text(skeleton)),
         table=table_html(robot),
         relations=html.escape(relations_text(robot)),
@@ -44,6 +45,7 @@ def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
     return {
         "name": skeleton.robot.name,
         "size": posture.size,
+        "stated": bool(skeleton.robot.home),
         "closed": posture.closed,
         "held": posture.held,
         "loose": list(posture.loose),
@@ -100,6 +102,7 @@ def _range(skeleton: Skeleton, posture: Posture, k: int) -> list[float]:
 def _parts(scene: Scene) -> dict[str, Any]:
     return {
         "bulk": scene.radius,
+        "sleeves": [[_point(end) for end in sleeve.ends] for sleeve in scene.sleeves],
         "lines": [_line(line) for line in scene.lines],
         "faces": [_face(face) for face in scene.faces],
         "dots": [

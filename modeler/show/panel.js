@@ -212,8 +212,17 @@ function iso() {
   return [right, cross(towards, right), towards];
 }
 
+// Where buttons and key lie over the picture, px.
+function boxes() {
+  const { left, top } = element("picture").getBoundingClientRect();
+  return ["views", "layers", "key"].map((id) => {
+    const box = element(id).getBoundingClientRect();
+    return { left: box.left - left, right: box.right - left, top: box.top - top, bottom: box.bottom - top };
+  });
+}
+
 function fit() {
-  page.view.fit(page.poses());
+  page.view.fit(page.poses(), boxes());
   redraw();
 }
 
@@ -309,8 +318,9 @@ document.querySelectorAll("tr[data-row]").forEach((line) => {
   line.addEventListener("mouseleave", () => point(null));
 });
 element("loops").hidden = element("hand").hidden = robot.loops.length === 0;
-if (!robot.closed) say("the loops do not close near [home]: drawn as it is stated");
-else if (!robot.held) say("the loops do not close with the actuated joints as [home] states them: drawn nearby");
+if (!robot.closed) {
+  say(`the loops do not close near ${robot.stated ? "[home]: drawn as it is stated" : "all joints at 0: drawn so"}`);
+} else if (!robot.held) say("the loops do not close with the actuated joints as [home] states them: drawn nearby");
 else if (robot.loose.length) {
   say(`${robot.loose.map((name) => `q${name}`).join(", ")} could move here with the actuated joints locked`);
 }
@@ -318,6 +328,6 @@ key();
 pointers();
 buttons();
 list();
-page.view.fit(page.poses());
+page.view.fit(page.poses(), boxes());
 show();
 new ResizeObserver(fit).observe(element("stage"));

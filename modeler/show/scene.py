@@ -79,6 +79,13 @@ class Label:
 
 
 @dataclass(frozen=True)
+class Sleeve:
+    """Where faces stand that are longer than wide: names keep off this line."""
+
+    ends: tuple[Point, Point]
+
+
+@dataclass(frozen=True)
 class Scene:
     """All that is drawn of a robot, in no order; `radius` is that of its joints, m."""
 
@@ -87,6 +94,18 @@ class Scene:
     faces: tuple[Face, ...]
     dots: tuple[Dot, ...]
     labels: tuple[Label, ...]
+    sleeves: tuple[Sleeve, ...]
+
+    def without(self, layers: Sequence[str]) -> "Scene":
+        """The scene without what is shown and hidden with these layers."""
+        return Scene(
+            self.radius,
+            tuple(part for part in self.lines if part.layer not in layers),
+            tuple(part for part in self.faces if part.layer not in layers),
+            tuple(part for part in self.dots if part.layer not in layers),
+            tuple(part for part in self.labels if part.layer not in layers),
+            self.sleeves,
+        )
 
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -111,10 +130,11 @@ def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
         tuple(part for part in parts if isinstance(part, Face)),
         tuple(part for part in parts if isinstance(part, Dot)),
         tuple(part for part in parts if isinstance(part, Label)),
+        tuple(part for part in parts if isinstance(part, Sleeve)),
     )
 
 
-Part = Line | Face | Dot | Label
+Part = Line | Face | Dot | Label | Sleeve
 
 
 class _Maker:
@@ -165,12 +185,38 @@ class _Maker:
         for start, end in ((np.zeros(3), turn), (turn, ankle)):
             if np.linalg.norm(end - start) > 1e-9 * self.size:
                 ends = ((a, _tuple(start)), (a, _tuple(end)))
-                yield Line(of, ends, self.color(carrier), 2.5 if a == BASE else 5.0, "links")
-        ends = ((a, _tuple(ankle)), (i, ORIGIN))
+                width = 2.5 if a == BASE else 5.0
+                yield Line(of, ends, self.color(carrier), width, self._layer(carrier))
+        slides = row.joint.moves and not row.joint.angular
+        if not slides and abs(self.r[i]) <= 1e-9 * self.size:
+            return
+        carrier = i if slides else self.skeleton.body(i)
+        for ends in self._along(i, row, (a, _tuple(ankle))):
+            width = 3.0 if slides else 5.0
+            yield Line(i, ends, self.color(carrier), width, self._layer(carrier))
+
+    def _layer(self, body: int) -> str:
+        """Of links: the ground lies behind what moves on it, the platform has a face."""
+        if body == BASE:
+            return "ground"
+        return "platform" if self.skeleton.rows[body].virtual else "links"
+
+    def _along(self, i: int, row: Row, ankle: Point) -> list[tuple[Point, Point]]:
+        """The way along z of row j, without what is inside its joint."""
+        r, place = self.r[i], foot(row)
+        low, high = -1.3 * self.radius - 0.5 * r, 1.3 * self.radius - 0.5 * r
+        inside: tuple[Point, Point] = ((i, (0.0, 0.0, low)), (i, (0.0, 0.0, high)))
         if row.joint.moves and not row.joint.angular:
-            yield Line(i, ends, self.color(i), 3.0, "links")
-        elif abs(self.r[i]) > 1e-9 * self.size:
-            yield Line(i, ends, self.color(self.skeleton.body(i)), 5.0, "links")
+            low, high = self._sleeve(r)
+            inside = (self._on(row, place, low), self._on(row, place, high))
+        if not row.joint.moves or high - low >= abs(r):
+            return [(ankle, (i, ORIGIN))]
+        near, far = inside if r > 0.0 else inside[::-1]
+        return [(ankle, near), (far, (i, ORIGIN))]
+
+    def _on(self, row: Row, place: np.ndarray, z: float) -> Point:
+        """The point z along the axis of a row, on its antecedent."""
+        return (row.parent, _tuple((place @ [0.0, 0.0, z, 1.0])[:3]))
 
     def joint(self, i: int, row: Row) -> Iterator[Part]:
         """A cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
@@ -185,17 +231,17 @@ class _Maker:
             at = (0.0, 0.0, -0.5 * self.r[i])
             for points in cylinder(self.radius, 2.6 * self.radius):
                 yield Face(i, i, points + at, color, "joints")
-            reach = 3.2 * self.radius
-            axis = ((i, (0.0, 0.0, at[2] - reach)), (i, (0.0, 0.0, at[2] + reach)))
-            yield Line(i, axis, color, 1.0, "joints")
+            for side in (-1.3 * self.radius, 1.3 * self.radius):
+                outside = tuple((i, (0.0, 0.0, at[2] + far * side)) for far in (1.0, 2.5))
+                yield Line(i, (outside[0], outside[1]), color, 1.0, "joints")
             yield Label(i, (i, at), name, ink, "names")
             return
         place = foot(row)
         low, high = self._sleeve(self.r[i])
         for points in box(0.75 * self.radius, low, high):
             yield Face(i, row.parent, points @ place[:3, :3].T + place[:3, 3], color, "joints")
-        middle = place @ [0.0, 0.0, 0.5 * (low + high), 1.0]
-        yield Label(i, (row.parent, _tuple(middle)), name, ink, "names")
+        yield Sleeve((self._on(row, place, low), self._on(row, place, high)))
+        yield Label(i, self._on(row, place, 0.5 * (low + high)), name, ink, "names")
 
     def _sleeve(self, r: float) -> tuple[float, float]:
         """From where to where along the axis of a prismatic joint its sleeve reaches."""

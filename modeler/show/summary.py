@@ -49,15 +49,20 @@ def _loop_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
             state = f"OPEN by {gap.distance:.3g} m{angle}"
         lines.append(f'loop "{loop.name}": {loop.frame} meets {loop.meets} ({loop.kind}): {state}')
     if not posture.closed:
+        where = "near [home]: drawn as it is stated"
+        if not skeleton.robot.home:
+            where = "near all joints at 0: drawn so"
         lines.append(
-            "the loops do not close near [home]: drawn as it is stated; move the joints by hand "
-            "on the page, close the loops there, and copy [home]"
+            f"the loops do not close {where}; move the joints by hand on the page, close the "
+            "loops there, and copy [home]"
         )
     elif not posture.held:
         lines.append(
             "the loops do not close with the actuated joints as [home] states them: drawn nearby"
         )
-    if posture.loose:
+    if posture.note:
+        lines.append(posture.note)
+    elif posture.loose:
         lines.append(
             f"joints {', '.join(posture.loose)} could move there with the actuated joints locked: "
             "[home] is singular, or the loops determine too little"
@@ -92,6 +97,7 @@ def described(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
         "closed": posture.closed,
         "as_stated": posture.held,
         "loose": list(posture.loose),
+        "note": posture.note,
         "gravity": skeleton.gravity.tolist(),
     }  # fmt: skip
 

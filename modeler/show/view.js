@@ -11,6 +11,7 @@ class View {
     this.items = [];
     this.kept = new Map(); // where labels stood: they stay there as long as they can
     this.poses = [];
+    this.top = 0; // px, of what lies over the picture
     this.look(robot.view);
   }
 
@@ -37,13 +38,14 @@ class View {
     const [right, up, towards] = this.rotation, d = minus(p, this.centre);
     return {
       x: this.width / 2 + this.scale * dot(right, d),
-      y: this.height / 2 - this.scale * dot(up, d),
+      y: (this.top + this.height) / 2 - this.scale * dot(up, d),
       depth: dot(towards, d),
     };
   }
 
-  // All of the robot, as it stands, in the window.
-  fit(poses) {
+  // All of the robot, as it stands, in the window; below the boxes that lie over it, if it would
+  // reach under one.
+  fit(poses, boxes) {
     this.poses = poses;
     const box = this.canvas.getBoundingClientRect();
     this.width = box.width;
@@ -60,10 +62,16 @@ class View {
     this.centre = spans.reduce(
       (sum, [low, high], i) => plus(sum, times((low + high) / 2, this.rotation[i])), [0, 0, 0]);
     const [[left, right], [low, high]] = spans;
-    const least = 1e-3 * this.robot.size;
-    this.scale = Math.min(
-      (0.74 * this.width) / Math.max(right - left, least),
-      (0.78 * this.height) / Math.max(high - low, least));
+    const least = 1e-3 * this.robot.size, rim = 24;
+    for (const top of [0, ...boxes.map((b) => b.bottom).sort((a, b) => a - b)]) {
+      this.top = top;
+      this.scale = Math.min(
+        (0.74 * this.width) / Math.max(right - left, least),
+        (0.78 * (this.height - top)) / Math.max(high - low, least));
+      const flat = points.map((p) => this.flat(p));
+      const under = (b) => flat.some(({ x, y }) => x > b.left - rim && x < b.right + rim && y > b.top - rim && y < b.bottom + rim);
+      if (!boxes.some(under)) break;
+    }
   }
 
   draw(poses) {
@@ -132,7 +140,7 @@ class View {
     for (const [part, start, end] of [...parts, ...this.gaps()]) {
       const way = minus(end, start);
       if (norm(way) < least) continue;
-      const front = part.layer === "frames" ? 0.03 * this.robot.size : part.layer === "gap" ? this.robot.size : 0;
+      const front = this.robot.size * ({ frames: 0.03, base: 0.03, gap: 1, ground: -0.03 }[part.layer] ?? 0);
       const count = part.arrow || part.dashed ? 1 : Math.max(1, Math.ceil(norm(way) / (0.06 * this.robot.size)));
       for (let i = 0; i < count; i += 1) {
         const [a, b] = [i / count, (i + 1) / count].map((s) => this.flat(plus(start, times(s, way))));
@@ -166,7 +174,8 @@ class View {
       pen.lineTo(b.x, b.y);
       pen.stroke();
     };
-    stroke(marked ? POINTED : "#fff", width + (marked ? 5 : 2.4), "butt");
+    // What lies in a face has no white rim on it.
+    if (marked || part.layer !== "platform") stroke(marked ? POINTED : "#fff", width + (marked ? 5 : 2.4), "butt");
     pen.setLineDash(part.dashed ? [2.2 * width, 1.8 * width] : []);
     stroke(part.color, width, part.dashed ? "butt" : "round");
     pen.setLineDash([]);
@@ -210,7 +219,7 @@ class View {
 
   // Names that stand at one place on the screen are written together.
   labels(pen) {
-    pen.font = `600 ${Math.round(11.5 * this.unit)}px system-ui, sans-serif`;
+    pen.font = `600 ${Math.max(11, Math.round(11.5 * this.unit))}px system-ui, sans-serif`;
     pen.textBaseline = "middle";
     pen.textAlign = "left";
     const groups = [];
@@ -221,13 +230,14 @@ class View {
       else groups.push({ x: p.x, y: p.y, parts: [part] });
     }
     const segments = this.items.filter((item) => item.part).map((item) => item.ends);
+    const sleeves = this.robot.sleeves.map((ends) => ends.map((end) => this.flat(this.point(end))));
     const taken = [], gap = pen.measureText(" ").width, height = 14 * this.unit;
     for (const group of groups) {
       const widths = group.parts.map((part) => pen.measureText(part.text).width);
       const width = widths.reduce((sum, w) => sum + w, 0) + gap * (widths.length - 1);
       const key = group.parts.map((part) => part.text).join(" ");
       const others = groups.filter((g) => g !== group);
-      const box = this.place(key, group, { width, height }, { taken, segments, others });
+      const box = this.place(key, group, { width, height }, { taken, segments, sleeves, others });
       taken.push(box);
       if (Math.hypot(box.x + width / 2 - group.x, box.y + height / 2 - group.y) > width / 2 + 26 * this.unit + this.robot.bulk * this.scale) {
         pen.strokeStyle = "#bbb";
@@ -249,7 +259,7 @@ class View {
     }
   }
 
-  place(key, group, { width, height }, { taken, segments, others }) {
+  place(key, group, { width, height }, { taken, segments, sleeves, others }) {
     let best = null;
     const before = this.kept.get(key);
     const around = group.parts.some((part) => part.layer !== "base");
@@ -261,7 +271,9 @@ class View {
         const y = group.y + Math.sin(angle) * (reach + height / 4) - height / 2;
         const box = { x, y, right: x + width, bottom: y + height };
         const inside = x > 0 && y > 0 && box.right < this.width && box.bottom < this.height;
-        const hit = others.filter((g) => covers(box, g, 0.8 * this.robot.bulk * this.scale)).length;
+        const thick = 0.8 * this.robot.bulk * this.scale;
+        const hit = others.filter((g) => covers(box, g, thick)).length
+          + sleeves.filter(([a, b]) => crosses(a, b, { x: x - thick, y: y - thick, right: box.right + thick, bottom: box.bottom + thick })).length;
         const cost = 2 * hit + 8 * taken.filter((b) => overlap(box, b)).length + (inside ? 0 : 20) + 0.7 * ring
           + Math.min(4, segments.filter(([a, b]) => crosses(a, b, box)).length)
           - (before === ring * 12 + k ? 0.9 : 0);

@@ -181,6 +181,8 @@ def _told(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray)
     others = f"{len(modes)} assembly modes: `modeler home` shows them, --write writes one down"
     if len(modes) == 1:
         others = "the only assembly mode found; `modeler home --write` writes it down"
+    if not modes[0].kept:
+        others += "; it is outside [limits], which none keeps there: check the lengths"
     if not np.any(np.isfinite(stated)):
         given = linkage.closing.given
         return f"{robot.name}: [home] found: mode A at {_values(linkage, posture, given)}; {others}"

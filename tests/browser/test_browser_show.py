@@ -1,6 +1,7 @@
 """`modeler show` in a real browser: the same poses and loops as in Python, moved as a user does."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from modeler.robot import builtin_text, read_robot, robot_from_text
 from modeler.show import Posture, Skeleton, home_posture, page_html, poses, skeleton_of
 from modeler.show.closing import gaps_of, jacobian, residuals
 from modeler.show.page import page_content
+from modeler.showing import show
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS
 
@@ -203,6 +205,34 @@ def test_the_page_works_alone_at_any_width(browser, tmp_path, name: str, size) -
     text = browser.value("document.body.innerText")
     for joint in skeleton.robot.joints:
         assert joint.name in text
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", ["orthoglide-2003", "stewart", "five-bar", "sr400", "puma560"])
+def test_no_part_is_drawn_under_the_buttons_and_the_key(browser, tmp_path, name: str, size) -> None:
+    shown(browser, tmp_path, builtin_text(name), size)
+    for view in ("first", "xy", "xz", "yz", "iso"):
+        browser.value(f"document.querySelector('[data-view={view}]').click()")
+        browser.value("modelerShow.view.draw(modelerShow.poses())")
+        hidden = browser.value(
+            "(() => { const points = modelerShow.view.items.flatMap((i) => i.points || i.ends);"
+            "const over = boxes(), { width, height } = modelerShow.view;"
+            "return points.filter(({x, y}) => x < 0 || y < 0 || x > width || y > height ||"
+            "over.some((b) => x > b.left && x < b.right && y > b.top && y < b.bottom)).length; })()"
+        )
+        assert hidden == 0, view
+
+
+def test_a_home_that_was_found_is_said_on_the_page(browser, tmp_path) -> None:
+    page = tmp_path / "bare.html"
+    text = re.sub(r"\[home\][^\[]*", "", builtin_text("five-bar"))
+    drawn = show(robot_from_text(text, "five-bar"), page=page)
+    browser.open(page, *SIZES[0])
+    browser.until("window.modelerShow && modelerShow.view.items.length > 0")
+    assert browser.value("document.getElementById('note').innerText") == drawn.posture.note
+    assert drawn.posture.note.startswith("five-bar: [home] found: mode A at q11 = 2.2")
+    assert browser.value("document.getElementById('state').textContent") == " · loops closed"
+    np.testing.assert_allclose(browser.value("modelerShow.u"), drawn.posture.u, atol=1e-12)
 
 
 def inked(browser: Chromium) -> float:

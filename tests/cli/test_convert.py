@@ -57,7 +57,7 @@ def test_a_file_is_written_over_only_by_force(capsys, par, tmp_path):
         ("arm.xacro", "arm.toml", "docs/converting.md"),
         ("arm.toml", "new.toml", "is a robot file already"),
         ("none.par", "new.toml", "cannot be read"),
-        ("arm.par", "other.par", "got .par"),
+        ("arm.par", "other.par", "got .par, which is another program's robot file"),
         ("arm.par", "arm.par", "this is the robot file that is read"),
         ("bad.par", "new.toml", "d: got 3 entries, expected 2"),
     ],

@@ -2,15 +2,17 @@
 
 import json
 import os
-import xml.etree.ElementTree as ET
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 
 from modeler.cli import main
 from modeler.robot import builtin_text, read_robot
 from tests.loops.test_loops_mistakes import CRANK
+from tests.robot.par_files import par_text
 
 BARE = CRANK[: CRANK.index("[home]")].rstrip() + "\n"
 
@@ -83,26 +85,38 @@ def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
     assert set(read_robot("bare.toml").home) == {"1", "2", "3"}
 
 
-@pytest.mark.parametrize("name", ["modes.html", "modes.svg"])
-def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, name) -> None:
-    assert f"written: {name}" in answer(capsys, "stewart", "--pictures", name)
-    text = Path(name).read_text()
-    drawing = ET.fromstring(text[text.index("<svg") : text.index("</svg>") + 6])
-    space = "{http://www.w3.org/2000/svg}"
-    panels = drawing.findall(f"{space}g")
-    letters = [panel.findtext(f"{space}text") for panel in panels]
-    assert letters[0] == "A (as in the file)" and letters[1:] == list("BCDEFGH")
-    width, height = float(drawing.attrib["width"]), float(drawing.attrib["height"])
-    places = set()
-    for panel in panels:
-        x, y = map(float, panel.attrib["transform"][10:-1].split())
-        dots = panel.findall(f"{space}circle")
-        assert len(dots) == 18  # three joints a leg; a platform that moves freely has none
-        where = np.array([[x + float(d.attrib["cx"]), y + float(d.attrib["cy"])] for d in dots])
-        assert np.all(where >= 0) and np.all(where <= [width, height])
-        places.add(tuple(np.round(where - [x, y], 0).ravel()))
-    assert len(places) == 8
-    assert "http" not in text.replace('xmlns="http://www.w3.org/2000/svg"', "")
+@pytest.mark.parametrize("kind", ["html", "svg", "png", "pdf"])
+def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) -> None:
+    name = f"modes.{kind}"
+    assert f"written: {name}" in answer(capsys, "crank.toml", "--pictures", name)
+    if kind == "pdf":
+        assert Path(name).read_bytes().startswith(b"%PDF")
+    elif kind == "png":
+        pixels = imread(name)[:, :, :3]
+        assert pixels.shape[1] == 1400  # 3.5 inches of 400 dots
+        halves = pixels[:, :700], pixels[:, 700:]
+        assert all(0.01 < np.mean(np.any(half < 0.95, axis=2)) < 0.5 for half in halves)
+        assert np.mean(np.any(np.abs(halves[0] - halves[1]) > 0.05, axis=2)) > 0.005
+    else:
+        text = Path(name).read_text()
+        assert all(f">{title}</text>" in text for title in ("A (as in the file)", "B"))
+        assert not re.search(r"<link|<iframe|\bsrc=|@import|<script|url\((?!#)", text)
+
+
+def test_modes_stand_in_rows_of_four(crank, capsys) -> None:
+    answer(capsys, "stewart", "--pictures", "modes.svg")
+    found = re.findall(r"<text [^>]*>([A-Z][^<]*)</text>", Path("modes.svg").read_text())
+    assert found == ["A (as in the file)", *"BCDEFGH"]
+    answer(capsys, "stewart", "--pictures", "modes.png")
+    pixels = np.any(imread("modes.png")[:, :, :3] < 0.95, axis=2)
+    assert pixels.shape[1] == 2800
+    panels = [half[:, 700 * k : 700 * (k + 1)] for half in np.vsplit(pixels, 2) for k in range(4)]
+    for k, panel in enumerate(panels):
+        assert 0.01 < np.mean(panel) < 0.5
+        assert not any(
+            np.any(edge) for edge in (panel[:, :8], panel[:, -8:], panel[:8], panel[-8:])
+        )
+        assert all(np.mean(panel != other) > 0.01 for other in panels[:k])
 
 
 def test_commands_say_which_home_was_found(crank, capsys) -> None:
@@ -140,8 +154,8 @@ MISTAKES = [
     (("crank.toml", "--near", "q1=x"), '--near: "q1": got "x": x is not declared'),
     (("crank.toml", "--near", "q1"), "--near q1: got 'q1'; expected values as in q1=0.3,q2=pi"),
     (("crank.toml", "--mode", "C"), "--mode C: there is no such mode; expected one of A, B"),
-    (("crank.toml", "--pictures", "a.png"), "--pictures a.png: got .png; expected a name that"),
-    (("crank.toml", "--pictures", "a"), "--pictures a: got no suffix; expected a name that"),
+    (("crank.toml", "--pictures", "a.gif"), "--pictures a.gif: got .gif; expected a name that"),
+    (("crank.toml", "--pictures", "a"), "--pictures a: got no ending; expected a name that"),
     (("five-bar", "--write"), "--write: five-bar is built in; save it with `modeler robots"),
     (("none.toml", "--write"), "none.toml: there is no such file"),
 ]
@@ -161,6 +175,26 @@ def test_a_file_that_may_not_be_written_is_told_before_the_work(crank, capsys, m
         capsys, "bare.toml", "--write"
     )
     assert Path("bare.toml").read_text() == BARE
+
+
+def test_another_programs_file_is_never_written_over(crank, capsys, monkeypatch) -> None:
+    text = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2"})
+    Path("arm.par").write_text(text)
+    Path("ARM2.PAR").write_text(text)
+    monkeypatch.setattr("modeler.cli.home.modes_near", lambda robot, near: pytest.fail("searched"))
+    for name in ("arm.par", "ARM2.PAR", "none.par"):
+        err = refusal(capsys, name, "--write")
+        told = f"convert it with `modeler convert {name} --out {Path(name).with_suffix('.toml')}`"
+        assert f"--write: {name} is another program's file" in err and told in err
+    assert Path("arm.par").read_text() == Path("ARM2.PAR").read_text() == text
+    assert not Path("none.par").exists()
+
+
+def test_what_a_conversion_decided_is_said(crank, capsys) -> None:
+    Path("arm.par").write_text(par_text({"Ant": "0", "Theta": "t1"}))
+    assert main(["home", "arm.par"]) == 1
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0].startswith("modeler: arm.par: ") and "no loop to close" in lines[-1]
 
 
 def test_lengths_that_never_meet_are_told(crank, capsys) -> None:

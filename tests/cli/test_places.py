@@ -200,3 +200,29 @@ def test_folders_declare_what_they_get(tmp_path: Path) -> None:
 def test_every_command_is_tried_here_and_has_json() -> None:
     assert not [c for c, a in actions() if a.dest == "json" and a.type is not JsonFile]
     assert {command for command, _ in actions()} == set(READING)
+
+
+@pytest.mark.parametrize("ending", [".par", ".PAR", ".urdf", ".mjcf"])
+@pytest.mark.parametrize("there_is_one", [True, False])
+def test_nothing_is_written_into_another_programs_robot_file(
+    tmp_path, monkeypatch, capsys, ending, there_is_one
+) -> None:
+    """Of every command, whatever the option; before anything is read."""
+    monkeypatch.chdir(tmp_path)
+    for command, action in actions():
+        if not (isinstance(action.type, type) and issubclass(action.type, Output)):
+            continue
+        place = Path(f"other{ending}")
+        if there_is_one:
+            place.write_text("theirs")
+        words = READING[command].split()
+        option = action.option_strings[-1]
+        if option in words:
+            words[words.index(option) + 1] = str(place)
+        else:
+            words += [option, str(place)]
+        assert main(words) == 1, words
+        err = capsys.readouterr().err
+        assert f"{option} {place}: got {ending.lower()}, which is another program's" in err, words
+        assert err.count("\n") == 1
+        assert place.read_text() == "theirs" if there_is_one else not place.exists()

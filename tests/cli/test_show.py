@@ -9,9 +9,13 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from modeler.api import load, show
 from modeler.cli import main
+from modeler.core.errors import DataError
 from modeler.robot import builtin_text, read_robot
-from modeler.show import home_posture, picture, skeleton_of
+from modeler.show import home_posture, picture_bytes, skeleton_of
+from modeler.symbolic import with_home
+from tests.robot.par_files import par_text
 from tests.robots import ROBOTS
 
 
@@ -78,8 +82,53 @@ def test_the_same_robot_gives_the_same_picture() -> None:
     skeleton = skeleton_of(read_robot("sr400"))
     posture = home_posture(skeleton)
     for kind in (".png", ".svg", ".pdf"):
-        assert picture(skeleton, posture, kind) == picture(skeleton, posture, kind)
-    assert imread(BytesIO(picture(skeleton, posture, ".png"))).ndim == 3
+        first, again = (picture_bytes(skeleton, posture, kind) for _ in range(2))
+        assert first == again
+    assert imread(BytesIO(picture_bytes(skeleton, posture, ".png"))).ndim == 3
+
+
+BARE = re.sub(r"\[home\][^\[]*", "", builtin_text("five-bar"))
+
+
+def test_a_home_that_is_found_is_shown_and_said(here, capsys) -> None:
+    """The posture that a derivation starts from, on the page and in words."""
+    (here / "bare.toml").write_text(BARE)
+    assert main(["show", "bare.toml", "--out", "b.html", "--json", "b.json"]) == 0
+    out, told = capsys.readouterr().out, json.loads((here / "b.json").read_text())
+    note = "five-bar: [home] found: mode A at q11 = 2.2, q12 = 0.9; 2 assembly modes"
+    assert note in out and told["note"].startswith(note)
+    assert note in (here / "b.html").read_text()
+    found = with_home(read_robot("bare.toml")).robot.home
+    assert {name: told["home"][f"q{name}"] for name in found} == pytest.approx(found, abs=1e-5)
+    assert told["closed"] and told["loose"] == []
+    assert main(["show", "five-bar", "--out", "b.html", "--json", "b.json"]) == 0
+    assert "found" not in capsys.readouterr().out
+    assert json.loads((here / "b.json").read_text())["note"] == ""
+
+
+def test_what_cannot_be_derived_is_shown_with_the_reason(here, capsys) -> None:
+    (here / "bare.toml").write_text(BARE.replace("L0 = 0.20", "L0 = 5.0"))
+    assert main(["show", "bare.toml", "--out", "b.html"]) == 0
+    out = capsys.readouterr().out
+    assert "the loops do not close near all joints at 0: drawn so; move" in out
+    assert 'five-bar: [home]: loop "tip" cannot close near that posture' in out
+    page = (here / "b.html").read_text()
+    assert "[home]: loop &quot;tip&quot; cannot close" in page
+
+
+def test_a_robot_is_drawn_from_python(here) -> None:
+    shown = show(load("five-bar"), page="p.html", picture="p.svg")
+    assert shown.posture.closed and shown.posture.note == ""
+    assert sorted(path.name for path in here.iterdir()) == ["p.html", "p.svg"]
+    with pytest.raises(DataError, match=r"^p.bmp: got .bmp; expected a name that ends in .png"):
+        show(load("five-bar"), picture="p.bmp")
+
+
+def test_another_programs_file_is_shown_with_its_notes(here, capsys) -> None:
+    (here / "arm.par").write_text(par_text({"Ant": "0", "d": "0", "R": "0.4", "Theta": "t1"}))
+    assert main(["show", "arm.par", "--out", "p.html"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("arm: ") and "modeler: arm.par: joint variables are called" in err
 
 
 def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
@@ -98,9 +147,9 @@ def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
     [
         (
             "wrist --png w.jpg",
-            "--png w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf",
+            "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf",
         ),
-        ("wrist --png w", "--png w: got no ending; expected a name that ends in .png, .svg, .pdf"),
+        ("wrist --png w", "w: got no ending; expected a name that ends in .png, .svg, .pdf"),
         ("wrost", '"wrost" is neither a file nor a built-in robot'),
         ("wrist --json wrist.html", "--json wrist.html: "),
         ("wrist --out w.html --png w.html", "--png w.html: --out writes this file too"),

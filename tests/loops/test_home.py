@@ -204,6 +204,13 @@ def test_limits_choose_the_posture() -> None:
     assert home["1"] == pytest.approx(2.2) and home["3"] < 0.0
 
 
+def test_limits_that_cannot_be_kept_are_told() -> None:
+    bare = CRANK[: CRANK.index("[home]")]
+    for least, told in ((0.2, False), (0.5, True)):  # the slider reaches 0.45
+        home = with_home(of_text(f"{bare}[limits]\n3 = [{least}, 0.6, 1, 1]\n"))
+        assert ("; it is outside [limits], which none keeps there: check" in home.told) is told
+
+
 def test_a_home_out_of_reach_is_moved_and_told() -> None:
     home = with_home(of_text(CRANK.replace("R = 0.10", "R = 0.45")))
     assert "crank: [home] completed: moved q1 1.571 -> " in home.told

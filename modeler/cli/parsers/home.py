@@ -32,7 +32,7 @@ def add_home(commands: Commands) -> None:
     )
     parser.add_argument(
         "--pictures", metavar="FILE", type=Output,
-        help="a small picture of every mode: a page (.html) or a drawing (.svg)",
+        help="a small picture of every mode: .png, .svg or .pdf, or a page (.html)",
     )  # fmt: skip
     add_json(parser, "write the modes for machines")
     parser.set_defaults(load=_home)
