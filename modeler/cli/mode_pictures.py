@@ -33,7 +33,7 @@ def modes_drawing(found: HomeModes) -> str:
     flat = _projected(points)
     low, high = flat.min(axis=(0, 1)), flat.max(axis=(0, 1))
     room = np.array([_WIDE, _HIGH]) - 2.0 * _ROOM
-    scale = float(np.min(room / np.maximum(high - low, 1e-9 * linkage.span)))
+    scale = float(np.min(room / np.maximum(high - low, 1e-9 * linkage.closing.size)))
     flat = (flat - 0.5 * (low + high)) * scale * [1.0, -1.0] + 0.5 * np.array([_WIDE, _HIGH])
     across = min(4, len(u))
     lines = []
