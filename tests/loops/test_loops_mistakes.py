@@ -155,7 +155,7 @@ def test_a_flat_parallelogram_is_singular(lean):
 
 
 def test_angles_do_not_count_as_lengths():
-    turned = PARALLELOGRAM.replace('"q1"', '"q1 + turn"').replace("B = 0.7", "B = 0.7\nturn = 6.2")
-    robot = robot_from_text(turned + "[home]\nq1 = 1\nq2 = -1\nq4 = 7.2\n", "parallelogram.toml")
+    turned = PARALLELOGRAM.replace('"q1"', '"q1 + turn"').replace("B = 0.7", "B = 0.7\nturn = 3")
+    robot = robot_from_text(turned + "[home]\nq1 = 1\nq2 = -1\nq4 = 4\n", "parallelogram.toml")
     closure = SymbolicModel(robot, exact_geometry(robot), Graph(), ()).closure
     assert closure is not None and closure.size == 0.7
