@@ -28,7 +28,7 @@ from modeler.symbolic.closing import (
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
-from modeler.symbolic.kinematics import Pose, base_poses, dot
+from modeler.symbolic.kinematics import Pose, base_poses
 from modeler.symbolic.loop_equations import loop_alignments, loop_equations
 from modeler.symbolic.precise import precise_values
 
@@ -150,9 +150,9 @@ def _size(graph: Graph, geometry: Geometry, frames: Sequence[Pose]) -> float:
     It goes into the emitted C: taken with 40 digits, it is the same on every machine.
     """
     still = {f"q[{k}]": 0.0 for k in range(geometry.coordinates)}
-    squares = [graph.lift(dot(pose.p, pose.p)) for pose in frames]
-    found = precise_values(graph, squares, {**geometry.values, **still})
-    return float(precise().sqrt(max(found))) or 1.0
+    ways = [graph.lift(entry) for pose in frames for entry in pose.p]
+    found = precise_values(graph, ways, {**geometry.values, **still})
+    return float(max(map(precise().norm, zip(*[iter(found)] * 3, strict=True)))) or 1.0
 
 
 def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
