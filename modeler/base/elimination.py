@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+from sympy.polys.fields import FracElement
+
 from modeler.base.field import Element, minus, times
 from modeler.base.transfer import Matrix
 
@@ -82,4 +84,4 @@ def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
 
 
 def _terms(value: Element) -> int:
-    return len(value.numer) + len(value.denom) if hasattr(value, "numer") else 1
+    return len(value.numer) + len(value.denom) if isinstance(value, FracElement) else 1
