@@ -1,4 +1,9 @@
-"""Row reduction over an exact field, on small or sparse matrices."""
+"""Row reduction over an exact field, on small or sparse matrices.
+
+sympy's `DomainMatrix.rref` gives the same rows, but cannot stop where the coefficients fill pages:
+six joints with general twists are given up after 1.4 s here, and take 9 s there; for the Panda it
+takes 39 ms in the place of 2.
+"""
 
 from collections.abc import Mapping, Sequence
 
