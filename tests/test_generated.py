@@ -4,7 +4,16 @@ import pytest
 
 from tests.modules import module
 
-KEPT = ("wrist", "orthoglide-leg-tree", "sr400-tree", "sr400", "orthoglide-2003", "five-bar")
+KEPT = (
+    "wrist",
+    "orthoglide-leg-tree",
+    "sr400-tree",
+    "sr400",
+    "orthoglide-2003",
+    "orthoglide-2012",
+    "evra",
+    "five-bar",
+)
 
 
 @pytest.mark.parametrize("name", KEPT)

@@ -6,7 +6,7 @@
  * Joints, in the order of q, qd, qdd, tau: 11, 12.
  * SI units. Matrices are row-major. Outputs must not overlap inputs.
  *
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef FIVE_BAR_H
 #define FIVE_BAR_H

@@ -1,7 +1,7 @@
 /* Planar five-bar, two actuated joints at the base
  *
  * Functions of five_bar.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "five_bar.h"
 

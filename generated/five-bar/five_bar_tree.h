@@ -2,7 +2,7 @@
  *
  * Functions of the opened tree, for five_bar_loops.c: q, qd, qdd are here the free variables
  * u = 11, 21, 12, 22.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef FIVE_BAR_TREE_H
 #define FIVE_BAR_TREE_H

@@ -1,7 +1,7 @@
 /* Orthoglide, three translations (Guegan, Khalil, Lemoine 2003)
  *
  * Functions of orthoglide_2003.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "orthoglide_2003.h"
 

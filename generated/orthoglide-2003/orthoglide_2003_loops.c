@@ -1,7 +1,7 @@
 /* Orthoglide, three translations (Guegan, Khalil, Lemoine 2003)
  *
  * Closing the loops around the functions of the opened tree; see orthoglide_2003.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "orthoglide_2003.h"
 
@@ -15,26 +15,26 @@ static const double home[12] = {
     0.0, 0.0, 0.6, 0.19, 0.19, 0.19, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0
 };
 static const double scale[12] = {
-    0.6, 0.6, 0.6, 0.6, 0.6, 0.6, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0
+    0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0
 };
 static const int given[3] = { 3, 4, 5 };
 static const int solved[9] = { 0, 1, 2, 6, 7, 8, 9, 10, 11 };
 static const modeler_closure loops = {
     12, 3, 9, given, solved, scale, orthoglide_2003_tree_closure,
-    9, 0, 6e-10, orthoglide_2003_tree_residual
+    9, 0, 8.485281374238571e-10, orthoglide_2003_tree_residual
 };
 static const int platform_given[3] = { 0, 1, 2 };
 static const int platform_solved[9] = { 3, 4, 5, 6, 7, 8, 9, 10, 11 };
 static const modeler_closure platform_loops = {
     12, 3, 9, platform_given, platform_solved, scale, orthoglide_2003_tree_closure,
-    9, 0, 6e-10, orthoglide_2003_tree_residual
+    9, 0, 8.485281374238571e-10, orthoglide_2003_tree_residual
 };
 
 static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "0af9665a3ecf4234";
+    return "15d19b13a9d6eda0";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

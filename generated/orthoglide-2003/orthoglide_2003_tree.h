@@ -2,7 +2,7 @@
  *
  * Functions of the opened tree, for orthoglide_2003_loops.c: q, qd, qdd are here the free variables
  * u = Px, Py, P, 11, 12, 13, 21, 31, 22, 32, 23, 33.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef ORTHOGLIDE_2003_TREE_H
 #define ORTHOGLIDE_2003_TREE_H

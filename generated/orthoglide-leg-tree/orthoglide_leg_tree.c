@@ -1,7 +1,7 @@
 /* One leg of the Orthoglide, cut open
  *
  * Functions of orthoglide_leg_tree.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "orthoglide_leg_tree.h"
 
@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "46a1649f6417b540";
+    return "cd9dcae69b9ca77d";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

@@ -1,7 +1,7 @@
 /* One leg of the Orthoglide, cut open
  *
  * Functions of orthoglide_leg_tree.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "orthoglide_leg_tree.h"
 

@@ -1,7 +1,7 @@
 /* SR400, 6R arm with a parallelogram, cut open
  *
  * Functions of sr400_tree.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "sr400_tree.h"
 

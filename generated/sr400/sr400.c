@@ -1,7 +1,7 @@
 /* SR400, 6R arm with a parallelogram
  *
  * Functions of sr400.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "sr400.h"
 
@@ -56,7 +56,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "6ad831d1be55a2fd";
+    return "d17741679fc8f2a1";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -6,7 +6,7 @@
  * Joints, in the order of q, qd, qdd, tau: 1, 2, 3.
  * SI units. Matrices are row-major. Outputs must not overlap inputs.
  *
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef WRIST_H
 #define WRIST_H

@@ -1,7 +1,7 @@
 /* 3R industrial wrist (Hanssen, Hovland, Brogardh)
  *
  * Functions of wrist.h.
- * Emitted by modeler; changes are lost when it is emitted again.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include "wrist.h"
 

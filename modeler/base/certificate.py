@@ -28,7 +28,7 @@ from modeler.base.residues import (
     turned,
 )
 from modeler.effects import EnergyBlock
-from modeler.symbolic import Geometry, StandardColumn
+from modeler.symbolic import Geometry, LinkColumn, ShaftColumn, StandardColumn, in_block
 from modeler.symbolic.angles import cos_sin
 from modeler.symbolic.geometry import Row
 
@@ -172,15 +172,15 @@ class ModularState:
         links: dict[int, Mapping[str, tuple[Residues, Residues]]] = {}
         for place, column in enumerate(columns):
             for part in column.parts:
-                if part.column is None:
+                if isinstance(part, LinkColumn):
                     if part.row not in links:
                         links[part.row] = self._link_rows(part.row)
                     kinetic, power_of_gravity = links[part.row][part.prefix]
                     rows[:n, place] += kinetic
                     rows[n:, place] += power_of_gravity
-                elif part.column.block is EnergyBlock.KINETIC:
+                elif part.block is EnergyBlock.KINETIC:
                     rows[:n, place] += power(self.speed(part), 2, self.prime)
-                elif part.column.block is EnergyBlock.POWER:
+                elif part.block is EnergyBlock.POWER:
                     rows[n:, place] += self.speed(part)
         return rows % self.prime
 
@@ -188,14 +188,13 @@ class ModularState:
         """(points, columns): v**2 of the viscous columns."""
         rows = np.stack([filled(0, self.points, self.prime)] * len(columns), axis=1)
         for place, column in enumerate(columns):
-            if column.column is not None and column.column.block is EnergyBlock.RAYLEIGH:
+            if in_block(column, EnergyBlock.RAYLEIGH):
                 for part in column.parts:
                     rows[:, place] += power(self.speed(part), 2, self.prime)
         return rows % self.prime
 
-    def speed(self, column: StandardColumn) -> Residues:
+    def speed(self, column: ShaftColumn) -> Residues:
         """Speed of the shaft of an effect's column."""
-        assert column.shaft is not None
         return self._sum(column.shaft, self.qd)
 
     def _link_rows(self, row: int) -> Mapping[str, tuple[Residues, Residues]]:

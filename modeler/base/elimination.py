@@ -1,6 +1,13 @@
-"""Row reduction over an exact field, on small or sparse matrices."""
+"""Row reduction over an exact field, on small or sparse matrices.
+
+sympy's `DomainMatrix.rref` gives the same rows, but cannot stop where the coefficients fill pages:
+six joints with general twists are given up after 1.4 s here, and take 9 s there; for the Panda it
+takes 39 ms in the place of 2.
+"""
 
 from collections.abc import Mapping, Sequence
+
+from sympy.polys.fields import FracElement
 
 from modeler.base.field import Element, minus, times
 from modeler.base.transfer import Matrix
@@ -82,4 +89,4 @@ def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
 
 
 def _terms(value: Element) -> int:
-    return len(value.numer) + len(value.denom) if hasattr(value, "numer") else 1
+    return len(value.numer) + len(value.denom) if isinstance(value, FracElement) else 1

@@ -16,7 +16,7 @@ from modeler.base.tied import has_energy, tied_relations
 from modeler.base.tree import group_tree
 from modeler.base.units import Units, grouping_units
 from modeler.effects import EnergyBlock
-from modeler.symbolic import Geometry, StandardColumn, SymbolicModel
+from modeler.symbolic import Geometry, StandardColumn, SymbolicModel, in_block
 
 
 @dataclass(frozen=True)
@@ -54,9 +54,7 @@ def column_relations(
     rows += [
         {place: K.one}
         for place, column in enumerate(model.columns)
-        if column.column is not None
-        and column.column.block is EnergyBlock.OWN
-        and place not in felt
+        if in_block(column, EnergyBlock.OWN) and place not in felt
     ]
     reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
     first = sum(pivot >= len(model.columns) for pivot in pivots)

@@ -9,7 +9,7 @@ from modeler.base.field import Element, ExactField
 from modeler.base.grouping import Relations
 from modeler.base.shafts import friction_relations
 from modeler.effects import EnergyBlock
-from modeler.symbolic import Geometry, StandardColumn
+from modeler.symbolic import Geometry, StandardColumn, in_block
 
 _CHECKS = 3
 
@@ -64,11 +64,7 @@ def _check_relations(
     state: ModularState,
 ) -> None:
     rows = np.vstack([state.energy_rows(columns), state.rayleigh_rows(columns)])
-    dry = {
-        place
-        for place, column in enumerate(columns)
-        if column.column is not None and column.column.block is EnergyBlock.COULOMB
-    }
+    dry = {place for place, c in enumerate(columns) if in_block(c, EnergyBlock.COULOMB)}
     known: dict[Element, int] = {}
     for relation, dropped in zip(relations.rows, relations.dropped, strict=True):
         total = np.zeros(rows.shape[0], dtype=np.int64)
@@ -85,15 +81,10 @@ def _modular_rank(
     columns: tuple[StandardColumn, ...], relations: Relations, state: ModularState
 ) -> int:
     kept = list(relations.kept)
+    left = [columns[i] for i in kept]
     energy = modular_rank(state.energy_rows(columns)[:, kept])
     rayleigh = modular_rank(state.rayleigh_rows(columns)[:, kept])
-    dry = [
-        c for c in (columns[i] for i in kept)
-        if c.column is not None and c.column.block is EnergyBlock.COULOMB
-    ]  # fmt: skip
-    own = sum(
-        c.column is not None and c.column.block is EnergyBlock.OWN
-        for c in (columns[i] for i in kept)
-    )
+    dry = [column for column in left if in_block(column, EnergyBlock.COULOMB)]
+    own = sum(in_block(column, EnergyBlock.OWN) for column in left)
     # Columns |v| of pairwise non-proportional speeds are independent: see `modeler.base.shafts`.
     return energy + rayleigh + own + len(dry) - len(friction_relations(dry))

@@ -4,13 +4,12 @@ Every term is printed as the product it is, numerator * parameter / denominator,
 around whatever binds less than its place in that product.
 """
 
-import re
-
 import sympy
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from modeler.base.result import BaseParameter, Term
+from modeler.core.latex import latex_name
 
 _PRINTER = StrPrinter({"full_prec": False})  # decimal numbers without zeros behind them
 
@@ -26,18 +25,8 @@ def relation_text(parameter: BaseParameter) -> str:
 
 
 def relation_latex(parameter: BaseParameter) -> str:
-    """`ZZ_{2R} = ZZ_{2} + YY_{3} + D_{4}^{2} M_{4}`."""
-    return f"{name_latex(parameter.name)} = {_sum([_latex_term(t) for t in parameter.terms])}"
-
-
-def name_latex(name: str) -> str:
-    """`ZZ2R` as `ZZ_{2R}`; an underscore is a letter of the name."""
-    match = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
-    return (f"{match[1]}_{{{_escaped(match[2])}}}") if match else _escaped(name)
-
-
-def _escaped(name: str) -> str:
-    return name.replace("_", r"\_")
+    r"""`\mathit{ZZ}_{2R} = \mathit{ZZ}_{2} + \mathit{YY}_{3} + D_{4}^{2} M_{4}`."""
+    return f"{latex_name(parameter.name)} = {_sum([_latex_term(t) for t in parameter.terms])}"
 
 
 def _sum(terms: list[str]) -> str:
@@ -64,10 +53,10 @@ def _text_term(term: Term) -> str:
 
 def _latex_term(term: Term) -> str:
     sign, size = _sign(term.coefficient)
-    name = name_latex(term.parameter)
+    name = latex_name(term.parameter)
     if size == 1:
         return sign + name
-    letters = {symbol: name_latex(symbol.name) for symbol in size.free_symbols}
+    letters = {symbol: latex_name(symbol.name) for symbol in size.free_symbols}
     text = sympy.latex(size, symbol_names=letters)
     return f"{sign}\\left({text}\\right) {name}" if size.is_Add else f"{sign}{text} {name}"
 

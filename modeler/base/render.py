@@ -106,5 +106,5 @@ def _sampling_text(sampling: Sampling, seed: int) -> str:
     return (
         f"at {sampling.postures} closed postures on walks from [home] (seed {seed}): {ranges}; "
         f"distance to the nearest singularity {sampling.distance:.2g} (least singular value of the "
-        "loops' Jacobian by the passive joints, rows of length 1)"
+        "loops' Jacobian by the passive joints, rows of usual length 1)"
     )

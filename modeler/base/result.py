@@ -37,7 +37,7 @@ class Sampling:
         postures: their number.
         ranges: (lowest, highest) position of each actuated joint, rad or m, by name.
         distance: to the nearest singularity: least singular value of the loops' Jacobian by the
-            passive joints, rows of length 1, travels in sizes of the robot.
+            passive joints, rows of usual length 1, travels in sizes of the robot.
     """
 
     postures: int

@@ -11,7 +11,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from fractions import Fraction
 
 from modeler.effects import EnergyBlock
-from modeler.symbolic import StandardColumn
+from modeler.symbolic import StandardColumn, in_block
 
 Relation = dict[int, Fraction]
 """sum of coefficient * column = 0, by column."""
@@ -52,11 +52,11 @@ def _dependent(
     relations: list[Relation] = []
     basis: list[tuple[dict[Hashable, Fraction], Relation]] = []
     for place, column in enumerate(columns):
-        if column.column is None or column.column.block is not block:
+        if not in_block(column, block):
             continue
         rest: dict[Hashable, Fraction] = {}
         for part in column.parts:
-            rest = _minus(rest, function(part.shaft or {}), Fraction(-1)) if part.shaft else rest
+            rest = _minus(rest, function(part.shaft), Fraction(-1)) if part.shaft else rest
         used = {place: Fraction(1)}
         for known, combination in basis:
             pivot = next(iter(known))

@@ -19,7 +19,7 @@ from modeler.base.elimination import TooLarge
 from modeler.base.field import Element, ExactField
 from modeler.base.interpolation import Point, Probes, coefficient
 from modeler.base.residues import LARGE, SMALL, Residues, row_echelon
-from modeler.symbolic import Geometry, StandardColumn
+from modeler.symbolic import Geometry, LinkColumn, StandardColumn
 
 _SPARE = 6
 _POINTS = 3
@@ -130,7 +130,7 @@ def _supports(
 
 def has_energy(column: StandardColumn) -> bool:
     """True where a column adds to the energies: no friction."""
-    return column.column is None or column.kind in ("rotor_inertia", "offset")
+    return isinstance(column, LinkColumn) or column.kind in ("rotor_inertia", "offset")
 
 
 class _Sampler:

@@ -6,13 +6,13 @@ the robot's columns: what it does not have is eliminated, and what legs share mu
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from modeler.base.field import Element
 from modeler.base.tree import INERTIA, OFFSET
 from modeler.robot import INERTIAL
-from modeler.symbolic import Geometry, StandardColumn
+from modeler.symbolic import Geometry, LinkColumn, StandardColumn, link_column
 
 _OWN = {"rotor_inertia": INERTIA, "offset": OFFSET}
 
@@ -94,18 +94,17 @@ def grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) -> Uni
     places: dict[tuple[int, int], int] = {}
     for column, standard in enumerate(columns):
         for part in standard.parts:
-            if part.column is None:
+            if isinstance(part, LinkColumn):
                 places[part.row, INERTIAL.index(part.prefix)] = len(found)
             elif part.effect in _OWN:
                 places[part.row, _OWN[part.effect]] = len(found)
-            found.append(replace(part, others=()))
+            found.append(part)
             owner.append(column)
     for k, row in enumerate(geometry.rows):
         if row.index is not None:
             for i, prefix in enumerate(INERTIAL):
                 if (k, i) not in places:
                     places[k, i] = len(found)
-                    name = f"{prefix}{row.joint.name}"
-                    found.append(StandardColumn(name, k, prefix, "", "inertial", "rigid_body"))
+                    found.append(link_column(prefix, k, row.joint))
                     owner.append(None)
     return Units(tuple(found), tuple(owner), places, len(columns))

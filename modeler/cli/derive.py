@@ -16,7 +16,7 @@ from modeler.cli.robots import robot_of
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation, derive, generate
-from modeler.symbolic import SymbolicModel
+from modeler.symbolic import LinkColumn, SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
 from modeler.terms import (
     ClosedForm,
@@ -103,7 +103,7 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     model = derivation.model
     rng = np.random.default_rng(derivation.base.proof.seed)
     states = random_states(model, samples, rng)
-    link = np.array([column.column is None for column in model.columns])
+    link = np.array([isinstance(column, LinkColumn) for column in model.columns])
     chi = np.where(link, rng.normal(size=len(link)), 0.0)
     tau = regressor_values(model, states) @ chi
     other = lagrange_torque(model, *states, chi)

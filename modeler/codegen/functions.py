@@ -8,7 +8,7 @@ from modeler.base.result import BaseParameters
 from modeler.core.contract import ArgumentSpec
 from modeler.effects import Acts
 from modeler.robot import Joint
-from modeler.symbolic import Expr, SymbolicModel
+from modeler.symbolic import Expr, ShaftColumn, SymbolicModel
 from modeler.symbolic.signals import Signal
 
 
@@ -210,11 +210,9 @@ def _dynamics(
 def reads_more(model: SymbolicModel) -> bool:
     """True if an effect reads more than the speed and acceleration of its joint."""
     return any(
-        part.column is not None
-        and (
-            part.acts is Acts.POSITION or not part.column.equation.names <= {"v", "a", *part.shapes}
-        )
+        part.acts is Acts.POSITION or not part.equation.names <= {"v", "a", *part.shapes}
         for column in model.columns
+        if isinstance(column, ShaftColumn)
         for part in column.parts
     )
 

@@ -89,14 +89,8 @@ def _standard(model: SymbolicModel, column: StandardColumn) -> ParameterSpec:
         effect=column.effect,
         joint=model.robot.joints[column.row].name,
         nominal=model.robot.parameters.get(column.name),
-        nonnegative=_nonnegative(column),
+        nonnegative=column.nonnegative,
     )
-
-
-def _nonnegative(column: StandardColumn) -> bool:
-    if column.column is None:
-        return column.prefix in ("XX", "YY", "ZZ", "M")
-    return column.column.nonnegative
 
 
 def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:

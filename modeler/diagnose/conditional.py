@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.diagnose.blocks import blocks_of
 from modeler.diagnose.candidates import Candidate, JointScale
+from modeler.diagnose.orthonormal import orthonormal
 from modeler.diagnose.rows import Columns, Rows
 from modeler.observation import Observation
 
@@ -61,14 +62,7 @@ class Problem:
     @cached_property
     def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
         """Orthonormal weighted columns of all else by joint, and (c, r): columns = W turn."""
-        scaled = [w / s for w, s in zip(self.others, self.sigma, strict=True)]
-        gram = sum(w.T @ w for w in scaled)
-        length = np.sqrt(np.diag(gram))
-        safe = np.where(length > 0.0, length, 1.0)
-        values, vectors = np.linalg.eigh(gram / np.outer(safe, safe))
-        kept = values > 1e-11 * float(values.max(initial=1e-300))
-        turn = vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None]
-        return tuple(w @ turn for w in scaled), turn
+        return orthonormal(self.others, self.sigma)
 
     @cached_property
     def target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:

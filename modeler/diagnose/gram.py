@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from modeler.diagnose.orthonormal import orthonormal
 from modeler.diagnose.rows import Columns, Rows
 
 RIDGE = 1e-10
@@ -119,14 +120,7 @@ def base_of(
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
     """
-    scaled = [w / s for w, s in zip(W, sigma, strict=True)]
-    gram = sum(w.T @ w for w in scaled)
-    length = np.sqrt(np.diag(gram))
-    safe = np.where(length > 0.0, length, 1.0)
-    values, vectors = np.linalg.eigh(gram / np.outer(safe, safe))
-    kept = values > 1e-11 * float(values.max(initial=1e-300))
-    turn = vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None]
-    columns = tuple(w @ turn for w in scaled)
+    columns, turn = orthonormal(W, sigma)
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     r = turn.shape[1]
     G, u = np.zeros((len(fold), r, r)), np.zeros((len(fold), r))

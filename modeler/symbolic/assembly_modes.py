@@ -9,20 +9,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.symbolic.closing import SINGULAR
 from modeler.symbolic.copies import best_copy, lengthened, shapes_apart
 from modeler.symbolic.linkage import Linkage
 from modeler.symbolic.posture_search import at_rest, closed_from, starts
-from modeler.symbolic.singularity import SINGULAR
 from modeler.symbolic.steady_ties import steady_ties
 
 _GOOD = 0.2
 """Share of the best distance to a singularity that a posture to start from has to have."""
 _KEPT = 1e-9
-"""rad or spans by which rounding may leave [limits]."""
+"""rad or sizes by which rounding may leave [limits]."""
 _DIGITS = 5
 """Of numbers by which postures are ranked, so that rounding never ranks them."""
 _STEPS = (0.1, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
-"""rad or spans (their power of ten), to which actuated joints are rounded."""
+"""rad or sizes (their power of ten), to which actuated joints are rounded."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +32,10 @@ class AssemblyMode:
     Attributes:
         letter: A for the one that is best to start from, B, ...
         posture: (u,) values of the free joints, rad and m, loops closed.
-        sigma: distance to a singularity, 0 at one; see `Linkage.sigma`.
+        sigma: distance to a singularity, 0 at one; see `Closing.sigma`.
         kept: True within [limits].
         copies: number of ways in which the same was found written, itself included.
-        away: from what was stated, rad and spans, summed over the joints that were.
+        away: from what was stated, rad and sizes, summed over the joints that were.
     """
 
     letter: str
@@ -68,7 +68,7 @@ def assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, .
     if not len(found):
         return ()
     groups = [found[group] for group in shapes_apart(linkage, found)]
-    best = max(float(np.max(linkage.sigma(group))) for group in groups)
+    best = max(float(np.max(linkage.closing.sigma(group))) for group in groups)
     ranked = []
     for group in groups:
         u = best_copy(linkage, group, lambda some: _ranks(linkage, some, hints, best))
@@ -80,7 +80,7 @@ def assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, .
         AssemblyMode(
             letter=_letter(k),
             posture=u,
-            sigma=float(linkage.sigma(u[None])[0]),
+            sigma=float(linkage.closing.sigma(u[None])[0]),
             kept=bool(linkage.outside(u[None])[0] < _KEPT),
             copies=copies,
             away=float(np.sum(linkage.apart(u[None], hints))),
@@ -98,9 +98,11 @@ def _ranks(
     linkage: Linkage, u: np.ndarray, hints: np.ndarray, best: float
 ) -> list[tuple[float, ...]]:
     """By posture, what sorts the better one first."""
-    sigma = linkage.sigma(u)
+    sigma = linkage.closing.sigma(u)
     own = np.array([joint.name not in linkage.robot.platform for joint in linkage.free])
-    negative = np.sum((u < -1e-9 * linkage.span) & linkage.lengths & linkage.tied & own, axis=1)
+    negative = np.sum(
+        (u < -1e-9 * linkage.closing.size) & linkage.lengths & linkage.tied & own, axis=1
+    )
     angles = np.sum(np.abs(np.where(linkage.lengths, 0.0, u)), axis=1)
     columns = np.column_stack([
         np.round(linkage.outside(u), _DIGITS),
@@ -123,7 +125,7 @@ def _place(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray:
 
     Ties take long to count: they are for the best postures, and some others down to the worst.
     """
-    keys = _ranks(linkage, u, hints, float(np.max(linkage.sigma(u))))
+    keys = _ranks(linkage, u, hints, float(np.max(linkage.closing.sigma(u))))
     order = sorted((k for k, key in enumerate(keys) if not key[1]), key=keys.__getitem__)
     spread = np.linspace(0, len(order) - 1, _COUNTED).astype(int)
     some = [order[k] for k in sorted({*range(min(_COUNTED, len(order))), *spread.tolist()})]
@@ -160,13 +162,13 @@ def _regular(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray:
     """Those that are not singular, cylinders longer than zero."""
     if not len(u):
         return u
-    return lengthened(linkage, u[linkage.sigma(u) > SINGULAR], hints)
+    return lengthened(linkage, u[linkage.closing.sigma(u) > SINGULAR], hints)
 
 
 def _rounded(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarray:
     """The posture with actuated joints at short numbers, as short as leaves it where it is."""
-    before = float(linkage.sigma(u[None])[0])
-    unit = np.where(linkage.lengths, 10.0 ** np.floor(np.log10(linkage.span)), 1.0)
+    before = float(linkage.closing.sigma(u[None])[0])
+    unit = np.where(linkage.lengths, 10.0 ** np.floor(np.log10(linkage.closing.size)), 1.0)
     for step in _STEPS:
         trial = u.copy()
         trial[places] = [
@@ -176,6 +178,6 @@ def _rounded(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarray:
         closed = linkage.closing.closed(trial[None])
         if np.all(np.isfinite(closed)) and linkage.closing.aligned(closed)[0]:
             near = np.max(linkage.apart(closed, u)) < 5 * step
-            if near and linkage.sigma(closed)[0] > 0.5 * before:
+            if near and linkage.closing.sigma(closed)[0] > 0.5 * before:
                 return closed[0]
     return u

@@ -28,7 +28,7 @@ def closing_of(model: SymbolicModel) -> Closing:
     assert closure is not None
     return Closing(
         model.graph, model.geometry.values, closure.equations, closure.jacobian,
-        closure.given, closure.solved, closure.lengths,
+        closure.given, closure.solved, closure.lengths, closure.size,
     )  # fmt: skip
 
 

@@ -6,6 +6,7 @@ does with an independent set of them is checked against this.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,12 +16,20 @@ from modeler.robot import Robot
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.precise import decimal, precise_values
 
+SINGULAR = 1e-4
+"""Of `Closing.sigma`. Newton's method that ends at a residual of 1e-9 leaves a posture of loops
+that only touch wrong by the square root of that: a posture whose value is of this order cannot be
+told from a singular one."""
+
 _CLOSED = 1e-12
 """Residual of a closed loop, relative to the robot's size."""
 _ZERO = 1e-9
+"""Length of a row of the Jacobian that counts as none, over the longest."""
 _ITERATIONS = 60
 _STEPS = 12
 _SEED = 7
+_ROWS = 1876  # Reuleaux
+_SAMPLES = 32
 _STARTS = 200
 _PLACES = 6
 """Decimals of rad and m in which two closed postures are told apart."""
@@ -41,6 +50,7 @@ class Closing:
         given: places in u of the coordinates q.
         solved: places in u of the others.
         lengths: by u, True for a travel in m.
+        size: of the robot, m: the longest way from a frame to the next with all joints at 0.
         alignments: positive where the loops are closed as meant.
     """
 
@@ -51,6 +61,7 @@ class Closing:
     given: tuple[int, ...]
     solved: tuple[int, ...]
     lengths: tuple[bool, ...]
+    size: float
     alignments: Sequence[Expr] = ()
 
     @property
@@ -59,9 +70,22 @@ class Closing:
         return len(self.lengths)
 
     @property
-    def size(self) -> float:
-        """A length of the robot, m: the largest of its symbols' sizes, 1 where it has none."""
-        return max((abs(v) for n, v in self.values.items() if n != "g"), default=1.0) or 1.0
+    def scale(self) -> np.ndarray:
+        """By u, what counts as 1: a rad, or `size`."""
+        return np.where(self.lengths, self.size, 1.0)
+
+    @cached_property
+    def rows(self) -> np.ndarray:
+        """(equations,) usual lengths of the rows of the Jacobian.
+
+        Those at a posture would not do: an equation that changes only in second order there, as
+        along a stretched chain, makes it singular, however small the row is.
+        """
+        u = np.random.default_rng(_ROWS).uniform(-np.pi, np.pi, (_SAMPLES, self.unknowns))
+        J = self.jacobians(u * self.scale) * self.scale
+        length = np.median(np.linalg.norm(J, axis=2), axis=0)
+        # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
+        return np.where(length > _ZERO * np.max(length, initial=0.0), length, np.inf)
 
     def residuals(self, u: np.ndarray) -> np.ndarray:
         """(n, equations) of (n, unknowns)."""
@@ -78,11 +102,19 @@ class Closing:
         return flat.reshape(len(u), len(self.equations), self.unknowns)
 
     def scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
-        """Jacobians with travels counted in sizes of the robot and rows of length 1."""
-        J = self.jacobians(u) * np.where(self.lengths, self.size, 1.0)
-        length = np.linalg.norm(J, axis=2, keepdims=True)
-        # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
-        return J / np.where(length > _ZERO, length, np.inf)
+        """Jacobians with travels counted in sizes of the robot and rows of usual length 1."""
+        return np.asarray(self.jacobians(u) * self.scale / self.rows[:, None])
+
+    def inner(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations, solved) columns of `scaled_jacobian` of the joints that follow."""
+        return self.scaled_jacobian(u)[:, :, list(self.solved)]
+
+    def sigma(self, u: np.ndarray) -> np.ndarray:
+        """(n,) distances to a singularity: smallest singular values of `inner`.
+
+        0 where joints can move with the actuated ones locked.
+        """
+        return np.asarray(np.linalg.svd(self.inner(u), compute_uv=False)[:, -1])
 
     def evaluate(self, expressions: Sequence[Expr], u: np.ndarray) -> np.ndarray:
         """(n, expressions) at (n, unknowns)."""
@@ -97,7 +129,7 @@ class Closing:
         """Newton from u with the others held; rows that do not close come back as NaN."""
         places = list(self.solved if solved is None else solved)
         u = np.array(u, dtype=float)
-        scale = np.where(self.lengths, self.size, 1.0)[places]
+        scale = self.scale[places]
         for _ in range(_ITERATIONS):
             f = self.residuals(u)
             if np.all(np.max(np.abs(f), axis=1, initial=0.0) < _CLOSED * self.size):
@@ -236,14 +268,14 @@ def moved_postures(
 
     A sample stops where the loops would not close any further.
     """
-    scale = np.where(closing.lengths, closing.size, 1.0) * reach
+    scale = closing.scale * reach
     scale = np.where(closing.lengths, 0.5 * scale, scale)
     u = np.tile(home, (samples, 1))
     target = rng.uniform(-1.0, 1.0, u.shape) * scale
     step = _tangent(closing, u, target) / _STEPS
     for _ in range(_STEPS):
         trial = closing.closed(u + step, range(closing.unknowns))
-        jump = np.max(np.abs(trial - u) / np.where(closing.lengths, closing.size, 1.0), axis=1)
+        jump = np.max(np.abs(trial - u) / closing.scale, axis=1)
         good = np.isfinite(jump) & (jump < 4 * reach / _STEPS * 3)
         u[good] = trial[good]
         step = _tangent(closing, u, target) / _STEPS
@@ -252,7 +284,7 @@ def moved_postures(
 
 def _tangent(closing: Closing, u: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """`wanted` projected on the motions that the loops allow."""
-    scale = np.where(closing.lengths, closing.size, 1.0)
+    scale = closing.scale
     J = closing.jacobians(u) * scale
     w = wanted / scale
     along = np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-9), np.einsum("nij,nj->ni", J, w))

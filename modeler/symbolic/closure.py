@@ -15,15 +15,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import LoopError
+from modeler.core.rounded import precise
 from modeler.symbolic.algebra import GraphAlgebra
-from modeler.symbolic.closing import Closing, closed_home, closed_near, moved_postures, polished
+from modeler.symbolic.closing import (
+    SINGULAR,
+    Closing,
+    closed_home,
+    closed_near,
+    moved_postures,
+    polished,
+)
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
 from modeler.symbolic.kinematics import Pose, base_poses
 from modeler.symbolic.loop_equations import loop_alignments, loop_equations
+from modeler.symbolic.precise import precise_values
 
 _RANK = 1e-9
+"""Singular value of `Closing.scaled_jacobian` that counts as none at generic postures."""
 _ALIKE = 1e-6
 _SAMPLES = 12
 _SEED = 20120
@@ -127,8 +137,22 @@ def loop_closing(
     given = tuple(names.index(joint.name) for joint in robot.coordinates)
     solved = tuple(k for k in range(n) if k not in given)
     lengths = tuple(not joint.angular for joint in robot.free)
-    closing = Closing(graph, geometry.values, equations, jacobian, given, solved, lengths, aligned)
+    size = _size(graph, geometry, frames)
+    closing = Closing(
+        graph, geometry.values, equations, jacobian, given, solved, lengths, size, aligned
+    )
     return closing, owners
+
+
+def _size(graph: Graph, geometry: Geometry, frames: Sequence[Pose]) -> float:
+    """Longest way from a frame to the next with all joints at 0, m; 1 where all are one point.
+
+    It goes into the emitted C: taken with 40 digits, it is the same on every machine.
+    """
+    still = {f"q[{k}]": 0.0 for k in range(geometry.coordinates)}
+    ways = [graph.lift(entry) for pose in frames for entry in pose.p]
+    found = precise_values(graph, ways, {**geometry.values, **still})
+    return float(max(map(precise().norm, zip(*[iter(found)] * 3, strict=True)))) or 1.0
 
 
 def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
@@ -172,12 +196,12 @@ def _independent(closing: Closing, home: np.ndarray, geometry: Geometry) -> list
     Raises:
         LoopError: they are singular at home.
     """
-    at_home = closing.scaled_jacobian(home[None])[0][:, list(closing.solved)]
-    if _rank(at_home) < len(closing.solved):
+    at_home = closing.inner(home[None])[0]
+    if _rank(at_home, SINGULAR) < len(closing.solved):
+        moving = _moving_names(closing, geometry, at_home, SINGULAR)
         raise LoopError(
-            f"{geometry.robot.name}: the loops are singular at [home]: "
-            f"{_moving_names(closing, geometry, at_home)} could move there with the actuated "
-            "joints locked; state another posture"
+            f"{geometry.robot.name}: the loops are singular at [home]: {moving} could move there "
+            "with the actuated joints locked; state another posture"
         )
     return sorted(_spanning_rows(at_home, len(closing.solved)))
 
@@ -198,15 +222,16 @@ def _spanning_rows(matrix: np.ndarray, count: int) -> list[int]:
     return chosen
 
 
-def _rank(matrix: np.ndarray) -> int:
-    singular = np.linalg.svd(matrix, compute_uv=False)
-    return int(np.sum(singular > _RANK * max(singular[0], 1e-300))) if singular.size else 0
+def _rank(matrix: np.ndarray, tolerance: float = _RANK) -> int:
+    return int(np.sum(np.linalg.svd(matrix, compute_uv=False) > tolerance))
 
 
-def _moving_names(closing: Closing, geometry: Geometry, inner: np.ndarray) -> str:
+def _moving_names(
+    closing: Closing, geometry: Geometry, inner: np.ndarray, tolerance: float = _RANK
+) -> str:
     """The solved joints that take part in a motion which the equations do not stop."""
     _, _, vt = np.linalg.svd(inner, full_matrices=True)
-    rank = _rank(inner)
+    rank = _rank(inner, tolerance)
     share = np.max(np.abs(vt[rank:]), axis=0)
     free = geometry.robot.free
     names = [
@@ -251,7 +276,7 @@ def _platform(closing: Closing, home: np.ndarray, geometry: Geometry) -> tuple[i
 
     def solvable(places: Sequence[int]) -> bool:
         others = [k for k in range(closing.unknowns) if k not in places]
-        return _rank(J[:, others]) == len(closing.solved)
+        return _rank(J[:, others], SINGULAR) == len(closing.solved)
 
     for k in closing.given:
         if len(chosen) < len(closing.given) and k not in chosen and solvable([*chosen, k]):

@@ -1,10 +1,12 @@
 """The standard parameters of a robot: which columns the regressor has, and in which order."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any, Self, TypeAlias, TypeGuard
 
-from modeler.effects import Acts, EffectColumn, Memory
+from modeler.core.expression import Expression
+from modeler.effects import Acts, EnergyBlock, Memory
 from modeler.robot import Joint, Robot
 from modeler.symbolic.geometry import Geometry
 
@@ -13,23 +15,15 @@ _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") |
 )
 
 
-@dataclass(frozen=True)
-class StandardColumn:
-    """One standard parameter.
+@dataclass(frozen=True, kw_only=True)
+class _Column:
+    """What all standard parameters have.
 
     Attributes:
         name: "XX2", "Fv1".
         row: index of its row in the table.
         prefix: "XX", "Fv".
         unit: of the parameter.
-        kind: inertial | rotor_inertia | friction | offset.
-        effect: "rigid_body" or the id of the effect.
-        column: the effect's column; None for the ten inertial parameters.
-        shaft: for an effect, {k: coefficient}; the speed of the shaft is v = sum of coefficient *
-            ud[k] over the free variables, and it turns them back with the same coefficients.
-        acts: on what the effect acts.
-        shapes: values of the effect's shape parameters.
-        memory: of its inner state.
         others: columns of the same parameter on other rows, which similar legs share; the
             parameter's column is the sum of its `parts`.
     """
@@ -38,19 +32,61 @@ class StandardColumn:
     row: int
     prefix: str
     unit: str
-    kind: str
-    effect: str
-    column: EffectColumn | None = None
-    shaft: Mapping[int, Fraction] | None = None
-    acts: Acts = Acts.JOINT
-    shapes: Mapping[str, float] = field(default_factory=dict)
-    memory: Memory | None = None
-    others: tuple["StandardColumn", ...] = ()
+    others: tuple[Self, ...] = ()
 
     @property
-    def parts(self) -> tuple["StandardColumn", ...]:
-        """The column on every row that has the parameter."""
-        return (self, *self.others)
+    def parts(self) -> tuple[Self, ...]:
+        """The column on every row that has the parameter, each for itself."""
+        return (replace(self, others=()), *self.others)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkColumn(_Column):
+    """One of the ten inertial parameters of a link."""
+
+    kind: str = "inertial"
+    effect: str = "rigid_body"
+
+    @property
+    def nonnegative(self) -> bool:
+        """True if physics allows no negative value."""
+        return self.prefix in ("XX", "YY", "ZZ", "M")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftColumn(_Column):
+    """One parameter of an effect, which acts along a shaft: a joint's, or a motor's.
+
+    Attributes:
+        kind: rotor_inertia | friction | offset | other.
+        effect: its id.
+        equation: torque on the shaft, or its change of position, per unit of the parameter.
+        block: its energy function, for grouping.
+        nonnegative: physics allows no negative value.
+        shaft: {k: coefficient}; the speed of the shaft is v = sum of coefficient * ud[k] over the
+            free variables, and it turns them back with the same coefficients.
+        acts: on what the effect acts.
+        shapes: values of the effect's shape parameters.
+        memory: of its inner state, if there is one.
+    """
+
+    kind: str
+    effect: str
+    equation: Expression
+    block: EnergyBlock
+    nonnegative: bool
+    shaft: Mapping[int, Fraction]
+    acts: Acts
+    shapes: Mapping[str, float]
+    memory: Memory | None
+
+
+StandardColumn: TypeAlias = LinkColumn | ShaftColumn
+
+
+def in_block(column: StandardColumn, block: EnergyBlock) -> TypeGuard[ShaftColumn]:
+    """True for an effect's parameter with that energy function."""
+    return isinstance(column, ShaftColumn) and column.block is block
 
 
 def standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
@@ -62,13 +98,13 @@ def standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
     columns: list[StandardColumn] = []
     for row, joint in enumerate(robot.joints):
         if joint.moves:
-            columns += [_inertial(prefix, row, joint) for prefix in robot.inertial(joint.name)]
+            columns += [link_column(prefix, row, joint) for prefix in robot.inertial(joint.name)]
             columns += _effect_columns(geometry, row, joint)
     return _shared(robot, columns)
 
 
 def _shared(robot: Robot, columns: list[StandardColumn]) -> tuple[StandardColumn, ...]:
-    by_name = {column.name: column for column in columns}
+    by_name: dict[str, Any] = {column.name: column for column in columns}
     for shared in robot.shared:
         first, *others = (by_name[name] for name in shared.members)
         by_name[shared.members[0]] = replace(first, name=shared.name, others=tuple(others))
@@ -77,24 +113,27 @@ def _shared(robot: Robot, columns: list[StandardColumn]) -> tuple[StandardColumn
     return tuple(by_name.values())
 
 
-def _inertial(prefix: str, row: int, joint: Joint) -> StandardColumn:
+def link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
+    """An inertial parameter of the link behind a joint, on its own."""
     unit = _INERTIAL_UNITS.get(prefix, "kg")
-    return StandardColumn(prefix + joint.name, row, prefix, unit, "inertial", "rigid_body")
+    return LinkColumn(name=prefix + joint.name, row=row, prefix=prefix, unit=unit)
 
 
-def _effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[StandardColumn]:
+def _effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
     found = []
     for effect, form, instance in geometry.robot.effects_on(joint.name):
         for column in form.columns:
             found.append(
-                StandardColumn(
+                ShaftColumn(
                     name=column.prefix + joint.name + instance.label,
                     row=row,
                     prefix=column.prefix,
                     unit=column.unit_revolute if joint.angular else column.unit_prismatic,
                     kind=column.kind,
                     effect=effect.id,
-                    column=column,
+                    equation=column.equation,
+                    block=column.block,
+                    nonnegative=column.nonnegative,
                     shaft=_shaft(geometry, joint, effect.coupled),
                     acts=effect.acts,
                     shapes=instance.shapes,

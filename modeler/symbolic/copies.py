@@ -37,7 +37,7 @@ def lengthened(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray
     meant = (hints < 0.0) | (np.isfinite(lower) & (lower < 0.0))
     u = np.array(u)
     for k in np.flatnonzero(linkage.lengths & linkage.tied & ~meant):
-        short = np.flatnonzero(u[:, k] < -1e-9 * linkage.span)
+        short = np.flatnonzero(u[:, k] < -1e-9 * linkage.closing.size)
         u[short] = _turned_over(linkage, u[short], int(k))
     return u
 

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from modeler.core.errors import DerivationError
 from modeler.effects import ENCODERS, Acts
-from modeler.symbolic.columns import StandardColumn
+from modeler.symbolic.columns import ShaftColumn
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
@@ -37,25 +37,23 @@ class Dynamics(Protocol):
         """Torques at the parameters of `[reference]`."""
 
 
-def effect_entries(model: Dynamics, column: StandardColumn) -> dict[int, Expr]:
+def effect_entries(model: Dynamics, column: ShaftColumn) -> dict[int, Expr]:
     """{free variable: torque along it per unit of the column's parameter}."""
-    assert column.column is not None and column.shaft is not None
     if column.acts is Acts.POSITION:
         return _moved(model, column)
     torque = _equation(model, column)
     return {k: torque * coefficient for k, coefficient in column.shaft.items()}
 
 
-def _equation(model: Dynamics, column: StandardColumn) -> Expr:
+def _equation(model: Dynamics, column: ShaftColumn) -> Expr:
     """The equation of the column on its shaft."""
     graph = model.graph
-    assert column.column is not None and column.shaft is not None
     values: dict[str, Expr] = {
         name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
     }
     for name, kind in (("q", "q"), ("v", "qd"), ("a", "qdd")):
         values[name] = along(model, column.shaft, kind)
-    names = column.column.equation.names
+    names = column.equation.names
     for name in ("load", "static", "torque"):
         if name in names:
             values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))
@@ -69,7 +67,7 @@ def _equation(model: Dynamics, column: StandardColumn) -> Expr:
         else:
             values["z"] = read
     pi = graph.constant(Fraction(repr(math.pi)))
-    return graph.lift(column.column.equation.fold(values, functions_of(graph), pi, graph.constant))
+    return graph.lift(column.equation.fold(values, functions_of(graph), pi, graph.constant))
 
 
 def functions_of(graph: Graph) -> Mapping[str, Callable[[Expr], Expr]]:
@@ -94,7 +92,7 @@ def _on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) 
     return total
 
 
-def _moved(model: Dynamics, column: StandardColumn) -> dict[int, Expr]:
+def _moved(model: Dynamics, column: ShaftColumn) -> dict[int, Expr]:
     """Torque of the links at the reference, differentiated along a small change of position.
 
     The change is the column's equation, dq(q); speeds and accelerations change by its time
@@ -103,7 +101,6 @@ def _moved(model: Dynamics, column: StandardColumn) -> dict[int, Expr]:
     Raises:
         DerivationError: the equation has a part without derivative.
     """
-    assert column.column is not None and column.shaft is not None
     n = model.geometry.coordinates
     speeds = {f"q[{k}]": model.inputs("qd")[k] for k in range(n)}
     rates = speeds | {f"qd[{k}]": model.inputs("qdd")[k] for k in range(n)}
@@ -113,7 +110,7 @@ def _moved(model: Dynamics, column: StandardColumn) -> dict[int, Expr]:
         (da,) = derivatives([dv], rates)
     except DerivationError as error:
         raise DerivationError(
-            f'{column.name}: "{column.column.equation.text}" moves the position and is '
+            f'{column.name}: "{column.equation.text}" moves the position and is '
             f"differentiated twice, but {error}; expected sums, products, whole powers, sqrt, exp, "
             "sin, cos, tan, tanh"
         ) from None

@@ -15,7 +15,7 @@ compared with other derivations anyway.)
 """
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Union
@@ -288,7 +288,7 @@ def _random_residue(name: str) -> int:
 
 _FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
-    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
+    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
 }  # fmt: skip
 
 
@@ -299,6 +299,19 @@ def _evaluate(node: Node, values: Mapping[str, Any], found: Mapping[int, Any]) -
         return np.pi
     if node.op == "sym":
         return values[node.args[0]]
+    return combined(node, found, _FUNCTIONS)
+
+
+def combined(
+    node: Node, found: Mapping[int, Any], functions: Mapping[str, Callable[..., Any]]
+) -> Any:
+    """Value of an operation from those of its arguments, in any arithmetic.
+
+    Args:
+        node: an operation or a function.
+        found: values by node.
+        functions: "sin", "cos", ... and "pow", of two arguments.
+    """
     args = [found[arg] if arg >= 0 else -found[-arg] for arg in node.args]
     if node.op == "add":
         return args[0] + args[1]
@@ -306,9 +319,7 @@ def _evaluate(node: Node, values: Mapping[str, Any], found: Mapping[int, Any]) -
         return args[0] * args[1]
     if node.op == "div":
         return args[0] / args[1]
-    if node.op == "pow":
-        return np.power(args[0], args[1])
-    return _FUNCTIONS[node.op](args[0])
+    return functions[node.op](*args)
 
 
 class Expr:

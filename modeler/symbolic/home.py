@@ -9,13 +9,13 @@ import numpy as np
 from modeler.core.errors import LoopError
 from modeler.robot import Robot
 from modeler.symbolic.assembly_modes import AssemblyMode, assembly_modes
-from modeler.symbolic.closing import nearest_closed
+from modeler.symbolic.closing import SINGULAR, nearest_closed
 from modeler.symbolic.closure import check_mobility
 from modeler.symbolic.copies import lengthened
 from modeler.symbolic.linkage import Linkage, linkage_of
 from modeler.symbolic.model import SymbolicModel
 from modeler.symbolic.posture_search import STARTS
-from modeler.symbolic.singularity import SINGULAR, lost_directions
+from modeler.symbolic.singularity import lost_directions
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class HomeModes:
 
 
 NEAR = 0.5
-"""rad, or spans of the robot: a joint that closing the loops moves further was not stated well."""
+"""rad, or sizes of the robot: a joint that closing the loops moves further was not stated well."""
 _MOST_NAMED = 6
 _SAME_SHAPE = 1e-3
 
@@ -76,7 +76,7 @@ def settled_home(model: SymbolicModel) -> Home:
     found = nearest_closed(linkage.closing, start)
     if (
         found is not None
-        and linkage.sigma(found[None])[0] <= SINGULAR
+        and linkage.closing.sigma(found[None])[0] <= SINGULAR
         and _is_meant(linkage, stated)
     ):
         raise LoopError(_singular(linkage, found, modes))
@@ -163,7 +163,7 @@ def written(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
 def _good_as_stated(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
     """The closed posture that was stated, rows left out at 0; None if it is no good one."""
     found = nearest_closed(linkage.closing, np.nan_to_num(stated))
-    if found is None or linkage.sigma(found[None])[0] <= SINGULAR:
+    if found is None or linkage.closing.sigma(found[None])[0] <= SINGULAR:
         return None
     moved = linkage.apart(found[None], np.nan_to_num(stated))
     turned = lengthened(linkage, found[None], stated)
@@ -203,7 +203,7 @@ def _singular(linkage: Linkage, u: np.ndarray, modes: tuple[AssemblyMode, ...]) 
     names = [f"q{joint.name}" for joint in linkage.free]
     motions = lost_directions(linkage, u)
     lost = [name for name in names if any(name in m.split(" = ")[0].split(" : ") for m in motions)]
-    away = linkage.sigma(u[None])[0]
+    away = linkage.closing.sigma(u[None])[0]
     advice = "state another posture"
     if modes:
         advice += f", such as {_values(linkage, modes[0].posture, range(len(names)))}"

@@ -14,10 +14,6 @@ from modeler.symbolic.kinematics import base_poses
 from modeler.symbolic.loop_equations import Frame
 from modeler.symbolic.model import SymbolicModel
 
-_SEED = 1876  # Reuleaux
-_SAMPLES = 32
-_ZERO = 1e-9  # of the longest row: an equation that follows from relations is 0 = 0 up to rounding
-
 
 @dataclass(frozen=True)
 class Linkage:
@@ -48,22 +44,6 @@ class Linkage:
         return np.array(self.closing.lengths, dtype=bool)
 
     @cached_property
-    def span(self) -> float:
-        """Longest distance between neighbouring frames with all joints at 0, m; 1 if none is."""
-        points = self.origins(np.zeros((1, self.closing.unknowns)))[0]
-        parents = [row.parent for row in self.geometry.rows]
-        steps = [
-            p if parent is None else p - points[parent]
-            for p, parent in zip(points, parents, strict=True)
-        ]
-        return max((float(np.linalg.norm(step)) for step in steps), default=0.0) or 1.0
-
-    @cached_property
-    def scale(self) -> np.ndarray:
-        """By u, what counts as 1: a rad, or `span`."""
-        return np.where(self.lengths, self.span, 1.0)
-
-    @cached_property
     def tied(self) -> np.ndarray:
         """By u, True for a joint that a loop depends on; the others stand anywhere."""
         columns = zip(*self.closing.jacobian, strict=True)
@@ -88,30 +68,6 @@ class Linkage:
             middle = np.where(np.isfinite(lower + upper), 0.5 * (lower + upper), np.nan)
         return np.array([float(f"{x:.12g}") for x in middle])
 
-    @cached_property
-    def rows(self) -> np.ndarray:
-        """(equations,) usual lengths of the rows of the Jacobian.
-
-        Those at a posture would not do: an equation that changes only in second order there, as
-        along a stretched chain, makes it singular, however small the row is.
-        """
-        u = np.random.default_rng(_SEED).uniform(-np.pi, np.pi, (_SAMPLES, len(self.scale)))
-        J = self.closing.jacobians(u * self.scale) * self.scale
-        length = np.median(np.linalg.norm(J, axis=2), axis=0)
-        return np.where(length > _ZERO * np.max(length), length, np.inf)
-
-    def inner(self, u: np.ndarray) -> np.ndarray:
-        """(n, equations, solved) Jacobian of the joints that follow; travels count in spans."""
-        J = self.closing.jacobians(u) * self.scale
-        return np.asarray((J / self.rows[:, None])[:, :, list(self.closing.solved)])
-
-    def sigma(self, u: np.ndarray) -> np.ndarray:
-        """(n,) distances to a singularity: smallest singular values of `inner`.
-
-        0 where joints can move with the actuated ones locked.
-        """
-        return np.asarray(np.linalg.svd(self.inner(u), compute_uv=False)[:, -1])
-
     def origins(self, u: np.ndarray) -> np.ndarray:
         """(n, rows, 3) origins of all frames in frame 0, m."""
         flat = [x for _, origin in self.frames for x in origin]
@@ -126,20 +82,20 @@ class Linkage:
         z = self.closing.evaluate([x for axes, _ in self.frames for x in axes[2]], u)
         z = z.reshape(len(u), len(self.frames), 3)
         lines = np.einsum("nri,nrj->nrij", z, z)[:, :, *np.triu_indices(3)]
-        points = self.origins(u) / self.span
+        points = self.origins(u) / self.closing.size
         return np.concatenate([points, lines], axis=2).reshape(len(u), 9 * len(self.frames))
 
     def apart(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """(n, u) distances of joints, rad and spans, angles the shorter way round; NaN as 0."""
+        """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""
         way = u - other
-        way = np.where(self.lengths, way / self.span, wrapped(way))
+        way = np.where(self.lengths, way / self.closing.size, wrapped(way))
         return np.abs(np.nan_to_num(way))
 
     def outside(self, u: np.ndarray) -> np.ndarray:
-        """(n,) by how much [limits] are left, rad and spans."""
+        """(n,) by how much [limits] are left, rad and sizes."""
         lower, upper = self.bounds()
         beyond = np.maximum(np.maximum(lower - u, u - upper), 0.0)
-        return np.asarray(np.sum(beyond / self.scale, axis=1))
+        return np.asarray(np.sum(beyond / self.closing.scale, axis=1))
 
 
 def linkage_of(model: SymbolicModel) -> Linkage | None:

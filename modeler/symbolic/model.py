@@ -8,7 +8,7 @@ from functools import cached_property
 from modeler.robot import Robot
 from modeler.symbolic.algebra import GraphAlgebra
 from modeler.symbolic.closure import Closure, closure_of
-from modeler.symbolic.columns import StandardColumn
+from modeler.symbolic.columns import LinkColumn, ShaftColumn, StandardColumn
 from modeler.symbolic.effects import effect_entries
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
@@ -130,7 +130,7 @@ class SymbolicModel:
         entries: dict[tuple[int, int], Expr] = {}
         for place, column in enumerate(self.columns):
             for part in column.parts:
-                if part.column is not None:
+                if isinstance(part, ShaftColumn):
                     values = effect_entries(self, part)
                 else:
                     force, moment = wrenches[part.row][part.prefix]
@@ -207,7 +207,7 @@ class SymbolicModel:
             tau = self._free_efforts(torques)
         for place in parameters if effects else ():
             for part in self.columns[place].parts:
-                if part.column is not None:
+                if isinstance(part, ShaftColumn):
                     for joint, value in effect_entries(self, part).items():
                         tau[joint] = tau[joint] + value * parameters[place]
         return tau
@@ -217,7 +217,7 @@ class SymbolicModel:
         rows: list[dict[str, Expr]] = [{} for _ in self.geometry.rows]
         for place, value in parameters.items():
             for part in self.columns[place].parts:
-                if part.column is None:
+                if isinstance(part, LinkColumn):
                     rows[part.row][part.prefix] = value
         return rows
 
@@ -230,7 +230,7 @@ class SymbolicModel:
         matrix = [self._free_efforts([line[k] for line in half]) for k in range(len(half[0]))]
         for place, value in parameters.items():
             for part in self.columns[place].parts:
-                if part.kind == "rotor_inertia" and part.shaft is not None:
+                if isinstance(part, ShaftColumn) and part.kind == "rotor_inertia":
                     for i, ci in part.shaft.items():
                         for j, cj in part.shaft.items():
                             matrix[i][j] = matrix[i][j] + value * (ci * cj)

@@ -13,16 +13,16 @@ STARTS = 300
 """Random postures that a search starts from."""
 _SEED = 1955  # Denavit and Hartenberg
 _ITERATIONS = 60
-_LONGEST = 0.5  # rad or spans, of one step
+_LONGEST = 0.5  # rad or sizes, of one step
 _LEAST_DAMPING, _MOST_DAMPING = 1e-13, 1e-2
 _ROUGH = 1e-7  # residual from which Newton's method ends the work
-_REACH = 2.0  # spans, of a travel without [limits]
+_REACH = 2.0  # sizes of the robot, of a travel without [limits]
 _LOOSE = 1e-8  # of the closing equations by a joint that does not move them, rounding
-_SPREADS = (0.05, 0.2, 0.6)  # rad or spans, of starts around hints
+_SPREADS = (0.05, 0.2, 0.6)  # rad or sizes, of starts around hints
 
 
 def starts(linkage: Linkage, hints: np.ndarray, count: int = STARTS) -> np.ndarray:
-    """(count, u) postures over [limits], full turns and travels of some spans.
+    """(count, u) postures over [limits], full turns and travels of some sizes of the robot.
 
     Where there are hints, every second one is near them.
 
@@ -33,12 +33,12 @@ def starts(linkage: Linkage, hints: np.ndarray, count: int = STARTS) -> np.ndarr
     """
     rng = np.random.default_rng(_SEED)
     lower, upper = linkage.bounds()
-    reach = np.where(linkage.lengths, _REACH * linkage.span, np.pi)
+    reach = np.where(linkage.lengths, _REACH * linkage.closing.size, np.pi)
     low = np.where(np.isfinite(lower), lower, -reach)
     high = np.where(np.isfinite(upper), upper, reach)
     u = rng.uniform(low, high, (count, len(low)))
     known = np.isfinite(hints)
-    spread = np.resize(_SPREADS, count)[:, None] * linkage.scale
+    spread = np.resize(_SPREADS, count)[:, None] * linkage.closing.scale
     around = np.where(known, hints, 0.0) + spread * rng.normal(size=u.shape)
     near = known & (np.arange(count) % 2 == 0)[:, None]
     u = np.where(near, around, u)
@@ -54,7 +54,7 @@ def closed_from(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarr
         places: numbers of the joints that may move.
     """
     closing, u = linkage.closing, np.array(u, dtype=float)
-    scale, limit = linkage.scale[places], _ROUGH * closing.size
+    scale, limit = linkage.closing.scale[places], _ROUGH * closing.size
     done = []
     for _ in range(_ITERATIONS):
         f = closing.residuals(u)
@@ -97,7 +97,7 @@ def at_rest(
         hints: (u,) NaN for joints without.
         closed: closed postures by which those joints are found; `u` itself if left out.
     """
-    J = linkage.closing.jacobians(u if closed is None else closed) * linkage.scale
+    J = linkage.closing.jacobians(u if closed is None else closed) * linkage.closing.scale
     loose = np.max(np.abs(J), axis=(0, 1)) < _LOOSE * linkage.closing.size
     rest = np.where(np.isfinite(hints), hints, np.nan_to_num(linkage.middles))
     return np.where(loose, rest, u)

@@ -5,11 +5,12 @@ processor to the next. What goes into the emitted C and its signature is compute
 double is the same everywhere.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from modeler.core.rounded import precise
-from modeler.symbolic.graph import Expr, Graph, Node
+from modeler.symbolic.graph import Expr, Graph, Node, combined
 
 Number = Any
 """A number of the context `modeler.core.rounded.precise()`."""
@@ -42,13 +43,11 @@ def _value(node: Node, values: Mapping[str, float | Number], found: Mapping[int,
         return +mp.pi
     if node.op == "sym":
         return decimal(values[node.args[0]])
-    args = [found[arg] if arg >= 0 else -found[-arg] for arg in node.args]
-    if node.op == "add":
-        return args[0] + args[1]
-    if node.op == "mul":
-        return args[0] * args[1]
-    if node.op == "div":
-        return args[0] / args[1]
-    if node.op == "pow":
-        return mp.power(args[0], args[1])
-    return abs(args[0]) if node.op == "abs" else getattr(mp, node.op)(args[0])
+    return combined(node, found, _functions())
+
+
+@cache
+def _functions() -> Mapping[str, Callable[..., Number]]:
+    mp = precise()
+    names = ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh")
+    return {name: getattr(mp, name) for name in names} | {"abs": abs, "pow": mp.power}

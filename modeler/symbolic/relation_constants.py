@@ -8,6 +8,7 @@ decimal number of the table, or both. This only proposes; `modeler.symbolic.rela
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -108,7 +109,7 @@ class Constants:
             names, closing = list(self.closing.values), self.closing
             with np.errstate(all="ignore"):  # the root of a length that became negative
                 moved = self._closed_anew(names)
-            far = np.abs(moved - self.home) / np.where(closing.lengths, closing.size, 1.0)
+            far = np.abs(moved - self.home) / closing.scale
             near = np.max(far, axis=1, initial=0.0) < _NEAR
             self._moved = {
                 name: u for name, u, good in zip(names, moved, near, strict=True) if good
@@ -121,10 +122,7 @@ class Constants:
         values: dict[str, Any] = {n: np.full(count, self.closing.values[n]) for n in names}
         for i, name in enumerate(names):
             values[name][i] += _STEP
-        moved = Closing(
-            closing.graph, values, closing.equations, closing.jacobian, closing.given,
-            closing.solved, closing.lengths,
-        )  # fmt: skip
+        moved = replace(closing, values=values)
         u = np.tile(self.home, (count, 1))
         solved = list(closing.solved)
         for _ in range(_ITERATIONS):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from modeler.symbolic.closed_states import closed_motion
+from modeler.symbolic.columns import LinkColumn
 from modeler.symbolic.lagrange import lagrange_model
 from modeler.symbolic.model import SymbolicModel
 
@@ -26,8 +27,8 @@ def lagrange_torque(
     tree = lagrange_model(geometry)
     values: dict[tuple[int, str], float] = {}
     for column, value in zip(model.columns, chi, strict=True):
-        for part in column.parts:
-            if part.column is None:
+        if isinstance(column, LinkColumn):
+            for part in column.parts:
                 values[part.row, part.prefix] = value
     links = np.array([values.get(at, 0.0) for at in tree.parameters])
     F = np.zeros((geometry.joints, geometry.coordinates))

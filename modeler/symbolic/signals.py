@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from modeler.core.errors import DerivationError
-from modeler.symbolic.columns import StandardColumn
+from modeler.symbolic.columns import ShaftColumn, StandardColumn
 
 
 @dataclass(frozen=True)
@@ -26,14 +26,15 @@ def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
     """The signals that any column reads, each once, in the order of the columns."""
     found: dict[Signal, None] = {}
     for column in columns:
-        for part in column.parts:
-            found |= dict.fromkeys(signals_read(part))
+        if isinstance(column, ShaftColumn):
+            for part in column.parts:
+                found |= dict.fromkeys(signals_read(part))
     return tuple(found)
 
 
-def signals_read(column: StandardColumn) -> list[Signal]:
+def signals_read(column: ShaftColumn) -> list[Signal]:
     """Those that one column reads."""
-    names = column.column.equation.names if column.column is not None else frozenset()
+    names = column.equation.names
     found = []
     if "t" in names:
         found.append(Signal("time", -1))

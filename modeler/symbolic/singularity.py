@@ -2,12 +2,8 @@
 
 import numpy as np
 
+from modeler.symbolic.closing import SINGULAR
 from modeler.symbolic.linkage import Linkage
-
-SINGULAR = 1e-4
-"""Of `Linkage.sigma`. Newton's method that ends at a residual of 1e-9 leaves a posture of loops
-that only touch wrong by the square root of that: a posture whose value is of this order cannot be
-told from a singular one."""
 
 _TAKES_PART = 0.1
 """Of the largest share in a motion, from which a joint is named."""
@@ -16,14 +12,14 @@ _TAKES_PART = 0.1
 def lost_directions(linkage: Linkage, u: np.ndarray) -> list[str]:
     """The motions that a singular posture leaves free, each as `q11 : q12 : qP = 1 : -0.5 : 0.3`.
 
-    Travels count in spans of the robot. Joints that move little are left out.
+    Travels count in sizes of the robot. Joints that move little are left out.
 
     Args:
         linkage: the robot.
         u: (u,) closed posture.
     """
     names = [f"q{linkage.free[k].name}" for k in linkage.closing.solved]
-    _, values, turned = np.linalg.svd(linkage.inner(u[None])[0])
+    _, values, turned = np.linalg.svd(linkage.closing.inner(u[None])[0])
     told = []
     for motion in turned[values <= SINGULAR]:
         motion = motion / motion[np.argmax(np.abs(motion) > (1 - 1e-6) * np.max(np.abs(motion)))]

@@ -11,7 +11,7 @@ from modeler.symbolic.linkage import Linkage
 _TIMES = 2  # as many speeds as joints, so that half of the postures are enough
 _FEWEST = 8
 _SEED = 1784  # Watt
-_STEP = 0.02  # rad or spans, of the actuated joints
+_STEP = 0.02  # rad or sizes, of the actuated joints
 _TOLERANCE = 1e-7
 
 
@@ -29,10 +29,10 @@ def steady_ties(linkage: Linkage, u: np.ndarray) -> np.ndarray:
     count = max(_FEWEST, _TIMES * -(-closing.unknowns // len(given)))
     steps = np.random.default_rng(_SEED).uniform(-_STEP, _STEP, (count, len(given)))
     around = np.repeat(u[:, None], count, axis=1)
-    around[:, :, given] += steps * linkage.scale[given]
+    around[:, :, given] += steps * linkage.closing.scale[given]
     around = closing.closed(around.reshape(-1, closing.unknowns))
     closed = np.all(np.isfinite(around), axis=1)
-    J = closing.jacobians(around[closed]) * linkage.scale
+    J = closing.jacobians(around[closed]) * linkage.closing.scale
     speeds = np.zeros((len(around), closing.unknowns, len(given)))
     speeds[np.ix_(closed, given)] = np.eye(len(given))
     speeds[np.ix_(closed, solved)] = -np.linalg.pinv(J[:, :, solved]) @ J[:, :, given]

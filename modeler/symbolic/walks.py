@@ -37,7 +37,7 @@ class Walk:
         postures: (samples, unknowns), home first; they come again where few are reached.
         lowest: (coordinates,) of the postures' actuated joints.
         highest: likewise.
-        distance: least singular value of J_s over the postures; rows of J scaled to length 1,
+        distance: least singular value of J_s over the postures; rows of J scaled to usual length 1,
             travels counted in sizes of the robot. 0 is a singularity.
     """
 
@@ -71,7 +71,7 @@ def walked(
         reached = np.concatenate([path.step() for _ in range(_STEPS)])
         rng.shuffle(reached)
         found = _closed(closing, np.concatenate([reached[: 3 * samples], home[None]]))
-    distance = _distances(closing, found)
+    distance = closing.sigma(found)
     far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
     kept = np.resize(far[::-1], samples)  # home first; few of them come again
     found, distance = found[kept], distance[kept]
@@ -90,13 +90,8 @@ def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
         inner = closing.jacobians(u)[:, :, solved]
         u[:, solved] -= np.linalg.solve(inner, closing.residuals(u)[:, :, None])[:, :, 0]
     left = np.max(np.abs(closing.residuals(u)), axis=1, initial=0.0)
-    far = np.abs(u - start) / np.where(closing.lengths, closing.size, 1.0)
+    far = np.abs(u - start) / closing.scale
     return u[(left < _CLOSED * closing.size) & (np.max(far, axis=1) < _STEP)]
-
-
-def _distances(closing: Closing, u: np.ndarray) -> np.ndarray:
-    inner = closing.scaled_jacobian(u)[:, :, list(closing.solved)]
-    return np.asarray(np.linalg.svd(inner, compute_uv=False)[:, -1])
 
 
 class _Paths:
@@ -106,7 +101,7 @@ class _Paths:
         self, closing: Closing, u: np.ndarray, ranges: np.ndarray, rng: np.random.Generator
     ) -> None:
         self.closing, self.rng, self.ranges = closing, rng, ranges
-        self.scale = np.where(closing.lengths, closing.size, 1.0)
+        self.scale = closing.scale
         self.given, self.solved = list(closing.given), list(closing.solved)
         self.u = self.before = self.home = u
         self.sign = self._linearised(u)[2]

@@ -23,7 +23,7 @@ from modeler.terms.identifiability import (
 )
 from modeler.terms.physical import PhysicalParameters, physical_parameters
 from modeler.terms.printed import Print, read_print
-from modeler.terms.relations import BaseMap, Elimination, Relations, base_map, relations
+from modeler.terms.relations import BaseMap, Relations, base_map, independent_modulo, relations
 from modeler.terms.ring import Poly, TrigRing
 from modeler.terms.text import monomial_text
 
@@ -215,16 +215,11 @@ def _integer(value: Fraction) -> int:
 def _known_geometry(coefficients: tuple[Coefficient, ...], algebra: TrigRing) -> tuple[str, ...]:
     names = [str(symbol) for symbol in algebra.static_ring.symbols]
     prime, point = random_point(names, random.Random(SEED))
-    elimination = Elimination(prime)
-    kept = []
-    for coefficient in coefficients:
-        vector = {
-            column: value_modulo(factor, point, prime)
-            for column, factor in coefficient.standard.items()
-        }
-        if coefficient.name in elimination.add(coefficient.name, vector):
-            kept.append(coefficient.name)
-    return tuple(kept)
+    vectors = [
+        {column: value_modulo(factor, point, prime) for column, factor in c.standard.items()}
+        for c in coefficients
+    ]
+    return tuple(coefficients[k].name for k in independent_modulo(vectors, prime))
 
 
 def by_function(table: CoefficientTable) -> Iterator[tuple[Function, list[Coefficient]]]:

@@ -14,7 +14,7 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.effects import EnergyBlock
-from modeler.symbolic import StandardColumn, SymbolicModel
+from modeler.symbolic import LinkColumn, StandardColumn, SymbolicModel, in_block
 from modeler.symbolic.kinematics import (
     Screw,
     Vector,
@@ -77,7 +77,7 @@ def _check_size(
     wanted: Sequence[tuple[int, StandardColumn]],
 ) -> None:
     products = 0
-    for k in {column.row for _, column in wanted if column.column is None}:
+    for k in {column.row for _, column in wanted if isinstance(column, LinkColumn)}:
         sizes = {i: (_size(screw.e), _size(screw.m)) for i, screw in carried[k].items()}
         for i, j in _pairs(sizes):
             (e, m), (f, n) = sizes[i], sizes[j]
@@ -106,7 +106,7 @@ def _inertia(
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
     entries: dict[tuple[int, ...], dict[int, Poly]] = {}
     for place, column in wanted:
-        if column.column is not None:
+        if not isinstance(column, LinkColumn):
             continue
         link = carried[column.row]
         for i, j in _pairs(link):
@@ -138,9 +138,8 @@ def _add_rotors(
 ) -> None:
     """Inertia that turns with a shaft: constant entries c_i c_j."""
     for place, column in wanted:
-        if column.column is None or column.column.block is not EnergyBlock.KINETIC:
+        if not in_block(column, EnergyBlock.KINETIC):
             continue
-        assert column.shaft is not None
         for i, j in _pairs(column.shaft):
             value = column.shaft[i] * column.shaft[j]
             factor = ring.static(sympy.Rational(value.numerator, value.denominator))
@@ -155,7 +154,7 @@ def _gravity(
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
     entries: dict[tuple[int, ...], dict[int, Poly]] = {}
     for place, column in wanted:
-        if column.column is None and (column.prefix in _MOMENTS or column.prefix == "M"):
+        if isinstance(column, LinkColumn) and column.prefix in (*_MOMENTS, "M"):
             g = down[column.row]
             for i, screw in carried[column.row].items():
                 if column.prefix == "M":

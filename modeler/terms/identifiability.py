@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from modeler.terms.physical import PhysicalParameters
-from modeler.terms.relations import Elimination
+from modeler.terms.relations import independent_modulo
 from modeler.terms.ring import Poly
 
 SEED = 2000
@@ -81,12 +81,11 @@ def _rank(
     columns: Sequence[Sequence[Poly]], physical: PhysicalParameters, chance: random.Random
 ) -> int:
     prime, point = random_point(physical.names, chance)
-    elimination = Elimination(prime)
-    rank = 0
-    for place, column in enumerate(columns):
-        vector = {i: value_modulo(poly, point, prime) for i, poly in enumerate(column) if poly}
-        rank += str(place) in elimination.add(str(place), vector)
-    return rank
+    vectors = [
+        {i: value_modulo(poly, point, prime) for i, poly in enumerate(column) if poly}
+        for column in columns
+    ]
+    return len(independent_modulo(vectors, prime))
 
 
 def random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list[int]]:

@@ -15,7 +15,7 @@ from modeler.core.errors import RobotError
 from modeler.core.expression import FUNCTIONS, Expression, parse
 from modeler.effects import EnergyBlock
 from modeler.robot import Joint, PhysicalLink
-from modeler.symbolic import SymbolicModel
+from modeler.symbolic import LinkColumn, SymbolicModel, in_block
 from modeler.terms.ring import Poly, TrigRing
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
@@ -74,11 +74,7 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     """
     static = [str(symbol) for symbol in algebra.static_ring.symbols]
     links = {joint.name: _link(model, joint) for joint in model.robot.moving}
-    rotors = [
-        column.name
-        for column in model.columns
-        if column.column is not None and column.column.block is EnergyBlock.KINETIC
-    ]
+    rotors = [c.name for c in model.columns if in_block(c, EnergyBlock.KINETIC)]
     zeros = _zero_symbols(model)
     known = {*static, *zeros}
     letters = [name for name in _letters(links.values()) if name not in known] + rotors
@@ -186,12 +182,12 @@ def _standard(
     found: dict[int, Poly] = {}
     tables: dict[int, dict[str, Poly]] = {}
     for place, column in enumerate(model.columns):
-        if column.column is None:
+        if isinstance(column, LinkColumn):
             if column.row not in tables:
                 name = model.robot.joints[column.row].name
                 tables[column.row] = _at_origin(links[name], name, read)
             found[place] = tables[column.row][column.prefix]
-        elif column.column.block is EnergyBlock.KINETIC:
+        elif in_block(column, EnergyBlock.KINETIC):
             found[place] = read(parse(column.name), column.name)
     return found
 

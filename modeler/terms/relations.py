@@ -1,13 +1,15 @@
 """Linear relations between functions, exactly: rank, independent set, map to base parameters."""
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
+import numpy as np
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 
+from modeler.base.residues import row_echelon
 from modeler.terms.ring import Poly
 
 Vector: TypeAlias = Mapping[Any, Any]
@@ -32,84 +34,42 @@ class Relations:
         return len(self.independent)
 
 
-class Elimination:
-    """Row echelon form that grows vector by vector, over Q or modulo a prime."""
-
-    def __init__(self, prime: int | None = None) -> None:
-        self.prime = prime
-        self._rows: list[tuple[Hashable, dict[Hashable, Any], dict[str, Any]]] = []
-
-    def add(self, key: str, vector: Vector) -> Mapping[str, Any]:
-        """The vector as a combination of independent ones; {key: 1} if it is one of them."""
-        rest, combination = self.reduce(vector)
-        if not rest:
-            return combination
-        pivot = next(iter(rest))
-        inverse = self._inverse(rest[pivot])
-        row = {place: self._wrap(value * inverse) for place, value in rest.items()}
-        # rest = vector - sum combination, so row = inverse (key - combination)
-        made = {name: self._wrap(-value * inverse) for name, value in combination.items()}
-        made[key] = inverse
-        self._rows.append((pivot, row, made))
-        return {key: self._one()}
-
-    def reduce(self, vector: Vector) -> tuple[dict[Hashable, Any], dict[str, Any]]:
-        """(what is outside the span, combination of what is inside)."""
-        rest = {place: value for place, value in vector.items() if value}
-        combination: dict[str, Any] = {}
-        for pivot, row, made in self._rows:
-            factor = rest.get(pivot)
-            if factor:
-                self._add(rest, row, -factor)
-                self._add(combination, made, factor)
-        return rest, combination
-
-    def _add(self, total: dict[Any, Any], row: Mapping[Any, Any], factor: Any) -> None:
-        for place, value in row.items():
-            new = self._wrap(total.get(place, 0) + factor * value)
-            if new:
-                total[place] = new
-            else:
-                total.pop(place, None)
-
-    def _wrap(self, value: Any) -> Any:
-        return value if self.prime is None else value % self.prime
-
-    def _inverse(self, value: Any) -> Any:
-        return QQ(1) / value if self.prime is None else pow(value, -1, self.prime)
-
-    def _one(self) -> Any:
-        return QQ(1) if self.prime is None else 1
-
-
 def relations(vectors: Mapping[str, Vector]) -> Relations:
     """The independent vectors, first come first kept, and all the others in terms of them."""
-    elimination = Elimination()
-    combinations: dict[str, Mapping[str, Fraction]] = {}
-    independent: list[str] = []
-    for key, vector in vectors.items():
-        found = elimination.add(key, vector)
-        if key in found:
-            independent.append(key)
-        combinations[key] = _ordered(found, independent)
-    return Relations(tuple(independent), combinations)
-
-
-def _ordered(found: Mapping[str, Any], order: Sequence[str]) -> dict[str, Fraction]:
-    return {
-        name: Fraction(int(found[name].numerator), int(found[name].denominator))
-        for name in order
-        if found.get(name)
-    }
+    names, places = list(vectors), _places(vectors.values())
+    columns: dict[int, dict[int, Any]] = {}
+    for k, vector in enumerate(vectors.values()):
+        for place, value in vector.items():
+            if value:
+                columns.setdefault(places[place], {})[k] = value
+    reduced, pivots = DomainMatrix(columns, (len(places), len(names)), QQ).rref()
+    found: dict[str, dict[str, Fraction]] = {name: {} for name in names}
+    for row, line in sorted(reduced.to_dod().items()):
+        for k, value in line.items():
+            number = Fraction(int(value.numerator), int(value.denominator))
+            found[names[k]][names[pivots[row]]] = number
+    return Relations(tuple(names[k] for k in pivots), found)
 
 
 def combination_of(vectors: Mapping[str, Vector], vector: Vector) -> Mapping[str, Fraction] | None:
     """`vector` as a combination of `vectors`, None if it is outside their span."""
-    elimination = Elimination()
-    for key, each in vectors.items():
-        elimination.add(key, each)
-    rest, found = elimination.reduce(vector)
-    return None if rest else _ordered(found, list(vectors))
+    found = relations({**vectors, "": vector})
+    return None if "" in found.independent else found.combinations[""]
+
+
+def independent_modulo(vectors: Sequence[Vector], prime: int) -> list[int]:
+    """Places of the independent vectors of residues, first come first kept; the prime < 2**31."""
+    places = _places(vectors)
+    matrix = np.zeros((len(places), len(vectors)), dtype=np.int64)
+    for k, vector in enumerate(vectors):
+        for place, value in vector.items():
+            matrix[places[place], k] = value
+    return [k for _, k in row_echelon(matrix, range(len(vectors)), prime)]
+
+
+def _places(vectors: Iterable[Vector]) -> dict[Any, int]:
+    """Row by place, in order of appearance."""
+    return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}
 
 
 def classes(found: Relations) -> list[list[str]]:

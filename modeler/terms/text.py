@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from modeler.core.latex import latex_name
 from modeler.terms.ring import Poly
-
-_GREEK = {"alpha", "beta", "gamma", "delta", "theta", "phi", "psi"}
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,7 @@ class Style:
 
     def name(self, name: str) -> str:
         """One letter."""
-        return latex_name(name) if self.latex else name
+        return latex_letter(name) if self.latex else name
 
     def power(self, name: str, exponent: int) -> str:
         """name ** exponent."""
@@ -50,20 +49,12 @@ TEXT = Style("*", False)
 LATEX = Style(r"\,", True)
 
 
-def latex_name(name: str) -> str:
-    """LaTeX of a letter, digits behind it as an index; sines, cosines and roots as functions."""
+def latex_letter(name: str) -> str:
+    """LaTeX of a letter; sines, cosines and roots as functions."""
     function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
     if function:
-        return f"\\{function[1]}{{({latex_name(function[2])})}}"
-    split = re.fullmatch(r"([A-Za-z]+?)_?(\d\w*)?", name)
-    if split is None:
-        return f"\\mathit{{{name.replace('_', chr(92) + '_')}}}"
-    head = split[1]
-    if head.lower() in _GREEK:
-        head = f"\\{head}"
-    elif len(head) > 1:
-        head = f"\\mathit{{{head}}}"
-    return f"{head}_{{{split[2]}}}" if split[2] else head
+        return f"\\{function[1]}{{({latex_letter(function[2])})}}"
+    return latex_name(name)
 
 
 def monomial_text(exponents: Sequence[int], names: Sequence[str], style: Style = TEXT) -> str:

@@ -15,7 +15,8 @@ _FUNCTIONS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
 }  # fmt: skip
 _TEXT = re.compile(r"\d+(?:\.\d*)?(?:e[-+]?\d+)?|[A-Za-z]\w*|\*\*|[-+*/()]")
-_NAME = r"[A-Za-z](?:[A-Za-z]|\\_\w*)*(?:_\{(?:\w|\\_)+\})?"
+_HEAD = r"[A-Za-z]|\\mathit\{(?:\w|\\_)+\}|\\(?:alpha|beta|gamma|delta|theta|phi|psi)"
+_NAME = rf"(?:{_HEAD})(?:_\{{(?:\w|\\_)+\}})?"
 _LATEX = re.compile(
     rf"\\left\(|\\right\)|\\(?:frac|sqrt|sin|cos|tan|pi|cdot)|\d+(?:\.\d*)?|{_NAME}|[-+^{{}}\[\]]"
 )
@@ -154,11 +155,12 @@ def text_value(text: str, values: Values) -> np.ndarray:
 
 
 def latex_value(text: str, values: Values) -> np.ndarray:
-    r"""Value of `XXP + RP^{2} \sin^{2}{\left(phi_{1} \right)} M_{31}`."""
+    r"""Value of `\mathit{XX} + R^{2} \sin^{2}{\left(\phi_{1} \right)} M_{31}`."""
     return _Latex(text, _LATEX, values).result()
 
 
 def name_of_latex(text: str) -> str:
-    r"""`ZZ2R` of `ZZ_{2R}`, `a_b` of `a\_b`."""
+    r"""`ZZ2R` of `\mathit{ZZ}_{2R}`, `phi1` of `\phi_{1}`, `a_b` of `\mathit{a\_b}`."""
     head, _, index = text.replace(r"\_", "\0").partition("_{")
+    head = head.removeprefix(r"\mathit{").removesuffix("}").removeprefix("\\")
     return (head + index.removesuffix("}")).replace("\0", "_")

@@ -214,7 +214,7 @@ def test_renderings_tell_the_same():
     base = derive(read_robot("puma560"))
     text, latex, page = as_text(base), as_latex(base), as_markdown(base)
     assert "XZ2R = XZ2 - D3*MZ3 - D3*R3*M3" in text
-    assert "XZ_{2R} &= XZ_{2} - D_{3} MZ_{3} - D_{3} R_{3} M_{3}" in latex
+    assert r"\mathit{XZ}_{2R} &= \mathit{XZ}_{2} - D_{3} \mathit{MZ}_{3} - D_{3} R_{3}" in latex
     assert "| XZ2R | `XZ2 - D3*MZ3" in page
     raw = as_json("puma560", base)
     assert raw["rank"] == 36 == len(raw["base"]) == sum(raw["counts"].values())

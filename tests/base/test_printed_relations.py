@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modeler.base import BaseParameter, BaseParameters, Term, base_parameters
-from modeler.base.relation_text import name_latex, relation_latex, relation_text
+from modeler.base.relation_text import relation_latex, relation_text
 from modeler.codegen import Emitted, emit
 from modeler.core.errors import DerivationError, LoopError, RobotError
+from modeler.core.latex import latex_name
 from modeler.robot import read_robot
 from modeler.symbolic import derive_model
 from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
@@ -128,9 +129,11 @@ def test_what_is_divided_by_stays_together(coefficient, text):
     assert relation_text(parameter) == f"MY7R = {text}"
 
 
-@pytest.mark.parametrize("name", ["ZZ2R", "MXP", "L_1", "L1", "L1_a", "a_b_c", "Ia11"])
+@pytest.mark.parametrize(
+    "name", ["ZZ2R", "MXP", "L_1", "L1", "L1_a", "a_b_c", "Ia11", "phi1", "alpha"]
+)
 def test_names_differ_in_latex_and_are_read_back(name):
-    assert name_of_latex(name_latex(name)) == name
+    assert name_of_latex(latex_name(name)) == name
 
 
 @pytest.mark.parametrize("text", ["M5 + ", "M5*", "(M5", "M5)", "M5 $ M6", "M5 M6", "sin*M5"])

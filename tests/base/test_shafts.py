@@ -5,16 +5,20 @@ from fractions import Fraction
 import numpy as np
 
 from modeler.base.shafts import friction_relations
-from modeler.effects import effect_named
-from modeler.symbolic import StandardColumn
+from modeler.effects import Acts, effect_named
+from modeler.symbolic import ShaftColumn
 
 
-def columns(effect: str, *shafts: dict[int, float]) -> list[StandardColumn]:
-    found = effect_named(effect)
+def columns(effect: str, *shafts: dict[int, float]) -> list[ShaftColumn]:
+    (own,) = effect_named(effect).columns
     return [
-        StandardColumn(f"F{i}", 0, "F", "", "friction", effect, found.columns[0], shaft)
+        ShaftColumn(
+            name=f"F{i}", row=0, prefix="F", unit="", kind=own.kind, effect=effect,
+            equation=own.equation, block=own.block, nonnegative=True,
+            shaft=shaft, acts=Acts.JOINT, shapes={}, memory=None,
+        )
         for i, shaft in enumerate(shafts)
-    ]
+    ]  # fmt: skip
 
 
 def test_coulomb_columns_of_proportional_speeds_group():

@@ -159,7 +159,7 @@ def test_a_home_without_certain_digits_is_refused(start):
     """q0**2 = 0: a double root, near which every posture is closed up to rounding."""
     graph = Graph()
     q = graph.symbol("q[0]")
-    closing = Closing(graph, {}, [q * q], [[q * 2]], (), (0,), (False,))
+    closing = Closing(graph, {}, [q * q], [[q * 2]], (), (0,), (False,), 1.0)
     with pytest.raises(LoopError, match=r"two-link: \[home\]: .* all but singular there; state"):
         polished(closing, np.array([start]), [0], read_robot("two-link"))
 

@@ -9,8 +9,8 @@ import pytest
 from modeler.core.errors import LoopError
 from modeler.robot import Robot, builtin_text, robot_from_text
 from modeler.symbolic import HomeModes, derive_model, modes_near, with_home
+from modeler.symbolic.closing import SINGULAR
 from modeler.symbolic.linkage import linkage_of
-from modeler.symbolic.singularity import SINGULAR
 from tests.loops.test_loops_mistakes import CRANK
 
 BUILT_IN = (
@@ -41,7 +41,7 @@ def check(found: HomeModes) -> None:
     linkage = found.linkage
     u = np.array([mode.posture for mode in found.modes])
     assert np.max(np.abs(linkage.closing.residuals(u))) < CLOSED * linkage.closing.size
-    assert np.all(linkage.closing.aligned(u)) and np.min(linkage.sigma(u)) > SINGULAR
+    assert np.all(linkage.closing.aligned(u)) and np.min(linkage.closing.sigma(u)) > SINGULAR
     given = list(linkage.closing.given)
     assert np.ptp(u[:, given], axis=0).max() == 0.0
     shapes = linkage.shape(u)
@@ -250,7 +250,7 @@ def test_small_singular_values_are_told_from_large_ones() -> None:
     model = derive_model(of_text(text.replace("LENGTH", "0.61")))
     linkage = linkage_of(model)
     assert linkage is not None and model.closure is not None
-    assert 0.01 < linkage.sigma(np.array([model.closure.home]))[0] < 0.3
+    assert 0.01 < linkage.closing.sigma(np.array([model.closure.home]))[0] < 0.3
 
 
 def test_a_found_home_is_the_same_as_a_written_one() -> None:

@@ -115,3 +115,47 @@ def test_closed_forms_of_tied_robots_are_refused(capsys):
 
 def test_loop_errors_are_the_users():
     assert issubclass(LoopError, ModelerError)
+
+
+PARALLELOGRAM = """\
+name = "parallelogram"
+gravity = [0, -9.81, 0]
+
+[symbols]
+L = 0.4
+B = 0.7
+
+[mdh]
+columns = ["j", "a", "mu", "sigma", "d", "theta"]
+rows = [
+  ["1", "0", 1, 0, 0, "q1"],
+  ["2", "1", 0, 0, "L", "q2"],
+  ["3", "2", 0, 2, "B", 0],
+  ["4", "0", 0, 0, "B", "q4"],
+  ["5", "4", 0, 2, "L", 0],
+]
+
+[loops]
+rows = [["pin", "3", "5", "position"]]
+
+"""
+
+
+@pytest.mark.parametrize("lean", [0.0, 1e-7])
+def test_a_flat_parallelogram_is_singular(lean):
+    """All bars on one line: the closing equation along it changes in second order only."""
+    home = f"[home]\nq1 = {lean}\nq2 = {-lean}\nq4 = {lean}\n"
+    flat = robot_from_text(PARALLELOGRAM + home, "parallelogram.toml")
+    upright = robot_from_text(PARALLELOGRAM + "[home]\nq1 = 1\nq2 = -1\nq4 = 1\n", "p.toml")
+    assert SymbolicModel(upright, exact_geometry(upright), Graph(), ()).closure is not None
+    with pytest.raises(LoopError, match=r"the loops are singular at \[home\]: joints 2, 4 could"):
+        _ = SymbolicModel(flat, exact_geometry(flat), Graph(), ()).closure
+    with pytest.raises(LoopError, match=r"the loops are singular at \[home\]: joints 2, 4 could"):
+        derive_model(flat)
+
+
+def test_angles_do_not_count_as_lengths():
+    turned = PARALLELOGRAM.replace('"q1"', '"q1 + turn"').replace("B = 0.7", "B = 0.7\nturn = 3")
+    robot = robot_from_text(turned + "[home]\nq1 = 1\nq2 = -1\nq4 = 4\n", "parallelogram.toml")
+    closure = SymbolicModel(robot, exact_geometry(robot), Graph(), ()).closure
+    assert closure is not None and closure.size == 0.7

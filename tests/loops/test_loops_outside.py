@@ -10,6 +10,7 @@ import pytest
 from modeler.robot import INERTIAL, read_robot
 from modeler.simulate import SimulationSettings, simulate
 from modeler.simulate.body import Body, standard_from_body
+from modeler.symbolic import LinkColumn
 from tests.loops.closed_states import closed
 from tests.modules import compiled, module
 from tests.robots import TIED
@@ -131,7 +132,7 @@ def physical(name: str) -> np.ndarray:
             body = Body(rng.uniform(0.5, 2), 0.1 * rng.normal(size=3), inertia)
             ten = standard_from_body(body)
             for i, column in enumerate(model.columns):
-                if column.column is None and column.row == row:
+                if isinstance(column, LinkColumn) and column.row == row:
                     chi[i] = ten[column.prefix]
     return chi
 

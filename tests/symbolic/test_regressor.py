@@ -5,7 +5,7 @@ import pytest
 
 from modeler.base.numeric import random_states, regressor_values
 from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.symbolic import LinkColumn, derive_model
 from modeler.symbolic.second_opinion import lagrange_torque
 from tests.robots import ROBOTS, TREES
 
@@ -22,7 +22,7 @@ TEXTBOOK = (
 
 
 def inertial(model) -> list[int]:
-    return [i for i, column in enumerate(model.columns) if column.column is None]
+    return [i for i, column in enumerate(model.columns) if isinstance(column, LinkColumn)]
 
 
 @pytest.mark.parametrize("name", ROBOTS)

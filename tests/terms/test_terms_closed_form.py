@@ -10,7 +10,7 @@ from modeler.base import base_parameters
 from modeler.core.errors import DerivationError, RobotError
 from modeler.effects import EnergyBlock
 from modeler.robot import robot_from_text
-from modeler.symbolic import SymbolicModel, derive_model
+from modeler.symbolic import LinkColumn, SymbolicModel, derive_model
 from modeler.symbolic.geometry import geometric_symbol
 from modeler.terms import ClosedForm, closed_form, evaluate
 from modeler.terms.ring import TrigRing
@@ -23,7 +23,7 @@ def graph_torque(model: SymbolicModel, q, qd, qdd, chi) -> np.ndarray:
     kept = {
         i: graph.symbol(f"chi[{i}]")
         for i, column in enumerate(model.columns)
-        if column.column is None or column.column.block is EnergyBlock.KINETIC
+        if isinstance(column, LinkColumn) or column.block is EnergyBlock.KINETIC
     }
     values = dict(model.geometry.values)
     for i in range(len(q)):

@@ -11,7 +11,7 @@ from modeler.robot import robot_from_text
 from modeler.symbolic import derive_model
 from modeler.terms import coefficient_table
 from modeler.terms.identifiability import random_point, value_modulo
-from modeler.terms.relations import Elimination, inverse_map
+from modeler.terms.relations import independent_modulo, inverse_map, relations
 from tests.terms.cases import TEXTS, edited_wrist, robot_text, table_of
 
 ROBOTS = ["two-link", "scara", "general3", "odd", "weightless", "emps", "demo-arm"]
@@ -90,17 +90,22 @@ def test_difference_of_two_letters_is_told():
     assert [dict(group) for group in table.identifiability.sums] == [{"u": 1, "v": -1}]
 
 
-def test_elimination_over_q_agrees_with_sympy():
+def test_independent_vectors_agree_with_sympy():
     chance = random.Random(8)
     rows = [[chance.randint(-2, 2) for _ in range(5)] for _ in range(4)]
     rows += [[a - 3 * b for a, b in zip(rows[0], rows[2], strict=True)], [0] * 5]
-    for prime in (None, 10007):
-        elimination = Elimination(prime)
-        kept = 0
-        for i, row in enumerate(rows):
-            values = {j: sympy.QQ(x) if prime is None else x % prime for j, x in enumerate(row)}
-            kept += str(i) in elimination.add(str(i), values)
-        assert kept == sympy.Matrix(rows).rank()
+    pivots = list(sympy.Matrix(rows).T.rref()[1])
+    found = relations({str(i): dict(enumerate(map(sympy.QQ, row))) for i, row in enumerate(rows)})
+    assert [int(name) for name in found.independent] == pivots
+    for i, row in enumerate(rows):
+        total = [0] * 5
+        for name, factor in found.combinations[str(i)].items():
+            total = [t + factor * x for t, x in zip(total, rows[int(name)], strict=True)]
+        assert total == row
+    modular = [{j: x % 10007 for j, x in enumerate(row)} for row in rows]
+    assert independent_modulo(modular, 10007) == pivots
+    assert relations({"nothing": {}}).combinations == {"nothing": {}}
+    assert independent_modulo([{}, {}], 10007) == []
 
 
 @pytest.mark.parametrize(

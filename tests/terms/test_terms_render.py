@@ -20,7 +20,7 @@ from modeler.terms import (
     coefficients_text,
     evaluate,
 )
-from modeler.terms.text import LATEX, latex_name, signed_sum
+from modeler.terms.text import LATEX, latex_letter, signed_sum
 from tests.terms.cases import model_of, table_of
 
 ROBOTS = ["wrist", "odd", "general3"]
@@ -138,7 +138,7 @@ def test_coefficients_as_tables():
     ],
 )
 def test_latex_names(name, expected):
-    assert latex_name(name) == expected
+    assert latex_letter(name) == expected
 
 
 @pytest.mark.parametrize(

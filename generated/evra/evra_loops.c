@@ -1,0 +1,310 @@
+/* Evr@ simulator, 6-UPS platform on two sliders (Houda, Amouri, Beji, Mallem)
+ *
+ * Closing the loops around the functions of the opened tree; see evra.h.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#include "evra.h"
+
+#include "modeler_closure.h"
+#include "evra_tree.h"
+
+#define WORK MODELER_CLOSURE_WORK(26, 18, 18)
+
+/* Free variables u: Px, Py, Pz, Pa, Pb, P, s1, s2, 11, 21, 31, 12, 22, 32, 13, 23, 33, 14, 24, 34, 15, 25, 35, 16, 26, 36. */
+static const double home[26] = {
+    0.0, 0.0, 0.6999893688975267, 0.0, 0.0, 0.0, 0.0, 0.0, 2.698838242015122, 0.28265536649639905, 0.8067, 2.698838242015122, -0.28265536649639905, 0.8067, 2.698838242015122, 0.28265536649639905, 0.8067, 2.698838242015122, -0.28265536649639905, 0.8067, 2.698838242015122, 0.28265536649639905, 0.8067, 2.698838242015122, -0.28265536649639905, 0.8067
+};
+static const double scale[26] = {
+    0.6, 0.6, 0.6, 1.0, 1.0, 1.0, 0.6, 0.6, 1.0, 1.0, 0.6, 1.0, 1.0, 0.6, 1.0, 1.0, 0.6, 1.0, 1.0, 0.6, 1.0, 1.0, 0.6, 1.0, 1.0, 0.6
+};
+static const int given[8] = { 6, 7, 10, 13, 16, 19, 22, 25 };
+static const int solved[18] = { 0, 1, 2, 3, 4, 5, 8, 9, 11, 12, 14, 15, 17, 18, 20, 21, 23, 24 };
+static const modeler_closure loops = {
+    26, 8, 18, given, solved, scale, evra_tree_closure,
+    18, 0, 6e-10, evra_tree_residual
+};
+static const int platform_given[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+static const int platform_solved[18] = { 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25 };
+static const modeler_closure platform_loops = {
+    26, 8, 18, platform_given, platform_solved, scale, evra_tree_closure,
+    18, 0, 6e-10, evra_tree_residual
+};
+
+static const double standing[8] = {0.0};
+
+const char *evra_signature(void)
+{
+    return "f66b584d612bef3b";
+}
+
+/* Each sample starts from the one before; where that fails, from home. */
+void evra_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                      double *restrict W, int *status)
+{
+    double u[26], ud[26], udd[26];
+    double G[208], rows[26 * EVRA_BASE_PARAMETERS];
+    double work[WORK];
+    const size_t width = (size_t)EVRA_JOINTS * EVRA_BASE_PARAMETERS;
+
+    for (size_t i = 0; i < samples; i++) {
+        const size_t at = i * EVRA_JOINTS;
+        int found = MODELER_OPEN;
+
+        if (i > 0 && status[i - 1] == MODELER_CLOSED)
+            found = modeler_close(&loops, q + at, u, u, work);
+        if (found != MODELER_CLOSED)
+            found = modeler_close(&loops, q + at, home, u, work);
+        if (found == MODELER_CLOSED)
+            found = modeler_follow(&loops, evra_tree_drift, u, qd + at, qdd + at, G, ud, udd, work);
+        if (found == MODELER_CLOSED) {
+            evra_tree_base_regressor(u, ud, udd, rows);
+            modeler_project(&loops, G, rows, EVRA_BASE_PARAMETERS, W + i * width);
+        } else {
+            modeler_nothing(W + i * width, width);
+        }
+        status[i] = found;
+    }
+}
+
+/* Regressor of the standard parameters. */
+int evra_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+{
+    double u[26], G[208], ud[26], udd[26], rows[5460], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 1680);
+        return status;
+    }
+    evra_tree_regressor(u, ud, udd, rows);
+    modeler_project(&loops, G, rows, 210, phi);
+    return MODELER_CLOSED;
+}
+
+/* Regressor of the base parameters. */
+int evra_base_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+{
+    double u[26], G[208], ud[26], udd[26], rows[2340], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 720);
+        return status;
+    }
+    evra_tree_base_regressor(u, ud, udd, rows);
+    modeler_project(&loops, G, rows, 90, phi);
+    return MODELER_CLOSED;
+}
+
+/* Torques that move the closed robot so. */
+int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, const double *beta,
+                          double *restrict tau)
+{
+    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 8);
+        return status;
+    }
+    evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Torques that hold the robot still, without friction. */
+int evra_gravity(const double *q, const double *beta, double *restrict tau)
+{
+    double u[26], G[208], rows[26], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 8);
+        return status;
+    }
+    evra_tree_gravity(u, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Coriolis and centripetal torques. */
+int evra_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+{
+    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 8);
+        return status;
+    }
+    evra_tree_coriolis(u, ud, udd, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Torques of all effects but rotor inertias: friction, offsets. */
+int evra_friction(const double *q, const double *qd, const double *beta, double *restrict tau)
+{
+    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 8);
+        return status;
+    }
+    evra_tree_friction(ud, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Inertia matrix, rotor inertias included; symmetric. */
+int evra_inertia_matrix(const double *q, const double *beta, double *restrict M)
+{
+    double u[26], G[208], rows[676], half[208], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(M, 64);
+        return status;
+    }
+    evra_tree_inertia_matrix(u, beta, rows);
+    modeler_project(&loops, G, rows, 26, half);
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 26; k++)
+            rows[k * 8 + i] = half[i * 26 + k];
+    modeler_project(&loops, G, rows, 8, M);
+    return MODELER_CLOSED;
+}
+
+/* Pose of the frame of every moving row of the table. */
+int evra_forward_kinematics(const double *q, double *restrict T)
+{
+    double u[26], work[WORK];
+    const int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        evra_tree_forward_kinematics(u, T);
+    else
+        modeler_nothing(T, 312);
+    return status;
+}
+
+/* Closed posture, on a straight way from home. */
+int evra_close(const double *q, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&loops, q, home, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 26);
+    return status;
+}
+
+/* Closed posture, on a straight way from another one, such as the last. */
+int evra_close_from(const double *q, const double *start, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&loops, q, start, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 26);
+    return status;
+}
+
+/* Speeds of the free variables; rows of the platform are its Jacobian. */
+int evra_coupling(const double *q, double *restrict G)
+{
+    double u[26], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED)
+        modeler_nothing(G, 208);
+    return status;
+}
+
+/* Regressor of the base parameters. */
+int evra_platform_base_regressor(const double *x, const double *xd, const double *xdd,
+                                 double *restrict phi)
+{
+    double u[26], G[208], ud[26], udd[26], rows[2340], work[WORK];
+    int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 720);
+        return status;
+    }
+    evra_tree_base_regressor(u, ud, udd, rows);
+    modeler_project(&platform_loops, G, rows, 90, phi);
+    return MODELER_CLOSED;
+}
+
+/* Torques that move the closed robot so. */
+int evra_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
+                                   const double *beta, double *restrict f)
+{
+    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
+    int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(f, 8);
+        return status;
+    }
+    evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
+    modeler_project(&platform_loops, G, rows, 1, f);
+    return MODELER_CLOSED;
+}
+
+/* Closed posture, on a straight way from home. */
+int evra_platform_close(const double *x, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 26);
+    return status;
+}
+
+/* Closed posture, on a straight way from another one, such as the last. */
+int evra_platform_close_from(const double *x, const double *start, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&platform_loops, x, start, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 26);
+    return status;
+}
+
+/* Speeds of the free variables; rows of the platform are its Jacobian. */
+int evra_platform_coupling(const double *x, double *restrict G)
+{
+    double u[26], work[WORK];
+    int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&platform_loops, u, G, work);
+    if (status != MODELER_CLOSED)
+        modeler_nothing(G, 208);
+    return status;
+}

@@ -1,0 +1,48 @@
+/* Loops over samples for emitted robot functions.
+ *
+ * C99, no allocation, no global state, re-entrant. Arrays are row-major; `samples` is how many rows
+ * they have. Output arrays must not overlap input arrays.
+ */
+#ifndef MODELER_RUNTIME_H
+#define MODELER_RUNTIME_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An emitted function with so many inputs. */
+typedef void (*modeler_function_1)(const double *, double *);
+typedef void (*modeler_function_2)(const double *, const double *, double *);
+typedef void (*modeler_function_3)(const double *, const double *, const double *, double *);
+typedef void (*modeler_function_4)(const double *, const double *, const double *, const double *,
+                                   double *);
+typedef void (*modeler_function_5)(const double *, const double *, const double *, const double *,
+                                   const double *, double *);
+
+/* An input over samples: the values of sample i stand at data + i*step.
+ * step 0: the same values for every sample, as for parameters. */
+typedef struct {
+    const double *data;
+    size_t step;
+} modeler_input;
+
+/* Call `function` once per sample; inputs in its order. The result of sample i is written at
+ * out + i*out_step. */
+void modeler_batch_1(modeler_function_1 function, size_t samples, const modeler_input inputs[1],
+                     double *out, size_t out_step);
+void modeler_batch_2(modeler_function_2 function, size_t samples, const modeler_input inputs[2],
+                     double *out, size_t out_step);
+void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_input inputs[3],
+                     double *out, size_t out_step);
+void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_input inputs[4],
+                     double *out, size_t out_step);
+void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_input inputs[5],
+                     double *out, size_t out_step);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,487 @@
+/* Orthoglide, full dynamic model (Briot, Gautier 2012)
+ *
+ * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
+ * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
+ *
+ * Joints, in the order of q, qd, qdd, tau: 11, 12, 13.
+ * SI units. Matrices are row-major. Outputs must not overlap inputs.
+ *
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#ifndef ORTHOGLIDE_2012_H
+#define ORTHOGLIDE_2012_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define ORTHOGLIDE_2012_JOINTS 3
+#define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196
+#define ORTHOGLIDE_2012_BASE_PARAMETERS 53
+#define ORTHOGLIDE_2012_FREE_VARIABLES 12
+
+/* chi: standard parameters, columns of orthoglide_2012_regressor
+ *
+ *    0  M6       kg
+ *    1  XX11     kg m2
+ *    2  XY11     kg m2
+ *    3  XZ11     kg m2
+ *    4  YY11     kg m2
+ *    5  YZ11     kg m2
+ *    6  ZZ11     kg m2
+ *    7  MX11     kg m
+ *    8  MY11     kg m
+ *    9  MZ11     kg m
+ *   10  M11      kg
+ *   11  Ia11     kg
+ *   12  Fv11     N s/m
+ *   13  Fs11     N
+ *   14  XX12     kg m2
+ *   15  XY12     kg m2
+ *   16  XZ12     kg m2
+ *   17  YY12     kg m2
+ *   18  YZ12     kg m2
+ *   19  ZZ12     kg m2
+ *   20  MX12     kg m
+ *   21  MY12     kg m
+ *   22  MZ12     kg m
+ *   23  M12      kg
+ *   24  Ia12     kg
+ *   25  Fv12     N s/m
+ *   26  Fs12     N
+ *   27  XX13     kg m2
+ *   28  XY13     kg m2
+ *   29  XZ13     kg m2
+ *   30  YY13     kg m2
+ *   31  YZ13     kg m2
+ *   32  ZZ13     kg m2
+ *   33  MX13     kg m
+ *   34  MY13     kg m
+ *   35  MZ13     kg m
+ *   36  M13      kg
+ *   37  Ia13     kg
+ *   38  Fv13     N s/m
+ *   39  Fs13     N
+ *   40  XX21     kg m2
+ *   41  XY21     kg m2
+ *   42  XZ21     kg m2
+ *   43  YY21     kg m2
+ *   44  YZ21     kg m2
+ *   45  ZZ21     kg m2
+ *   46  MX21     kg m
+ *   47  MY21     kg m
+ *   48  MZ21     kg m
+ *   49  M21      kg
+ *   50  Ia21     kg m2
+ *   51  Fv21     N m s/rad
+ *   52  Fs21     N m
+ *   53  XX31     kg m2
+ *   54  XY31     kg m2
+ *   55  XZ31     kg m2
+ *   56  YY31     kg m2
+ *   57  YZ31     kg m2
+ *   58  ZZ31     kg m2
+ *   59  MX31     kg m
+ *   60  MY31     kg m
+ *   61  MZ31     kg m
+ *   62  M31      kg
+ *   63  Ia31     kg m2
+ *   64  Fv31     N m s/rad
+ *   65  Fs31     N m
+ *   66  XX41     kg m2
+ *   67  XY41     kg m2
+ *   68  XZ41     kg m2
+ *   69  YY41     kg m2
+ *   70  YZ41     kg m2
+ *   71  ZZ41     kg m2
+ *   72  MX41     kg m
+ *   73  MY41     kg m
+ *   74  MZ41     kg m
+ *   75  M41      kg
+ *   76  Ia41     kg m2
+ *   77  Fv41     N m s/rad
+ *   78  Fs41     N m
+ *   79  XX51     kg m2
+ *   80  XY51     kg m2
+ *   81  XZ51     kg m2
+ *   82  YY51     kg m2
+ *   83  YZ51     kg m2
+ *   84  ZZ51     kg m2
+ *   85  MX51     kg m
+ *   86  MY51     kg m
+ *   87  MZ51     kg m
+ *   88  M51      kg
+ *   89  Ia51     kg m2
+ *   90  Fv51     N m s/rad
+ *   91  Fs51     N m
+ *   92  XX22     kg m2
+ *   93  XY22     kg m2
+ *   94  XZ22     kg m2
+ *   95  YY22     kg m2
+ *   96  YZ22     kg m2
+ *   97  ZZ22     kg m2
+ *   98  MX22     kg m
+ *   99  MY22     kg m
+ *  100  MZ22     kg m
+ *  101  M22      kg
+ *  102  Ia22     kg m2
+ *  103  Fv22     N m s/rad
+ *  104  Fs22     N m
+ *  105  XX32     kg m2
+ *  106  XY32     kg m2
+ *  107  XZ32     kg m2
+ *  108  YY32     kg m2
+ *  109  YZ32     kg m2
+ *  110  ZZ32     kg m2
+ *  111  MX32     kg m
+ *  112  MY32     kg m
+ *  113  MZ32     kg m
+ *  114  M32      kg
+ *  115  Ia32     kg m2
+ *  116  Fv32     N m s/rad
+ *  117  Fs32     N m
+ *  118  XX42     kg m2
+ *  119  XY42     kg m2
+ *  120  XZ42     kg m2
+ *  121  YY42     kg m2
+ *  122  YZ42     kg m2
+ *  123  ZZ42     kg m2
+ *  124  MX42     kg m
+ *  125  MY42     kg m
+ *  126  MZ42     kg m
+ *  127  M42      kg
+ *  128  Ia42     kg m2
+ *  129  Fv42     N m s/rad
+ *  130  Fs42     N m
+ *  131  XX52     kg m2
+ *  132  XY52     kg m2
+ *  133  XZ52     kg m2
+ *  134  YY52     kg m2
+ *  135  YZ52     kg m2
+ *  136  ZZ52     kg m2
+ *  137  MX52     kg m
+ *  138  MY52     kg m
+ *  139  MZ52     kg m
+ *  140  M52      kg
+ *  141  Ia52     kg m2
+ *  142  Fv52     N m s/rad
+ *  143  Fs52     N m
+ *  144  XX23     kg m2
+ *  145  XY23     kg m2
+ *  146  XZ23     kg m2
+ *  147  YY23     kg m2
+ *  148  YZ23     kg m2
+ *  149  ZZ23     kg m2
+ *  150  MX23     kg m
+ *  151  MY23     kg m
+ *  152  MZ23     kg m
+ *  153  M23      kg
+ *  154  Ia23     kg m2
+ *  155  Fv23     N m s/rad
+ *  156  Fs23     N m
+ *  157  XX33     kg m2
+ *  158  XY33     kg m2
+ *  159  XZ33     kg m2
+ *  160  YY33     kg m2
+ *  161  YZ33     kg m2
+ *  162  ZZ33     kg m2
+ *  163  MX33     kg m
+ *  164  MY33     kg m
+ *  165  MZ33     kg m
+ *  166  M33      kg
+ *  167  Ia33     kg m2
+ *  168  Fv33     N m s/rad
+ *  169  Fs33     N m
+ *  170  XX43     kg m2
+ *  171  XY43     kg m2
+ *  172  XZ43     kg m2
+ *  173  YY43     kg m2
+ *  174  YZ43     kg m2
+ *  175  ZZ43     kg m2
+ *  176  MX43     kg m
+ *  177  MY43     kg m
+ *  178  MZ43     kg m
+ *  179  M43      kg
+ *  180  Ia43     kg m2
+ *  181  Fv43     N m s/rad
+ *  182  Fs43     N m
+ *  183  XX53     kg m2
+ *  184  XY53     kg m2
+ *  185  XZ53     kg m2
+ *  186  YY53     kg m2
+ *  187  YZ53     kg m2
+ *  188  ZZ53     kg m2
+ *  189  MX53     kg m
+ *  190  MY53     kg m
+ *  191  MZ53     kg m
+ *  192  M53      kg
+ *  193  Ia53     kg m2
+ *  194  Fv53     N m s/rad
+ *  195  Fs53     N m
+ */
+
+/* beta: base parameters, columns of orthoglide_2012_base_regressor
+ *
+ *    0  M11R = M11 + M6 + Ia11 + M21 + M31 + M41 + M51 + MX32/d4 + M42 + M52 + MX33/d4 + M43 + M53
+ *         [kg]
+ *    1  Fv11  [N s/m]
+ *    2  Fs11  [N]
+ *    3  M12R = M12 + Ia12 + M22 - MX32/d4 + M32  [kg]
+ *    4  Fv12  [N s/m]
+ *    5  Fs12  [N]
+ *    6  M13R = M13 + M23 - MX33/d4 + M33  [kg]
+ *    7  Ia13  [kg]
+ *    8  Fv13  [N s/m]
+ *    9  Fs13  [N]
+ *   10  ZZ21R = ZZ21 + d4**2*M6 + Ia21 + YY31 + YY41 + d4**2*M41 + d4**2*M51 + Ia51 + d4*MX32 +
+ *         d4**2*M42 + d4**2*M52 + d4*MX33 + d4**2*M43 + d4**2*M53  [kg m2]
+ *   11  MX21  [kg m]
+ *   12  MY21R = MY21 + MZ31 + MZ41  [kg m]
+ *   13  Fv21R = Fv21 + Fv51  [N m s/rad]
+ *   14  Fs21R = Fs21 + Fs51  [N m]
+ *   15  XX31R = XX31 - d4**2*M6 - YY31 - d4**2*M41 - d4**2*M51 - d4*MX32 - d4**2*M42 - d4**2*M52 -
+ *         d4*MX33 - d4**2*M43 - d4**2*M53  [kg m2]
+ *   16  XY31  [kg m2]
+ *   17  XZ31R = XZ31 - d4*MZ41  [kg m2]
+ *   18  YZ31  [kg m2]
+ *   19  ZZ31R = ZZ31 + d4**2*M6 + Ia31 + d4**2*M41 + Ia41 + d4**2*M51 + d4*MX32 + d4**2*M42 +
+ *         d4**2*M52 + d4*MX33 + d4**2*M43 + d4**2*M53  [kg m2]
+ *   20  MX31R = MX31 + d4*M6 + d4*M41 + d4*M51 + MX32 + d4*M42 + d4*M52 + MX33 + d4*M43 + d4*M53
+ *         [kg m]
+ *   21  MY31  [kg m]
+ *   22  Fv31R = Fv31 + Fv41  [N m s/rad]
+ *   23  Fs31R = Fs31 + Fs41  [N m]
+ *   24  MX41  [kg m]
+ *   25  ZZ22R = ZZ22 + Ia22 + YY32 - d4*MX32 + YY42 + Ia52  [kg m2]
+ *   26  MX22  [kg m]
+ *   27  MY22R = MY22 + MZ32 + MZ42  [kg m]
+ *   28  Fv22R = Fv22 + Fv52  [N m s/rad]
+ *   29  Fs22R = Fs22 + Fs52  [N m]
+ *   30  XX32R = XX32 - YY32 + d4*MX32  [kg m2]
+ *   31  XY32  [kg m2]
+ *   32  XZ32R = XZ32 - d4*MZ42  [kg m2]
+ *   33  YZ32  [kg m2]
+ *   34  ZZ32R = ZZ32 - d4*MX32 + Ia32 + Ia42  [kg m2]
+ *   35  MY32  [kg m]
+ *   36  Fv32R = Fv32 + Fv42  [N m s/rad]
+ *   37  Fs32R = Fs32 + Fs42  [N m]
+ *   38  MX42  [kg m]
+ *   39  ZZ23R = ZZ23 + Ia23 + YY33 - d4*MX33 + YY43 + Ia53  [kg m2]
+ *   40  MX23  [kg m]
+ *   41  MY23R = MY23 + MZ33 + MZ43  [kg m]
+ *   42  Fv23R = Fv23 + Fv53  [N m s/rad]
+ *   43  Fs23R = Fs23 + Fs53  [N m]
+ *   44  XX33R = XX33 - YY33 + d4*MX33  [kg m2]
+ *   45  XY33  [kg m2]
+ *   46  XZ33R = XZ33 - d4*MZ43  [kg m2]
+ *   47  YZ33  [kg m2]
+ *   48  ZZ33R = ZZ33 - d4*MX33 + Ia33 + Ia43  [kg m2]
+ *   49  MY33  [kg m]
+ *   50  Fv33R = Fv33 + Fv43  [N m s/rad]
+ *   51  Fs33R = Fs33 + Fs43  [N m]
+ *   52  MX43  [kg m]
+ */
+
+/* u: free variables of the opened tree: 6x, 6y, 6, 11, 12, 13, 21, 31, 22, 32, 23, 33
+ *
+ * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
+ * straight way from the home posture to these values; 2 singular posture; 3 a value is not finite.
+ * Outputs are NaN unless it is 0. The assembly mode is that of the home posture.
+ */
+
+/* Tells whether this code belongs to a manifest. */
+const char *orthoglide_2012_signature(void);
+
+/* Regressor of the standard parameters.
+ *
+ * tau = phi chi
+ *
+ * q      3        joint positions [m]
+ * qd     3        joint velocities [m/s]
+ * qdd    3        joint accelerations [m/s2]
+ * phi    3 x 196  torque per unit of each standard parameter, row-major [SI]
+ */
+int orthoglide_2012_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+
+/* Regressor of the base parameters.
+ *
+ * tau = phi beta
+ *
+ * q      3        joint positions [m]
+ * qd     3        joint velocities [m/s]
+ * qdd    3        joint accelerations [m/s2]
+ * phi    3 x 53   torque per unit of each base parameter, row-major [SI]
+ */
+int orthoglide_2012_base_regressor(const double *q, const double *qd, const double *qdd,
+                                   double *phi);
+
+/* Torques that move the closed robot so.
+ *
+ * tau = M qdd + c + g + f
+ *
+ * q      3        joint positions [m]
+ * qd     3        joint velocities [m/s]
+ * qdd    3        joint accelerations [m/s2]
+ * beta   53       base parameters [SI]
+ * tau    3        joint torques or forces [N]
+ */
+int orthoglide_2012_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                                     const double *beta, double *tau);
+
+/* Torques that hold the robot still, without friction.
+ *
+ * g(q) = tau(q, 0, 0) without effects
+ *
+ * q      3        joint positions [m]
+ * beta   53       base parameters [SI]
+ * tau    3        joint torques or forces [N]
+ */
+int orthoglide_2012_gravity(const double *q, const double *beta, double *tau);
+
+/* Coriolis and centripetal torques.
+ *
+ * c(q, qd) = tau(q, qd, 0) without gravity, friction and offsets
+ *
+ * q      3        joint positions [m]
+ * qd     3        joint velocities [m/s]
+ * beta   53       base parameters [SI]
+ * tau    3        joint torques or forces [N]
+ */
+int orthoglide_2012_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+
+/* Torques of all effects but rotor inertias: friction, offsets.
+ *
+ * f(q, qd)
+ *
+ * q      3        joint positions [m]
+ * qd     3        joint velocities [m/s]
+ * beta   53       base parameters [SI]
+ * tau    3        joint torques or forces [N]
+ */
+int orthoglide_2012_friction(const double *q, const double *qd, const double *beta, double *tau);
+
+/* Inertia matrix, rotor inertias included; symmetric.
+ *
+ * tau = M(q) qdd + ...
+ *
+ * q      3        joint positions [m]
+ * beta   53       base parameters [SI]
+ * M      3 x 3    inertia matrix, row-major [kg m2, kg m or kg]
+ */
+int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *M);
+
+/* Pose of the frame of every moving row of the table.
+ *
+ * x0 = R x + p with T = [R | p], for a point x of the frame
+ *
+ * q      3          joint positions [m]
+ * T      18 x 3 x 4 poses [R | p] of rows 6x, 6y, 6, 11, 12, 13, 21, 31, 41, 51, 22, 32, 42, 52, 23, 33, 43, 53 in frame 0, row-major [1 | m]
+ */
+int orthoglide_2012_forward_kinematics(const double *q, double *T);
+
+/* Closed posture, on a straight way from home.
+ *
+ * f(u) = 0
+ *
+ * q      3        joint positions [m]
+ * u      12       free variables of the opened tree [rad or m]
+ */
+int orthoglide_2012_close(const double *q, double *u);
+
+/* Closed posture, on a straight way from another one, such as the last.
+ *
+ * f(u) = 0
+ *
+ * q      3        joint positions [m]
+ * start  12       a closed posture to start from [rad or m]
+ * u      12       free variables of the opened tree [rad or m]
+ */
+int orthoglide_2012_close_from(const double *q, const double *start, double *u);
+
+/* Speeds of the free variables; rows of the platform are its Jacobian.
+ *
+ * ud = G qd
+ *
+ * q      3        joint positions [m]
+ * G      12 x 3   d u / d q, row-major [SI]
+ */
+int orthoglide_2012_coupling(const double *q, double *G);
+
+/* Base parameters from standard ones: the grouping relations.
+ *
+ * beta = K chi
+ *
+ * chi    196      standard parameters [SI]
+ * beta   53       base parameters [SI]
+ */
+void orthoglide_2012_base_parameters(const double *chi, double *beta);
+
+/* Regressor of the base parameters.
+ *
+ * f = phi beta
+ *
+ * x      3        positions of the platform: 6x, 6y, 6 [m]
+ * xd     3        their velocities [m/s]
+ * xdd    3        their accelerations [m/s2]
+ * phi    3 x 53   torque per unit of each base parameter, row-major [SI]
+ */
+int orthoglide_2012_platform_base_regressor(const double *x, const double *xd, const double *xdd,
+                                            double *phi);
+
+/* Torques that move the closed robot so.
+ *
+ * f = M xdd + c + g + f
+ *
+ * x      3        positions of the platform: 6x, 6y, 6 [m]
+ * xd     3        their velocities [m/s]
+ * xdd    3        their accelerations [m/s2]
+ * beta   53       base parameters [SI]
+ * f      3        forces and torques along x [N]
+ */
+int orthoglide_2012_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
+                                              const double *beta, double *f);
+
+/* Closed posture, on a straight way from home.
+ *
+ * f(u) = 0
+ *
+ * x      3        positions of the platform: 6x, 6y, 6 [m]
+ * u      12       free variables of the opened tree [rad or m]
+ */
+int orthoglide_2012_platform_close(const double *x, double *u);
+
+/* Closed posture, on a straight way from another one, such as the last.
+ *
+ * f(u) = 0
+ *
+ * x      3        positions of the platform: 6x, 6y, 6 [m]
+ * start  12       a closed posture to start from [rad or m]
+ * u      12       free variables of the opened tree [rad or m]
+ */
+int orthoglide_2012_platform_close_from(const double *x, const double *start, double *u);
+
+/* Speeds of the free variables; rows of the platform are its Jacobian.
+ *
+ * ud = G xd
+ *
+ * x      3        positions of the platform: 6x, 6y, 6 [m]
+ * G      12 x 3   d u / d x, row-major [SI]
+ */
+int orthoglide_2012_platform_coupling(const double *x, double *G);
+
+/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+ *
+ * q qd qdd  samples x 3
+ * W         (samples*3) x 53
+ * status    samples
+ */
+void orthoglide_2012_observation(size_t samples, const double *q, const double *qd,
+                                 const double *qdd, double *W, int *status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,314 @@
+/* Orthoglide, full dynamic model (Briot, Gautier 2012)
+ *
+ * Closing the loops around the functions of the opened tree; see orthoglide_2012.h.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#include "orthoglide_2012.h"
+
+#include "modeler_closure.h"
+#include "orthoglide_2012_tree.h"
+
+#define WORK MODELER_CLOSURE_WORK(12, 9, 9)
+
+/* Free variables u: 6x, 6y, 6, 11, 12, 13, 21, 31, 22, 32, 23, 33. */
+static const double home[12] = {
+    0.0, 0.0, 0.6, 0.19, 0.19, 0.19, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0
+};
+static const double scale[12] = {
+    0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0
+};
+static const int given[3] = { 3, 4, 5 };
+static const int solved[9] = { 0, 1, 2, 6, 7, 8, 9, 10, 11 };
+static const modeler_closure loops = {
+    12, 3, 9, given, solved, scale, orthoglide_2012_tree_closure,
+    9, 0, 8.485281374238571e-10, orthoglide_2012_tree_residual
+};
+static const int platform_given[3] = { 0, 1, 2 };
+static const int platform_solved[9] = { 3, 4, 5, 6, 7, 8, 9, 10, 11 };
+static const modeler_closure platform_loops = {
+    12, 3, 9, platform_given, platform_solved, scale, orthoglide_2012_tree_closure,
+    9, 0, 8.485281374238571e-10, orthoglide_2012_tree_residual
+};
+
+static const double standing[3] = {0.0};
+
+const char *orthoglide_2012_signature(void)
+{
+    return "5c772ac83c9310af";
+}
+
+/* Each sample starts from the one before; where that fails, from home. */
+void orthoglide_2012_observation(size_t samples, const double *q, const double *qd,
+                                 const double *qdd, double *restrict W, int *status)
+{
+    double u[12], ud[12], udd[12];
+    double G[36], rows[12 * ORTHOGLIDE_2012_BASE_PARAMETERS];
+    double work[WORK];
+    const size_t width = (size_t)ORTHOGLIDE_2012_JOINTS * ORTHOGLIDE_2012_BASE_PARAMETERS;
+
+    for (size_t i = 0; i < samples; i++) {
+        const size_t at = i * ORTHOGLIDE_2012_JOINTS;
+        int found = MODELER_OPEN;
+
+        if (i > 0 && status[i - 1] == MODELER_CLOSED)
+            found = modeler_close(&loops, q + at, u, u, work);
+        if (found != MODELER_CLOSED)
+            found = modeler_close(&loops, q + at, home, u, work);
+        if (found == MODELER_CLOSED)
+            found = modeler_follow(&loops, orthoglide_2012_tree_drift, u, qd + at, qdd + at, G, ud, udd, work);
+        if (found == MODELER_CLOSED) {
+            orthoglide_2012_tree_base_regressor(u, ud, udd, rows);
+            modeler_project(&loops, G, rows, ORTHOGLIDE_2012_BASE_PARAMETERS, W + i * width);
+        } else {
+            modeler_nothing(W + i * width, width);
+        }
+        status[i] = found;
+    }
+}
+
+/* Regressor of the standard parameters. */
+int orthoglide_2012_regressor(const double *q, const double *qd, const double *qdd,
+                              double *restrict phi)
+{
+    double u[12], G[36], ud[12], udd[12], rows[2352], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, orthoglide_2012_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 588);
+        return status;
+    }
+    orthoglide_2012_tree_regressor(u, ud, udd, rows);
+    modeler_project(&loops, G, rows, 196, phi);
+    return MODELER_CLOSED;
+}
+
+/* Regressor of the base parameters. */
+int orthoglide_2012_base_regressor(const double *q, const double *qd, const double *qdd,
+                                   double *restrict phi)
+{
+    double u[12], G[36], ud[12], udd[12], rows[636], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, orthoglide_2012_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 159);
+        return status;
+    }
+    orthoglide_2012_tree_base_regressor(u, ud, udd, rows);
+    modeler_project(&loops, G, rows, 53, phi);
+    return MODELER_CLOSED;
+}
+
+/* Torques that move the closed robot so. */
+int orthoglide_2012_inverse_dynamics(const double *q, const double *qd, const double *qdd,
+                                     const double *beta, double *restrict tau)
+{
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, orthoglide_2012_tree_drift, u, qd, qdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 3);
+        return status;
+    }
+    orthoglide_2012_tree_inverse_dynamics(u, ud, udd, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Torques that hold the robot still, without friction. */
+int orthoglide_2012_gravity(const double *q, const double *beta, double *restrict tau)
+{
+    double u[12], G[36], rows[12], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 3);
+        return status;
+    }
+    orthoglide_2012_tree_gravity(u, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Coriolis and centripetal torques. */
+int orthoglide_2012_coriolis(const double *q, const double *qd, const double *beta,
+                             double *restrict tau)
+{
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, orthoglide_2012_tree_drift, u, qd, standing, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 3);
+        return status;
+    }
+    orthoglide_2012_tree_coriolis(u, ud, udd, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Torques of all effects but rotor inertias: friction, offsets. */
+int orthoglide_2012_friction(const double *q, const double *qd, const double *beta,
+                             double *restrict tau)
+{
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&loops, orthoglide_2012_tree_drift, u, qd, standing, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(tau, 3);
+        return status;
+    }
+    orthoglide_2012_tree_friction(ud, beta, rows);
+    modeler_project(&loops, G, rows, 1, tau);
+    return MODELER_CLOSED;
+}
+
+/* Inertia matrix, rotor inertias included; symmetric. */
+int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *restrict M)
+{
+    double u[12], G[36], rows[144], half[36], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(M, 9);
+        return status;
+    }
+    orthoglide_2012_tree_inertia_matrix(u, beta, rows);
+    modeler_project(&loops, G, rows, 12, half);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 12; k++)
+            rows[k * 3 + i] = half[i * 12 + k];
+    modeler_project(&loops, G, rows, 3, M);
+    return MODELER_CLOSED;
+}
+
+/* Pose of the frame of every moving row of the table. */
+int orthoglide_2012_forward_kinematics(const double *q, double *restrict T)
+{
+    double u[12], work[WORK];
+    const int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        orthoglide_2012_tree_forward_kinematics(u, T);
+    else
+        modeler_nothing(T, 216);
+    return status;
+}
+
+/* Closed posture, on a straight way from home. */
+int orthoglide_2012_close(const double *q, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&loops, q, home, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 12);
+    return status;
+}
+
+/* Closed posture, on a straight way from another one, such as the last. */
+int orthoglide_2012_close_from(const double *q, const double *start, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&loops, q, start, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 12);
+    return status;
+}
+
+/* Speeds of the free variables; rows of the platform are its Jacobian. */
+int orthoglide_2012_coupling(const double *q, double *restrict G)
+{
+    double u[12], work[WORK];
+    int status = modeler_close(&loops, q, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&loops, u, G, work);
+    if (status != MODELER_CLOSED)
+        modeler_nothing(G, 36);
+    return status;
+}
+
+/* Regressor of the base parameters. */
+int orthoglide_2012_platform_base_regressor(const double *x, const double *xd, const double *xdd,
+                                            double *restrict phi)
+{
+    double u[12], G[36], ud[12], udd[12], rows[636], work[WORK];
+    int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&platform_loops, orthoglide_2012_tree_drift, u, xd, xdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(phi, 159);
+        return status;
+    }
+    orthoglide_2012_tree_base_regressor(u, ud, udd, rows);
+    modeler_project(&platform_loops, G, rows, 53, phi);
+    return MODELER_CLOSED;
+}
+
+/* Torques that move the closed robot so. */
+int orthoglide_2012_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
+                                              const double *beta, double *restrict f)
+{
+    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
+    int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_follow(&platform_loops, orthoglide_2012_tree_drift, u, xd, xdd, G, ud, udd, work);
+    if (status != MODELER_CLOSED) {
+        modeler_nothing(f, 3);
+        return status;
+    }
+    orthoglide_2012_tree_inverse_dynamics(u, ud, udd, beta, rows);
+    modeler_project(&platform_loops, G, rows, 1, f);
+    return MODELER_CLOSED;
+}
+
+/* Closed posture, on a straight way from home. */
+int orthoglide_2012_platform_close(const double *x, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 12);
+    return status;
+}
+
+/* Closed posture, on a straight way from another one, such as the last. */
+int orthoglide_2012_platform_close_from(const double *x, const double *start, double *restrict u)
+{
+    double work[WORK];
+    const int status = modeler_close(&platform_loops, x, start, u, work);
+
+    if (status != MODELER_CLOSED)
+        modeler_nothing(u, 12);
+    return status;
+}
+
+/* Speeds of the free variables; rows of the platform are its Jacobian. */
+int orthoglide_2012_platform_coupling(const double *x, double *restrict G)
+{
+    double u[12], work[WORK];
+    int status = modeler_close(&platform_loops, x, home, u, work);
+
+    if (status == MODELER_CLOSED)
+        status = modeler_coupling(&platform_loops, u, G, work);
+    if (status != MODELER_CLOSED)
+        modeler_nothing(G, 36);
+    return status;
+}
