@@ -9,8 +9,8 @@ import numpy as np
 from modeler.robot import robot_from_text
 from tests.loops.table_kinematics import Table, turned
 
-ATTEMPTS = 50
-REGULAR = 0.15  # smallest singular value of the solved columns at home
+ATTEMPTS = 200
+REGULAR = 0.1  # smallest singular value of the solved columns at home
 
 _COLUMNS = ("gamma", "b", "alpha", "d", "theta", "r")
 

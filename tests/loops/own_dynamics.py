@@ -13,7 +13,7 @@ import numpy as np
 from modeler.robot import INERTIAL, Robot
 from tests.loops.table_kinematics import Table, turned
 
-ROUNDS = 4  # of Newton's method for each power of time, with slopes by differences
+ROUNDS = 4  # of Newton's method, with slopes by differences
 STEPS = 60  # of a way
 REGULAR = 0.03  # smallest singular value on it
 ZERO = 1e-11  # length of a column without effect, of the longest
@@ -156,14 +156,28 @@ class Dynamics:
 
 
 def reached(table: Table, home: np.ndarray, count: int, seed: int, reach: float) -> np.ndarray:
-    """(m, len(u)) closed postures that random ways from home arrive at, far from singularities."""
+    """(m, len(u)) closed postures that random ways arrive at, far from singularities.
+
+    Args:
+        table: the robot.
+        home: a posture that is all but closed.
+        count: of the ways.
+        seed: of their ends.
+        reach: of the longest, rad; of a travel 0.3 sizes of the robot for each.
+    """
     rng = np.random.default_rng(seed)
     joints = table.robot.coordinates
     wide = [reach if joint.angular else 0.3 * reach * table.size for joint in joints]
+    home = _corrected(table, home[None])[0]
     share = rng.uniform(0.02, 1.0, (count, 1)) ** 2
     targets = home[table.given] + share * rng.uniform(-1, 1, (count, len(wide))) * wide
     u, distance = table.followed(home, targets, STEPS)
-    u = u[np.isfinite(u[:, 0]) & (distance > REGULAR)]
+    return _corrected(table, u[np.isfinite(u[:, 0]) & (distance > REGULAR)])
+
+
+def _corrected(table: Table, u: np.ndarray) -> np.ndarray:
+    """Closed to rounding, the given variables held."""
+    u = u.copy()
     for _ in range(ROUNDS):
         back = np.linalg.pinv(table.slopes(u, table.solved))
         step = np.einsum("nij,nj->ni", back, table.errors(u))

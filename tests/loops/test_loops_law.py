@@ -39,6 +39,7 @@ FINE = (20, 400)  # times as many steps where the way comes near a singularity
 CLEAR = 0.02  # smallest singular value on the way above which nobody may be refused
 ALIKE = 1e-5  # sizes of the robot, or rad: postures that are the same
 ROUNDING = 1e-7  # of the continuation, amplified near a singularity
+NEAR = 1e-3  # and by no more than this
 
 
 class Closed:
@@ -153,7 +154,7 @@ def judged(
 
 def _same(table: Table, u: np.ndarray, way: np.ndarray, distance: np.ndarray) -> np.ndarray:
     apart = np.max(np.abs(u - way) / table.scale, axis=1)
-    return apart < ALIKE + ROUNDING / distance
+    return apart < ALIKE + np.minimum(ROUNDING / np.maximum(distance, ROUNDING), NEAR)
 
 
 def postures(closed: Closed, seed: int, count: int = POSTURES) -> Verdict:
