@@ -237,34 +237,10 @@ def on_a_plane(draw: _Drawing) -> None:
     draw.close("F", "0", "E", "planar")
 
 
-def seven_revolute(draw: _Drawing) -> None:
-    """A spatial loop of seven revolute joints."""
-    draw.spatial("1", "0", actuated=True)
-    for k in range(2, 7):
-        draw.spatial(str(k), str(k - 1))
-    draw.spatial("E", "6", "F")
-    draw.close("F", "0", "E", "revolute")
-
-
-def gough(draw: _Drawing) -> None:
-    """A platform on six legs that start and end anywhere."""
-    draw.row("X", "0", "P")
-    draw.row("Y", "X", "P", alpha="pi/2", theta="pi/2")
-    draw.row("Z", "Y", "P", alpha="pi/2")
-    draw.ball("ABC", "Z")
-    for k in range(1, 7):
-        turn = draw.symbol(k - 0.2, k + 0.2)
-        draw.row(f"K{k}", "0", "F", gamma=turn, d=draw.symbol(0.7, 1.1))
-        draw.row(f"1{k}", f"K{k}", "R", alpha=draw.angle())
-        draw.row(f"2{k}", f"1{k}", "R", alpha="pi/2")
-        draw.row(f"3{k}", f"2{k}", "P", True, alpha="pi/2")
-        draw.close(f"E{k}", "C", f"3{k}", "spherical")
-
-
 DRAWN = {
     f.__name__: f
     for f in (four_bar, swinging_four_bar, slider_crank, watt, stephenson, double_parallelogram,
-              rusr, rssr_universal, rscr, rccc, on_a_plane, seven_revolute, gough)
+              rusr, rssr_universal, rscr, rccc, on_a_plane)
 }  # fmt: skip
 
 

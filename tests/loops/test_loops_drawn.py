@@ -11,7 +11,6 @@ from modeler.robot import robot_from_text
 from tests.loops.drawn_robots import DRAWN, drawn
 from tests.loops.own_dynamics import Dynamics, rank, reached
 
-LONG = ("gough", "seven_revolute")  # to derive
 POSTURES, REACH = 250, 3.0
 EXACT = ("four_bar", "slider_crank", "watt", "stephenson", "double_parallelogram", "rusr",
          "rssr_universal", "rscr", "rccc")  # fmt: skip
@@ -22,14 +21,8 @@ def derivation(kind: str) -> Derivation:
     return derive(robot_from_text(drawn(kind, 1), kind))
 
 
-@pytest.mark.parametrize("kind", [kind for kind in DRAWN if kind not in LONG])
+@pytest.mark.parametrize("kind", DRAWN)
 def test_base_parameters_of_drawn_robots(kind: str) -> None:
-    check(derivation(kind))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", LONG)
-def test_base_parameters_of_long_loops(kind: str) -> None:
     check(derivation(kind))
 
 

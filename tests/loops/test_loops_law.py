@@ -35,7 +35,7 @@ POSTURES, PATHS, LENGTH = 60, 2, 60
 OPEN = 1e-9  # sizes of the robot, or 1
 STEPS = 60  # of the continuation
 SHORT = 6  # of it from one sample of a path to the next
-FINE = (20, 400)  # times as many steps where the way comes near a singularity
+FINE = (600, 3000)  # where the way comes near a singularity
 CLEAR = 0.02  # smallest singular value on the way above which nobody may be refused
 ALIKE = 1e-5  # sizes of the robot, or rad: postures that are the same
 ROUNDING = 1e-7  # of the continuation, amplified near a singularity
@@ -146,7 +146,7 @@ def judged(
     for fine in FINE:
         near = np.flatnonzero(done & ~clear & ~confirmed)
         if len(near):
-            again = table.followed(start[near], q[near], fine * steps)
+            again = table.followed(start[near], q[near], fine)
             confirmed[near] = _same(table, u[near], *again)
     counts = (open_, done & ~confirmed, clear & ~done, clear, done)
     return Verdict(*(int(x.sum()) for x in counts))
