@@ -27,6 +27,7 @@ from modeler.base.residues import (
     row_echelon,
     turned,
 )
+from modeler.base.vectors import cross, dot, in_axes, minus, plus, shift, turn
 from modeler.effects import EnergyBlock
 from modeler.symbolic import Geometry, LinkColumn, ShaftColumn, StandardColumn, in_block
 from modeler.symbolic.angles import cos_sin
@@ -115,26 +116,26 @@ class ModularState:
 
     def _frame(self, row: Row, R: list, p: list, w: list, v: list) -> tuple:
         p0, prime = p, self.prime
-        R = _turn(R, 2, *self._cos_sin(row.gamma), prime)
-        p = _shift(p, R, 2, self.value(row.b), prime)
-        R = _turn(R, 0, *self._cos_sin(row.alpha), prime)
-        p = _shift(p, R, 0, self.value(row.d), prime)
+        R = turn(R, 2, *self._cos_sin(row.gamma), prime)
+        p = shift(p, R, 2, self.value(row.b), prime)
+        R = turn(R, 0, *self._cos_sin(row.alpha), prime)
+        p = shift(p, R, 0, self.value(row.d), prime)
         moving = row.index is not None
         if not moving or not row.joint.angular or self.geometry.tied:
             # The constant part of a free angle only shifts the variable, which is random anyway.
-            R = _turn(R, 2, *self._cos_sin(row.theta), prime)
+            R = turn(R, 2, *self._cos_sin(row.theta), prime)
         if moving and row.joint.angular:
-            R = _turn(R, 2, *self._angle(row), prime)
+            R = turn(R, 2, *self._angle(row), prime)
         slides = moving and not row.joint.angular
         r = self.value(row.r) if not slides or self.geometry.tied else self.value(sympy.Integer(0))
         if slides:
             r = (r + row.rate * self._combined(row, self.travel)) % prime
-        p = _shift(p, R, 2, r, prime)
-        v = _plus(v, _cross(w, _plus(p, [-x for x in p0], prime), prime), prime)
+        p = shift(p, R, 2, r, prime)
+        v = plus(v, cross(w, minus(p, p0, prime), prime), prime)
         if moving:
             speed = row.rate * self._combined(row, self.qd) % prime
             own = [R[i][2] * speed % prime for i in range(3)]
-            w, v = (_plus(w, own, prime), v) if row.joint.angular else (w, _plus(v, own, prime))
+            w, v = (plus(w, own, prime), v) if row.joint.angular else (w, plus(v, own, prime))
         return R, p, w, v
 
     def _combined(self, row: Row, free: Residues) -> Residues:
@@ -200,8 +201,8 @@ class ModularState:
     def _link_rows(self, row: int) -> Mapping[str, tuple[Residues, Residues]]:
         prime = self.prime
         R, _, w, v = self.motion[row]
-        w, v, g = (_to_frame(R, x, prime) for x in (w, v, self.gravity))
-        vw, gw = _cross(v, w, prime), _cross(g, w, prime)
+        w, v, g = (in_axes(R, x, prime) for x in (w, v, self.gravity))
+        vw, gw = cross(v, w, prime), cross(g, w, prime)
         nothing = filled(0, self.points, prime)
 
         def both(i: int, j: int) -> tuple[Residues, Residues]:
@@ -211,7 +212,7 @@ class ModularState:
         rows |= {"YY": both(1, 1), "YZ": both(1, 2), "ZZ": both(2, 2)}
         for i, name in enumerate(("MX", "MY", "MZ")):
             rows[name] = (2 * vw[i] % prime, -gw[i] % prime)
-        rows["M"] = (_dot(v, v, prime), -_dot(g, v, prime) % prime)
+        rows["M"] = (dot(v, v, prime), -dot(g, v, prime) % prime)
         return rows
 
 
@@ -223,40 +224,6 @@ def _angle_scales(geometry: Geometry) -> list[int]:
             for k, coefficient in geometry.forms[row.index].items():
                 scales[k] = lcm(scales[k], coefficient.denominator)
     return scales
-
-
-def _turn(R: list, axis: int, c: Residues, s: Residues, prime: int) -> list:
-    """R times the rotation by (c, s) about its own axis x (0) or z (2)."""
-    i, j = (1, 2) if axis == 0 else (0, 1)
-    out = [list(line) for line in R]
-    for line in out:
-        x, y = line[i], line[j]
-        line[i] = (c * x % prime + s * y % prime) % prime
-        line[j] = (c * y % prime - s * x % prime) % prime
-    return out
-
-
-def _shift(p: list, R: list, axis: int, length: Residues, prime: int) -> list:
-    return [(p[i] + R[i][axis] * length % prime) % prime for i in range(3)]
-
-
-def _plus(a: list, b: list, prime: int) -> list:
-    return [(x + y) % prime for x, y in zip(a, b, strict=True)]
-
-
-def _cross(a: list, b: list, prime: int) -> list:
-    return [
-        (a[(i + 1) % 3] * b[(i + 2) % 3] % prime - a[(i + 2) % 3] * b[(i + 1) % 3] % prime) % prime
-        for i in range(3)
-    ]
-
-
-def _dot(a: list, b: list, prime: int) -> Residues:
-    return sum(x * y % prime for x, y in zip(a, b, strict=True)) % prime
-
-
-def _to_frame(R: list, v: list, prime: int) -> list:
-    return [_dot([R[j][i] for j in range(3)], v, prime) for i in range(3)]
 
 
 def modular_rank(matrix: np.ndarray) -> int:

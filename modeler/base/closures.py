@@ -1,20 +1,33 @@
 """Relations whose energies are multiples of the closure equations.
 
-Where two frames meet in one point, the difference dv of the velocities of their origins vanishes in
-every motion that the loop allows, and with it every product of dv and a speed of the opened tree.
-So a combination of parameters whose energy rows are, in the opened tree, sums of such products
+Where a joint closes a loop, components of the difference of two speeds vanish in every motion that
+the loop allows, and with them every product of such a component and a speed of the opened tree. So
+a combination of parameters whose energy rows are, in the opened tree, sums of such products
 
-    2T = sum a_ijk dv_i w_jk + sum b_ijk dv_i v_jk,   P = sum c_ij dv_i g_j
+    2T = sum a_ijk x_i w_jk + sum b_ijk x_i v_jk,   P = sum c_ij x_i g_j
 
-(w_k and v_k: of the bodies k of the loop; i, j: axes of the body that both its sides come from) has
-no effect once the loop is closed; a, b, c are constants. An example are the products of inertia of
-the bars of a planar four-bar that swings as a whole: a vector s fixed to each bar, XZ and YZ of
-each its components, adds 2 W.(e x ds/dt) to 2T, with the swing W and the axes' direction e; the
-vectors of a closed polygon sum to a constant. `modeler.base.loops` has the relations of one joint;
-these here go around the loop, and are looked for where the torques tell that some are missing.
+has no effect once the loop is closed. Here x_i are the components that vanish, w_k and v_k belong
+to the bodies k of the loop, and a, b, c are constants; all vectors have the axes of one body. Of
+frames A and B that meet, with angular velocities wA and wB, origins at pA and pB and velocities vA
+and vB of these, vanish
+
+    all of vB - vA, where the joint keeps the origins in one point;
+    else, of vB - vA - wA x (pB - pA), what is across the axis along which the frames slide, or
+    along the axis across which they slide; by axes of A;
+    wB - wA where the frames do not turn, else what of it is across the axis about which they do;
+
+and the same with A and B exchanged. What vanishes altogether has the axes of the body that both
+sides of the loop come from.
+
+An example are the products of inertia of the bars of a planar four-bar that swings as a whole: a
+vector s fixed to each bar, XZ and YZ of each its components, adds 2 W.(e x ds/dt) to 2T, with the
+swing W and the axes' direction e; the vectors of a closed polygon sum to a constant. Another is a
+body on a cylindrical joint of the base: it turns about one axis only. `modeler.base.loops` has the
+relations of one joint; these here go around the loop, and are looked for where the torques tell
+that some are missing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -23,10 +36,22 @@ from modeler.base.elimination import TooLarge
 from modeler.base.field import Element, ExactField
 from modeler.base.residues import Residues, filled
 from modeler.base.tied import dependent_columns
+from modeler.base.vectors import cross, in_axes, minus, plus
 from modeler.symbolic import Geometry, StandardColumn
 
-_SAME_ORIGIN = ("position", "spherical", "universal", "revolute", "rigid")
-"""Joints whose frames have their origins in common."""
+_ALL, _ACROSS, _ALONG, _NONE = (0, 1, 2), (0, 1), (2,), ()
+_VANISHING: Mapping[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
+    "position": (_ALL, _NONE),
+    "spherical": (_ALL, _NONE),
+    "universal": (_ALL, _NONE),
+    "revolute": (_ALL, _ACROSS),
+    "cylindrical": (_ACROSS, _ACROSS),
+    "planar": (_ALONG, _ACROSS),
+    "prismatic": (_ACROSS, _ALL),
+    "rigid": (_ALL, _ALL),
+}
+"""By kind of joint: components of the difference of velocities, and of angular velocities, that
+vanish; by axes of the frames that meet."""
 
 _POINTS = 4
 _MOST = 800
@@ -56,8 +81,7 @@ def closure_relations(
     first = products.different(K, seed)
     if len(first) + len(order) > _MOST:
         raise TooLarge(f"relations around the loops are among more than {_MOST} functions")
-    found = dependent_columns(geometry, products, K, [*first, *order], set(order), seed)
-    return [relation for relation in found if len(relation) > 1]
+    return dependent_columns(geometry, products, K, [*first, *order], set(order), seed)
 
 
 class _Products:
@@ -67,9 +91,8 @@ class _Products:
         self.columns, self.geometry = columns, geometry
         places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
         self.loops = [
-            _Around(geometry, places.get(loop.frame), places.get(loop.meets))
+            _Around(geometry, places.get(loop.frame), places.get(loop.meets), loop.kind)
             for loop in geometry.robot.loops
-            if loop.kind in _SAME_ORIGIN
         ]
 
     def different(self, K: ExactField, seed: int) -> list[int]:
@@ -100,9 +123,9 @@ class _Products:
 class _Around:
     """One loop: the rows where it closes, and the bodies on its way."""
 
-    def __init__(self, geometry: Geometry, one: int | None, other: int | None) -> None:
+    def __init__(self, geometry: Geometry, one: int | None, other: int | None, kind: str) -> None:
         """For the numbers of the rows that meet; None is the base."""
-        self.ends = one, other
+        self.ends, self.vanishing = (one, other), _VANISHING[kind]
         sides = [[] if end is None else geometry.ancestors(end) for end in self.ends]
         in_common = [k for k in sides[0] if k in sides[1]]
         self.root = in_common[0] if in_common else None
@@ -114,23 +137,50 @@ class _Around:
         ]
 
     def products(self, state: ModularState) -> list[Residues]:
-        """(2 points,) each: dv by w and v of the bodies, and dv by gravity."""
-        prime = state.prime
-        nothing = filled(0, state.points, prime)
-        speeds = [[nothing] * 3 if end is None else state.motion[end][3] for end in self.ends]
-        dv = self._turned(state, [(a - b) % prime for a, b in zip(*speeds, strict=True)])
+        """(2 points,) each: what vanishes by w and v of the bodies, and by gravity."""
+        nothing = filled(0, state.points, state.prime)
         found = []
-        for k in self.bodies:
-            for vector in state.motion[k][2:]:
-                for y in self._turned(state, vector):
-                    found += [np.concatenate([x * y % prime, nothing]) for x in dv]
-        for y in self._turned(state, state.gravity):
-            found += [np.concatenate([nothing, x * y % prime]) for x in dv]
+        for end, vanishing in self._zeros(state):
+            for k in self.bodies:
+                for vector in state.motion[k][2:]:
+                    for y in _turned(state, end, vector):
+                        product = [x * y % state.prime for x in vanishing]
+                        found += [np.concatenate([value, nothing]) for value in product]
+            for y in _turned(state, end, state.gravity):
+                found += [np.concatenate([nothing, x * y % state.prime]) for x in vanishing]
         return found
 
-    def _turned(self, state: ModularState, vector: Sequence[Residues]) -> list[Residues]:
-        """A vector in the axes of the body that both sides come from."""
-        if self.root is None:
-            return list(vector)
-        R, prime = state.motion[self.root][0], state.prime
-        return [sum(R[j][i] * vector[j] % prime for j in range(3)) % prime for i in range(3)]
+    def _zeros(self, state: ModularState) -> list[tuple[int | None, list[Residues]]]:
+        """Rows in whose axes components vanish, and these: velocities, then angular velocities."""
+        found = []
+        for place, along in enumerate(self.vanishing):
+            if along == _ALL:
+                vector = self._difference(state, self.ends)[place]
+                found.append((self.root, _turned(state, self.root, vector)))
+            elif along:
+                for ends in (self.ends, self.ends[::-1]):
+                    vector = self._difference(state, ends, apart=True)[place]
+                    axes = _turned(state, ends[0], vector)
+                    found.append((ends[0], [axes[i] for i in along]))
+        return found
+
+    def _difference(
+        self, state: ModularState, ends: Sequence[int | None], apart: bool = False
+    ) -> tuple[list[Residues], list[Residues]]:
+        """Of the second end from the first: velocity and angular velocity.
+
+        If they are apart, the first velocity is that of its body where the second origin is.
+        """
+        prime = state.prime
+        nothing = [filled(0, state.points, prime)] * 3
+        (p, w, v), (p_other, w_other, v_other) = (
+            (nothing,) * 3 if end is None else state.motion[end][1:] for end in ends
+        )
+        if apart:
+            v = plus(v, cross(w, minus(p_other, p, prime), prime), prime)
+        return minus(v_other, v, prime), minus(w_other, w, prime)
+
+
+def _turned(state: ModularState, row: int | None, vector: list[Residues]) -> list[Residues]:
+    """A vector in the axes of a row; None is the base."""
+    return vector if row is None else in_axes(state.motion[row][0], vector, state.prime)

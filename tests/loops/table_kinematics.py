@@ -9,10 +9,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.robot import Robot
+from modeler.robot import Joint, Robot
+
+CLOSED = 1e-8  # sizes of the robot, or 1
+NEWTON = 6  # corrections of a step
+LONGEST = 0.3  # step of a variable, in its scale
+ROUNDING = 1e-7  # of a posture, in its scale
+
+_TRANSFORMS = ((True, 2), (False, 2), (True, 0), (False, 0), (True, 2), (False, 2))
+"""Of gamma, b, alpha, d, theta, r: whether it turns, and about or along which axis."""
 
 
-def _rotation(axis: int, angle: np.ndarray) -> np.ndarray:
+def turned(axis: int, angle: np.ndarray) -> np.ndarray:
     c, s = np.cos(angle), np.sin(angle)
     R = np.zeros((*np.shape(angle), 3, 3))
     i, j = [(1, 2), (2, 0), (0, 1)][axis]
@@ -33,6 +41,15 @@ class Table:
         lengths = [abs(v) for n, v in self.symbols.items() if n != "g"]
         self.size = max(lengths, default=1.0) or 1.0
         self.scale = np.array([1.0 if joint.angular else self.size for joint in robot.free])
+        self._cells = {joint.name: self._constants(joint) for joint in robot.joints}
+
+    def _constants(self, joint: Joint) -> dict:
+        """The cells of a row in the order of the transforms, numbers where no variable stands."""
+        cells = {name: getattr(joint, name) for name in ("gamma", "b", "alpha", "d", "theta", "r")}
+        return {
+            name: self._value(cell, self.symbols) if cell.names <= self.symbols.keys() else cell
+            for name, cell in cells.items()
+        }
 
     def frames(self, u: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """{row: (R, p)} of n postures (n, len(u))."""
@@ -47,16 +64,17 @@ class Table:
         found = {"0": (np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3)))}
         for row in self.robot.joints:
             R, p = found[row.antecedent]
-            e = {
-                name: np.broadcast_to(self._value(getattr(row, name), values), n)
-                for name in ("gamma", "b", "alpha", "d", "theta", "r")
-            }
-            R = R @ _rotation(2, e["gamma"])
-            p = p + R[:, :, 2] * e["b"][:, None]
-            R = R @ _rotation(0, e["alpha"])
-            p = p + R[:, :, 0] * e["d"][:, None]
-            R = R @ _rotation(2, e["theta"])
-            found[row.name] = R, p + R[:, :, 2] * e["r"][:, None]
+            cells = self._cells[row.name].values()
+            for cell, (turns, axis) in zip(cells, _TRANSFORMS, strict=True):
+                if isinstance(cell, float) and cell == 0.0:
+                    continue
+                value = cell if isinstance(cell, float) else self._value(cell, values)
+                value = np.broadcast_to(value, n)
+                if turns:
+                    R = R @ turned(axis, value)
+                else:
+                    p = p + R[:, :, axis] * value[:, None]
+            found[row.name] = R, p
         return found
 
     def _value(self, expression, values):
@@ -87,44 +105,62 @@ class Table:
 
     def slopes(self, u: np.ndarray, places: Sequence[int]) -> np.ndarray:
         """(n, e, len(places)) derivatives by scaled variables."""
-        h, columns = 1e-6, []
-        for k in places:
-            step = np.zeros(u.shape[1])
-            step[k] = h * self.scale[k]
-            columns.append((self.errors(u + step) - self.errors(u - step)) / (2 * h))
-        return np.stack(columns, axis=2)
+        h, n = 1e-6, len(u)
+        steps = np.zeros((len(places), 1, u.shape[1]))
+        for i, k in enumerate(places):
+            steps[i, 0, k] = h * self.scale[k]
+        both = np.concatenate([u + steps, u - steps]).reshape(-1, u.shape[1])
+        ahead, behind = self.errors(both).reshape(2, len(places), n, -1)
+        return (ahead - behind).transpose(1, 2, 0) / (2 * h)
 
     def followed(self, home: np.ndarray, targets: np.ndarray, steps: int) -> tuple:
         """Straight ways of the given variables from home, and how near singularity they came.
+
+        A way ends where Newton's method goes further than the tangent does, and where the solved
+        columns change their orientation: behind a turning point or a bifurcation.
+
+        Args:
+            home: (len(u),) or (n, len(u)) closed postures where the ways start.
+            targets: (n, given) where they lead.
+            steps: of equal length.
 
         Returns:
             (n, len(u)) postures, NaN where the way ended; (n,) the smallest singular value of the
             solved columns on the way.
         """
         n = len(targets)
-        u = np.tile(home, (n, 1))
-        nearest = np.full(n, np.inf)
+        start = np.broadcast_to(home, (n, len(self.scale)))
+        u, nearest, going = start.copy(), np.full(n, np.inf), np.arange(n)
+        J = self.slopes(u, range(u.shape[1]))
         for k in range(1, steps + 1):
-            before = u.copy()
-            alive = np.isfinite(u[:, 0])
-            if not alive.any():
+            q = start[:, self.given] + (targets - start[:, self.given]) * (k / steps)
+            v, J_after, good, singular = self._step(u[going], q[going], J)
+            nearest[going] = np.minimum(nearest[going], singular)
+            u[going] = v
+            u[going[~good]] = np.nan
+            going, J = going[good], J_after[good]
+            if not len(going):
                 break
-            J = self.slopes(u[alive], range(u.shape[1]))
-            inner = np.linalg.svd(J[:, :, self.solved], compute_uv=False)[:, -1]
-            nearest[alive] = np.minimum(nearest[alive], inner)
-            q = home[self.given] + (targets[alive] - home[self.given]) * (k / steps)
-            v = u[alive]
-            change = (q - v[:, self.given]) / self.scale[self.given]
-            right = np.einsum("nij,nj->ni", J[:, :, self.given], change)
-            along = -np.einsum("nij,nj->ni", np.linalg.pinv(J[:, :, self.solved]), right)
-            v[:, self.solved] += along * self.scale[self.solved]
-            v[:, self.given] = q
-            inverse = np.linalg.pinv(self.slopes(v, self.solved))
-            for _ in range(6):
-                f = self.errors(v)
-                v[:, self.solved] -= np.einsum("nij,nj->ni", inverse, f) * self.scale[self.solved]
-            jump = np.max(np.abs(v - before[alive]) / self.scale, axis=1)
-            open_ = np.max(np.abs(self.errors(v)), axis=1)
-            v[~((open_ < 1e-8) & (jump < 0.3))] = np.nan
-            u[alive] = v
         return u, nearest
+
+    def _step(self, u: np.ndarray, q: np.ndarray, J: np.ndarray) -> tuple:
+        """One step to q: postures, all slopes there, who arrived, least singular values."""
+        v, scale = u.copy(), self.scale[self.solved]
+        change = (q - u[:, self.given]) / self.scale[self.given]
+        back = np.linalg.pinv(J[:, :, self.solved])
+        along = -np.einsum("nij,njk,nk->ni", back, J[:, :, self.given], change)
+        v[:, self.solved] += along * scale
+        v[:, self.given] = q
+        predicted = v.copy()
+        inverse = np.linalg.pinv(self.slopes(v, self.solved))
+        for _ in range(NEWTON):
+            f = self.errors(v)
+            v[:, self.solved] -= np.einsum("nij,nj->ni", inverse, f) * scale
+        after = self.slopes(v, range(v.shape[1]))
+        turned = np.linalg.det(back @ after[:, :, self.solved])
+        bent = np.max(np.abs(v - predicted) / self.scale, axis=1)
+        length = np.max(np.abs(predicted - u) / self.scale, axis=1)
+        good = (np.max(np.abs(self.errors(v)), axis=1) < CLOSED) & (turned > 0.0)
+        good &= (bent < 0.5 * length + ROUNDING) & (length < LONGEST)
+        singular = np.linalg.svd(after[:, :, self.solved], compute_uv=False)[:, -1]
+        return v, after, good, singular

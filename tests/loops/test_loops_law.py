@@ -4,7 +4,10 @@ Random postures near and far, and random paths, against the table's kinematics i
 continuation in small steps.
 """
 
-import itertools
+import re
+from collections.abc import Iterator
+from copy import copy
+from dataclasses import astuple, dataclass
 from functools import cache
 from pathlib import Path
 
@@ -15,22 +18,28 @@ from modeler.api import compile_model
 from modeler.base import base_parameters
 from modeler.codegen import emit
 from modeler.derivation import derive, generate
-from modeler.robot import builtin_names, read_robot, robot_from_text
+from modeler.robot import builtin_names, builtin_text, read_robot, robot_from_text
 from modeler.symbolic import SymbolicModel
 from modeler.symbolic.columns import standard_columns
 from modeler.symbolic.geometry import exact_geometry
 from modeler.symbolic.graph import Graph
+from tests.loops.drawn_robots import DRAWN, drawn
 from tests.loops.table_kinematics import Table
 
-ALIKE = ("orthoglide-2003-similar-legs",)  # the same loops as another's
-BUILT_IN = [name for name in builtin_names() if read_robot(name).loops and name not in ALIKE]
+SAME = ("orthoglide-2003-similar-legs",)  # the same loops as another's
+BUILT_IN = [name for name in builtin_names() if read_robot(name).loops and name not in SAME]
 OUTSIDE = ["3rpr_sim", "excavator", "excavator_bucket", "offset_parallelogram",
            "rccc", "rccc_wide", "twoloops", "twoloops_mixed", "twoloops_poorhome"]  # fmt: skip
 
 POSTURES, PATHS, LENGTH = 60, 2, 60
-OPEN = 1e-8  # sizes of the robot, or 1
+OPEN = 1e-9  # sizes of the robot, or 1
 STEPS = 60  # of the continuation
+SHORT = 6  # of it from one sample of a path to the next
+FINE = (600, 3000)  # where the way comes near a singularity
 CLEAR = 0.02  # smallest singular value on the way above which nobody may be refused
+ALIKE = 1e-5  # sizes of the robot, or rad: postures that are the same
+ROUNDING = 1e-7  # of the continuation, amplified near a singularity
+NEAR = 1e-3  # and by no more than this
 
 
 class Closed:
@@ -59,18 +68,31 @@ class Closed:
             [np.broadcast_to(values[f"q{j.name}"], len(u)) for j in self.table.robot.free], axis=1
         )
 
+    def from_home(self, q: np.ndarray) -> np.ndarray:
+        """Postures (n, len(u)), NaN where the status is not 0."""
+        done = self.compiled.closing_status(q) == 0
+        u = np.full((len(q), len(self.home)), np.nan)
+        u[done] = self.whole(self.compiled.close(q[done]))
+        return u
+
+    def related(self, rng: np.random.Generator, count: int) -> np.ndarray:
+        """Random postures of a robot whose relations say all."""
+        turns = rng.uniform(-np.pi, np.pi, (count, len(self.stated)))
+        return self.whole(turns * [1.0 if j.angular else 0.3 * self.table.size
+                                   for j in self.model_robot.free])  # fmt: skip
+
     def follow(self, q: np.ndarray) -> np.ndarray:
-        """Postures along a path, each closed from the one before; up to where it ends."""
+        """Postures along a path, each closed from the one before; the last may be refused: NaN."""
         found, u = [], np.array(self.closure.home)
         out, status = np.empty((1, len(u))), np.zeros(1, dtype=np.intc)
         library = self.compiled._library
         function = next(f for f in library.spec.functions if f.name.endswith("close_from"))
         for row in q:
             library.batch(function, [row[None].copy(), u[None].copy()], out, status)
+            u = out[0].copy() if status[0] == 0 else np.full(len(u), np.nan)
+            found.append(u)
             if status[0]:
                 break
-            u = out[0].copy()
-            found.append(u)
         return self.whole(np.array(found).reshape(len(found), len(u)))
 
     def ranges(self) -> tuple[np.ndarray, np.ndarray]:
@@ -81,44 +103,92 @@ class Closed:
         return middle - reach, middle + reach
 
 
-def judge(closed: Closed, seed: int) -> tuple[int, int, int, int]:
-    """(status 0 and open, status 0 on another branch, refused though clear, clear) of postures."""
+@dataclass(frozen=True)
+class Verdict:
+    """How many postures break the law, and how many there were.
+
+    Attributes:
+        open: status 0, and a loop as written is open.
+        other: status 0, and not where the continuation from the start leads.
+        refused: no status 0, though the continuation arrives, far from singularities.
+        clear: postures where it does.
+        done: postures with status 0.
+    """
+
+    open: int
+    other: int
+    refused: int
+    clear: int
+    done: int
+
+    def __add__(self, more: "Verdict") -> "Verdict":
+        return Verdict(*(a + b for a, b in zip(astuple(self), astuple(more), strict=True)))
+
+
+def judged(
+    table: Table, start: np.ndarray, q: np.ndarray, u: np.ndarray, steps: int = STEPS
+) -> Verdict:
+    """Postures u (n, len(u)), NaN where there is no status 0, against straight ways from start.
+
+    Args:
+        table: the robot.
+        start: (len(u),) or (n, len(u)) closed postures.
+        q: (n, given) where the ways lead.
+        u: what the emitted C says.
+        steps: of the continuation.
+    """
+    start = np.broadcast_to(start, u.shape)
+    done = np.isfinite(u[:, 0])
+    open_ = np.max(np.abs(table.errors(u[done])), axis=1) > OPEN
+    way, distance = table.followed(start, q, steps)
+    clear = np.isfinite(way[:, 0]) & (distance > CLEAR)
+    confirmed = clear & _same(table, u, way, distance)
+    for fine in FINE:
+        near = np.flatnonzero(done & ~clear & ~confirmed)
+        if len(near):
+            again = table.followed(start[near], q[near], fine)
+            confirmed[near] = _same(table, u[near], *again)
+    counts = (open_, done & ~confirmed, clear & ~done, clear, done)
+    return Verdict(*(int(x.sum()) for x in counts))
+
+
+def _same(table: Table, u: np.ndarray, way: np.ndarray, distance: np.ndarray) -> np.ndarray:
+    apart = np.max(np.abs(u - way) / table.scale, axis=1)
+    return apart < ALIKE + np.minimum(ROUNDING / np.maximum(distance, ROUNDING), NEAR)
+
+
+def postures(closed: Closed, seed: int, count: int = POSTURES) -> Verdict:
+    """Random postures, near home and far."""
     table, rng = closed.table, np.random.default_rng(seed)
     low, high = closed.ranges()
-    near = rng.uniform(0.05, 1.0, (POSTURES, 1))
-    q = closed.home[table.given] + near * (rng.uniform(low, high, (POSTURES, len(low)))
-                                           - closed.home[table.given])  # fmt: skip
-    status = closed.compiled.closing_status(q)
-    done = status == 0
-    u = closed.whole(closed.compiled.close(q[done]))
-    open_ = np.max(np.abs(table.errors(u)), axis=1) > OPEN
-    way, distance = table.followed(closed.home, q, STEPS)
-    clear = np.isfinite(way[:, 0]) & (distance > CLEAR)
-    told = clear[done]
-    other = np.max(np.abs(u - way[done]) / table.scale, axis=1)[told] > 1e-5
-    refused = clear & ~done
-    return int(open_.sum()), int(other.sum()), int(refused.sum()), int(clear.sum())
+    near = rng.uniform(0.05, 1.0, (count, 1))
+    here = closed.home[table.given]
+    q = here + near * (rng.uniform(low, high, (count, len(low))) - here)
+    return judged(table, closed.home, q, closed.from_home(q))
 
 
-def walk(closed: Closed, seed: int) -> tuple[int, int]:
-    """(samples with status 0 that are open, leaps from one to the next) along smooth paths."""
+def paths(closed: Closed, seed: int, count: int) -> Iterator[np.ndarray]:
+    """Smooth closed paths of the coordinates, (LENGTH, given) each, from home."""
     table, rng = closed.table, np.random.default_rng(seed)
     low, high = closed.ranges()
     t = np.linspace(0.0, 2 * np.pi, LENGTH)[:, None]
-    open_ = leaps = 0
-    for _ in range(PATHS):
+    for _ in range(count):
         phase = rng.uniform(0, 2 * np.pi, len(low))
         wave = np.sin(rng.integers(1, 3, len(low)) * t + phase) - np.sin(phase)
-        q = closed.home[table.given] + 0.2 * (high - low) * wave
-        u = closed.follow(q)
-        open_ += int(np.sum(np.max(np.abs(table.errors(u)), axis=1) > OPEN))
-        # A passive joint is as fast as the actuated ones, times what the Jacobian says.
-        for before, after in itertools.pairwise(u):
-            inner = np.linalg.svd(table.slopes(before[None], table.solved)[0], compute_uv=False)
-            step = np.max(np.abs((after - before) / table.scale)[table.given], initial=0.0)
-            bound = 10.0 * (step + 1e-9) / max(float(inner[-1]), 1e-6)
-            leaps += bool(np.max(np.abs(after - before) / table.scale) > max(bound, 0.05))
-    return open_, leaps
+        yield closed.home[table.given] + 0.2 * (high - low) * wave
+
+
+def along(table: Table, home: np.ndarray, q: np.ndarray, u: np.ndarray) -> Verdict:
+    """Postures u along a path q, each against the way from the one before."""
+    return judged(table, np.concatenate([home[None], u[:-1]]), q[: len(u)], u, SHORT)
+
+
+def walk(closed: Closed, seed: int, count: int = PATHS) -> Verdict:
+    """Smooth paths, until a sample is refused."""
+    total = Verdict(0, 0, 0, 0, 0)
+    for q in paths(closed, seed, count):
+        total += along(closed.table, closed.home, q, closed.follow(q))
+    return total
 
 
 @cache
@@ -127,13 +197,20 @@ def closed_robot(name: str, folder: Path | None = None) -> Closed:
 
 
 def check(closed: Closed, name: str) -> None:
-    if closed.closure is None:
-        return  # relations say all that the loops do: nothing is left to close
     seed = int.from_bytes(name.encode()) % 2**32
-    open_, other, refused, clear = judge(closed, seed)
-    assert (open_, other) == (0, 0)
-    assert refused <= 1e-3 * clear and clear > 0.02 * POSTURES
-    assert walk(closed, seed) == (0, 0)
+    if closed.closure is None:  # relations say all that the loops do
+        u = closed.related(np.random.default_rng(seed), POSTURES)
+        assert np.max(np.abs(closed.table.errors(u))) < OPEN
+        return
+    found = postures(closed, seed)
+    lawful(found)
+    assert found.clear > 0.02 * POSTURES
+    lawful(walk(closed, seed))
+
+
+def lawful(found: Verdict) -> None:
+    assert (found.open, found.other) == (0, 0), found
+    assert found.refused <= 1e-3 * found.clear, found
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
@@ -144,6 +221,57 @@ def test_status_0_is_closed_on_the_branch_of_home(name):
 @pytest.mark.parametrize("name", OUTSIDE)
 def test_status_0_is_closed_on_the_branch_of_home_elsewhere(name, loop_robots_folder):
     check(closed_robot(name, loop_robots_folder), name)
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_status_0_is_closed_on_the_branch_of_home_on_drawn_robots(kind):
+    check(Closed(robot_from_text(drawn(kind, 1), kind)), kind)
+
+
+@cache
+def mirrored() -> Closed:
+    """The five-bar with its tip on the other side of the line between its elbows."""
+    right = closed_robot("five-bar")
+    frames = right.table.frames(right.home[None])
+    (one, other, tip), base = (frames[k][1][0, :2] for k in ("21", "22", "31")), "five-bar"
+    line = (other - one) / np.linalg.norm(other - one)
+    tip = one + 2 * ((tip - one) @ line) * line - (tip - one)
+    text = builtin_text(base)
+    for name, elbow in (("1", one), ("2", other)):
+        x, y = tip - elbow
+        place = [j.name for j in right.table.robot.free].index(f"1{name}")
+        angle = np.arctan2(y, x) - right.home[place]
+        text = re.sub(rf"^q2{name} = .*$", f"q2{name} = {angle:.9f}", text, flags=re.M)
+    return Closed(robot_from_text(text, base))
+
+
+def test_postures_of_another_branch_are_seen():
+    right, wrong = closed_robot("five-bar"), mirrored()
+    assert postures(wrong, 1).other == 0
+    wrong = copy(wrong)
+    wrong.home = right.home
+    found = postures(wrong, 1)
+    assert found.open == 0 and found.other == found.done > 0.5 * POSTURES
+
+
+def test_a_change_of_branch_on_the_way_is_seen():
+    right, wrong = closed_robot("five-bar"), mirrored()
+    q = next(paths(right, 5, 1))
+    one, other = right.follow(q), wrong.follow(q)
+    half, length = 20, min(len(one), len(other))
+    u = np.concatenate([one[:half], other[half:length]])
+    assert along(right.table, right.home, q, one).other == 0
+    assert along(right.table, right.home, q, u).other == 1
+
+
+def test_an_open_posture_and_a_refused_one_are_seen():
+    right = closed_robot("five-bar")
+    q = right.home[right.table.given] + np.array([[0.1, 0.0], [0.0, 0.1], [0.1, 0.1]])
+    u = right.from_home(q)
+    u[0, right.table.solved] += 1e-7
+    u[1] = np.nan
+    found = judged(right.table, right.home, q, u)
+    assert (found.open, found.refused, found.done) == (1, 1, 2)
 
 
 def test_a_way_through_a_bifurcation_ends_there():

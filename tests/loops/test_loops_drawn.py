@@ -1,0 +1,48 @@
+"""Base parameters of robots with loops drawn from a seed, against a dynamics of its own."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from modeler.base.agreement import grouping_matrix
+from modeler.derivation import Derivation, derive
+from modeler.robot import robot_from_text
+from tests.loops.drawn_robots import DRAWN, drawn
+from tests.loops.own_dynamics import Dynamics, rank, reached
+
+POSTURES, REACH = 250, 3.0
+EXACT = ("four_bar", "slider_crank", "watt", "stephenson", "double_parallelogram", "rusr",
+         "rssr_universal", "rscr", "rccc")  # fmt: skip
+
+
+@cache
+def derivation(kind: str) -> Derivation:
+    return derive(robot_from_text(drawn(kind, 1), kind))
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_base_parameters_of_drawn_robots(kind: str) -> None:
+    check(derivation(kind))
+
+
+@pytest.mark.parametrize("kind", EXACT)
+def test_their_proof_is_exact(kind: str) -> None:
+    assert derivation(kind).base.proof.kind == "exact"
+
+
+def check(found: Derivation) -> None:
+    """The rank is that of the torques, and the base parameters give the same torques."""
+    dynamics = Dynamics(found.robot)
+    home = np.array([found.robot.home[joint.name] for joint in found.robot.free])
+    u = reached(dynamics.table, home, POSTURES, 1, REACH)
+    qd, qdd = np.random.default_rng(2).normal(size=(2, len(u), len(dynamics.table.given)))
+    torques = dynamics.regressor(u, qd, qdd)
+    W = np.stack([torques[name] for name in found.model.names], axis=2)
+    W = W.reshape(-1, W.shape[2])
+    count, kept, dropped = rank(W)
+    assert count == found.base.rank
+    assert kept > 1e3 * dropped
+    base = W[:, [parameter.column for parameter in found.base.parameters]]
+    size = np.linalg.norm(W, axis=0) / np.sqrt(len(W)) + 1e-4 * np.abs(W).max()
+    assert np.all(np.abs(W - base @ grouping_matrix(found.model, found.base)) < 1e-7 * size)
