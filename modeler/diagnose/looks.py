@@ -20,6 +20,7 @@ from modeler.diagnose.propose import proposals
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
 from modeler.observation import Log
+from modeler.observation.motion import HIGHEST
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""
@@ -66,9 +67,10 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
     if other is not None:
         yield "the held-out logs", other
     processing = data.observation.report.processing
+    highest = HIGHEST / max(log.step for log in logs)
     for factor in FACTORS:
         cut = {
-            name: factor * value
+            name: min(factor * value, highest)
             for name in ("position_cutoff", "parallel_cutoff")
             if (value := getattr(processing, name))
         }

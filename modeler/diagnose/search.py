@@ -7,6 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from modeler.diagnose.braking import drives
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.judge import (
     Judged,
@@ -122,8 +123,8 @@ def search(
         leading = judgement.best
         best = _named(state, leading, refused, without)
         accepted = put_in(state, best, veto)
-        if accepted is None:
-            refused.append(best)
+        if isinstance(accepted, Refused):
+            refused.append(accepted.judged)
             judgement = survey.judged(refused)
             continue
         best, later = accepted
@@ -141,13 +142,22 @@ def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgeme
     return Step(best, rivals, state, tuple(alternatives(best, rivals, after)))
 
 
-def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | None:
-    """The effect, or a ripple with its order counted, and the state with it; None if refused."""
+@dataclass(frozen=True, eq=False)
+class Refused:
+    """An effect that was not put in; `judged.possible` is False if physics refused it."""
+
+    judged: Judged
+
+
+def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | Refused:
+    """The effect, or a ripple with its order counted, and the state with it."""
     for judged in (best, *_counted(state, best)):
         later = extended(state, judged.candidate)
+        if drives(state, later, judged.candidate):
+            return Refused(dataclasses.replace(judged, possible=False))
         if veto is None or not veto(state, later, judged):
             return judged, later
-    return None
+    return Refused(best)
 
 
 def _counted(state: State, best: Judged) -> list[Judged]:

@@ -10,8 +10,10 @@ from modeler.diagnose import Known, judge, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.candidates import Candidate, candidates, scales_of
 from modeler.diagnose.judge import Judged, decide, possible
+from modeler.diagnose.looks import Look
+from modeler.diagnose.result import Finding
 from modeler.diagnose.search import Survey
-from modeler.diagnose.sentences import refused_lines
+from modeler.diagnose.sentences import other_names, refused_lines
 from modeler.effects import effect_named
 from tests.diagnose.conftest import Case
 
@@ -113,6 +115,17 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(("agrees", "said"), [(True, "missing"), (False, "closest description")])
+def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: str) -> None:
+    looks = (Look("held out", ("spring", "2"), True), Look("low", ("stribeck", "1"), agrees))
+    first = Finding("spring", "2", 0.5, 0.2, 0.1, {}, {}, {}, (), "", 1.0, False, looks=looks)
+    joints = {"1": SimpleNamespace(error_after=0.1, unexplained=False)}
+    assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+    assert (other_names(first) == "") is agrees
+    if not agrees:
+        assert "1 of 2 other looks only, not before stribeck on joint 1 (low)" in other_names(first)
+
+
 @pytest.mark.parametrize(("refuse", "order"), [((), 36.3), ((36.3,), 36.0), ((36.3, 36.0), None)])
 def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     monkeypatch: pytest.MonkeyPatch, refuse: tuple[float, ...], order: float | None
@@ -128,8 +141,10 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     judged = lambda s, found, c: SimpleNamespace(best=at(found[0].shapes["m"]))  # noqa: E731
     monkeypatch.setattr(search, "judge", judged)
     state = SimpleNamespace(rows=None, cache={})
+    monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
     found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
-    assert (found[0].candidate.shapes["m"] if found else None) == order
+    named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
+    assert named == order
 
 
 @pytest.mark.parametrize(
