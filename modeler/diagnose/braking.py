@@ -44,8 +44,21 @@ def _brakes(pick: Candidate, j: int) -> bool:
     return friction and pick.index == j
 
 
+def largest_friction(state: State, j: int) -> float:
+    """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
+    picks = [k for k, other in enumerate(state.picks) if _brakes(other, j)]
+    torque = np.abs(_friction(state, j, picks))
+    return float(np.quantile(torque, 0.98)) if torque.size else 0.0
+
+
 def _driving(state: State, j: int, picks: Sequence[int]) -> float:
     """Rms of the friction torque of joint j where it drives, N m or N; with some of the picks."""
+    way = np.sign(state.rows.filtered(j, [s.v[:, j] for s in state.rows.signals]))
+    return float(np.sqrt(np.mean(np.minimum(0.0, _friction(state, j, picks) * way) ** 2)))
+
+
+def _friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
+    """(rows_j,) friction torque of joint j, N m or N: of the model and some of the picks."""
     base = state.data.compiled.spec.base
     own = [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
     torque = state.rows.W[j][:, own] @ state.beta[own]
@@ -53,5 +66,4 @@ def _driving(state: State, j: int, picks: Sequence[int]) -> float:
         columns = state.extra[k][j]
         assert columns is not None, "it acts on its joint"
         torque = torque + columns @ state.values[k]
-    way = np.sign(state.rows.filtered(j, [s.v[:, j] for s in state.rows.signals]))
-    return float(np.sqrt(np.mean(np.minimum(0.0, torque * way) ** 2)))
+    return torque

@@ -30,6 +30,10 @@ _T = TypeVar("_T")
 MOST = 8
 """Effects named in one diagnosis."""
 
+ASKED = 20
+"""Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
+many, it is other motion, or the logs hold nothing that returns."""
+
 STARTS = 4
 """Grid values from which an effect with two shapes is refined: its fit has several summits."""
 
@@ -120,6 +124,8 @@ def search(
     survey = surveyed(state, without) if most else None
     judgement = survey.judged() if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
+        if len(vetoed) + len(refused) >= ASKED:
+            break
         leading = judgement.best
         best = _named(state, leading, refused, without)
         accepted = put_in(state, best, veto)

@@ -183,7 +183,8 @@ def _effect_line(finding: Finding) -> str:
         return f"{where(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
     tail = f"; these data do not tell it from {ties}" if ties else ""
-    tail += f"; {other}" if (other := other_names(finding)) else ""
+    for doubt in (finding.objection, other_names(finding)):
+        tail += f"; {doubt}" if doubt else ""
     change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"
     return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
 

@@ -56,7 +56,7 @@ def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be:
 
 def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
     candidate = SimpleNamespace(key=(effect, "1"))
-    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends)
+    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends, possible=True)
 
 
 @pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
@@ -145,6 +145,28 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
     named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
     assert named == order
+
+
+def test_a_search_ends_where_everything_is_refused(
+    case: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With a tenth around every order of a ripple banned, there is always another one to ask."""
+    asked = []
+
+    def refused(state: object, best: object, veto: object) -> search.Refused:
+        asked.append(best)
+        return search.Refused(best)  # type: ignore[arg-type]
+
+    class Endless:
+        def judged(self, vetoed: object = ()) -> SimpleNamespace:
+            return SimpleNamespace(best=object(), ranked=())
+
+    monkeypatch.setattr(search, "put_in", refused)
+    monkeypatch.setattr(search, "_named", lambda state, best, vetoed, without: best)
+    monkeypatch.setattr(search, "surveyed", lambda state, without: Endless())
+    monkeypatch.setattr(search, "_started", lambda data, beta: None)
+    found = search.search(None, None)  # type: ignore[arg-type]
+    assert len(found.vetoed) == len(asked) == search.ASKED
 
 
 @pytest.mark.parametrize(
