@@ -45,8 +45,7 @@ SAME_WAVES = 0.1
 
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
-    looks: Sequence[tuple[Look, ...]] = (),
-    faults: Sequence[Fault] = (),
+    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -65,7 +64,6 @@ def assembled(
     findings = [] if contradicted else _findings(found, chain, window, errors, shares, seen, looks)
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, shares)
-    data = found.start.data
     diagnosis = Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell" if contradicted else verdict(effects, joints, found),
@@ -74,12 +72,14 @@ def assembled(
         rivals=_rivals(found),
         blind_spots=blind_spots(found),
         joints=joints,
-        unmoved=tuple(j.name for j in data.compiled.spec.joints if j.name not in joints),
+        unmoved=tuple(
+            j.name for j in found.start.data.compiled.spec.joints if j.name not in joints
+        ),
         held_out=other.observation.logs if other else (),
         sentences=(),
-        band=data.observation.report.processing.parallel_cutoff or 0.0,
+        band=found.start.data.observation.report.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
-        changed=data.kept is not None,
+        changed=found.start.data.kept is not None,
         contradicted=contradicted,
         window=window,
         search=found,

@@ -72,11 +72,18 @@ def diagnose(
     window = _push(data, found) if CONTACT not in without else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
-    looks = [
-        (what, look if window is None or look is other else _masked(look, window))
-        for what, look in (other_looks(data, logs, other) if found.steps else ())
-    ]
+    looks = _looks(data, logs, other, window) if found.steps else []
     return assembled(model, found, other, window, looked_again(found, looks), doubted)
+
+
+def _looks(
+    data: Data, logs: Sequence[Log], other: Data | None, window: Window | None
+) -> list[tuple[str, Data]]:
+    """Other looks, those at the training logs without the rows of a push."""
+    return [
+        (what, look if window is None or look is other else _masked(look, window))
+        for what, look in other_looks(data, logs, other)
+    ]
 
 
 def _searched(

@@ -118,7 +118,7 @@ def search(
         veto: looks at held-out logs.
         progress: called with a share between 0 and 1.
     """
-    state = start = _started(data, beta)
+    start = state = _started(data, beta)
     steps: list[Step] = []
     vetoed, refused = list[Judged](), list[Judged]()  # before, and in the present state
     survey = surveyed(state, without) if most else None
@@ -127,8 +127,7 @@ def search(
         if len(vetoed) + len(refused) >= ASKED:
             break
         leading = judgement.best
-        best = _named(state, leading, refused, without)
-        accepted = put_in(state, best, veto)
+        accepted = put_in(state, _named(state, leading, refused, without), veto)
         if isinstance(accepted, Refused):
             refused.append(accepted.judged)
             judgement = survey.judged(refused)

@@ -147,9 +147,7 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     assert named == order
 
 
-def test_a_search_ends_where_everything_is_refused(
-    case: Case, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """With a tenth around every order of a ripple banned, there is always another one to ask."""
     asked = []
 
@@ -189,14 +187,17 @@ def test_a_small_elasticity_that_swings_what_the_joint_has_not_is_an_error_of_ti
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
         candidate = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
-        return SimpleNamespace(candidate=candidate, gain=gain, confirmed=confirmed)
+        return SimpleNamespace(
+            candidate=candidate, gain=gain, confirmed=confirmed, possible=effect_id != "drift"
+        )
 
-    vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.1)]
+    vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.4)]
     ranked = [at("elasticity", "2", 0.6, confirmed=False), at("stribeck", "3", 0.9)]
     steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
     vetoed.append(at("offset", "1", 0.8))  # named later
     last = SimpleNamespace(ranked=ranked)
     found = SimpleNamespace(search=SimpleNamespace(vetoed=vetoed, steps=steps, last=last))
-    first, second = refused_lines(found)  # type: ignore[arg-type]
+    first, second, third = refused_lines(found)  # type: ignore[arg-type]
     assert "(elasticity), joint 2, explains 60 %" in first and "errors of timing" in first
     assert "(spring), joint 1, explains 50 %" in second and "held-out motion" in second
+    assert "(drift), joint 2, explains 40 %" in third and "would drive" in third
