@@ -52,7 +52,7 @@ def assembled(
     Args:
         model: as given.
         found: of the training logs.
-        other: held-out logs.
+        other: held-out ones.
         window: of a contact that was masked.
         looks: what other looks say of every effect, in order.
         faults: channels that contradict the model; if one is certain, nothing is named.
@@ -61,14 +61,14 @@ def assembled(
     seen, errors = _errors(chain, other)
     shares = [systematic_share(found.end, j) for j in range(len(errors[0]))]
     contradicted = any(fault.certain for fault in faults)
-    findings = [] if contradicted else _findings(found, chain, window, errors, shares, seen, looks)
-    effects = tuple(f for f in findings if not f.refines)
+    every = () if contradicted else _findings(found, chain, window, errors, shares, seen, looks)
+    effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     joints = _joints(found, errors, shares)
     diagnosis = Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell" if contradicted else verdict(effects, joints, found),
         effects=effects,
-        refinements=tuple(f for f in findings if f.refines),
+        refinements=refinements,
         rivals=_rivals(found),
         blind_spots=blind_spots(found),
         joints=joints,
@@ -80,10 +80,8 @@ def assembled(
         band=found.start.data.observation.report.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
         changed=found.start.data.kept is not None,
-        contradicted=contradicted,
-        window=window,
-        search=found,
-    )
+        contradicted=contradicted, window=window, search=found,
+    )  # fmt: skip
     return sentences(diagnosis)
 
 

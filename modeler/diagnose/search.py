@@ -108,7 +108,7 @@ def search(
     veto: Veto | None = None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Search:
-    """Effects that the model lacks, one after the other.
+    """Effects that the model lacks, one by one.
 
     Args:
         data: training logs.
@@ -119,17 +119,16 @@ def search(
         progress: called with a share between 0 and 1.
     """
     start = state = _started(data, beta)
-    steps: list[Step] = []
-    vetoed, refused = list[Judged](), list[Judged]()  # before, and in the present state
+    steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
     survey = surveyed(state, without) if most else None
     judgement = survey.judged() if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
-        if len(vetoed) + len(refused) >= ASKED:
-            break
         leading = judgement.best
         accepted = put_in(state, _named(state, leading, refused, without), veto)
         if isinstance(accepted, Refused):
             refused.append(accepted.judged)
+            if len(vetoed) + len(refused) == ASKED:
+                break
             judgement = survey.judged(refused)
             continue
         best, later = accepted
