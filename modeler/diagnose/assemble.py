@@ -1,5 +1,6 @@
 """From a search to a diagnosis: errors on other motion, ties, closure, verdict."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,6 +14,7 @@ from modeler.diagnose.detected import CONTACT, detected
 from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
 from modeler.diagnose.judge import Judged
+from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.profile import profile_of
 from modeler.diagnose.propose import ruled_out
@@ -43,43 +45,43 @@ SAME_WAVES = 0.1
 
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
-    faults: Sequence[Fault] = (),
+    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
     Args:
         model: as given.
         found: of the training logs.
-        other: held-out logs.
+        other: held-out ones.
         window: of a contact that was masked.
+        looks: what other looks say of every effect, in order.
         faults: channels that contradict the model; if one is certain, nothing is named.
     """
     chain = _chain(found)
     seen, errors = _errors(chain, other)
     shares = [systematic_share(found.end, j) for j in range(len(errors[0]))]
     contradicted = any(fault.certain for fault in faults)
-    findings = [] if contradicted else _findings(found, chain, window, errors, shares, seen)
-    effects = tuple(f for f in findings if not f.refines)
+    every = () if contradicted else _findings(found, chain, window, errors, shares, seen, looks)
+    effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     joints = _joints(found, errors, shares)
-    data = found.start.data
     diagnosis = Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell" if contradicted else verdict(effects, joints, found),
         effects=effects,
-        refinements=tuple(f for f in findings if f.refines),
+        refinements=refinements,
         rivals=_rivals(found),
         blind_spots=blind_spots(found),
         joints=joints,
-        unmoved=tuple(j.name for j in data.compiled.spec.joints if j.name not in joints),
+        unmoved=tuple(
+            j.name for j in found.start.data.compiled.spec.joints if j.name not in joints
+        ),
         held_out=other.observation.logs if other else (),
         sentences=(),
-        band=data.observation.report.processing.parallel_cutoff or 0.0,
+        band=found.start.data.observation.report.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
-        changed=data.kept is not None,
-        contradicted=contradicted,
-        window=window,
-        search=found,
-    )
+        changed=found.start.data.kept is not None,
+        contradicted=contradicted, window=window, search=found,
+    )  # fmt: skip
     return sentences(diagnosis)
 
 
@@ -106,6 +108,7 @@ def _findings(
     errors: Sequence[np.ndarray],
     systematic: Sequence[float],
     seen: Sequence[tuple[np.ndarray, np.ndarray]] | None,
+    looks: Sequence[tuple[Look, ...]],
 ) -> list[Finding]:
     """Effects that were put in, and those that are no columns."""
     findings = []
@@ -113,7 +116,8 @@ def _findings(
         touched = _touched(step, *chain[k : k + 2])
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
-        findings.append(_finding(found, step, touched, errors[k : k + 2], closed))
+        finding = _finding(found, step, touched, errors[k : k + 2], closed)
+        findings.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
     return detected(found, window, errors[-1], findings)
 
 
@@ -270,7 +274,9 @@ def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Se
         closed = first.closure is None or first.closure >= CLOSED
         if first.effect == CONTACT and any(state.unexplained for state in joints.values()):
             closed = False  # something acts all the time: what stood out of it may be no push
-        return "missing" if closed and not first.objection else "closest description"
+        return (
+            "missing" if closed and first.stands and not first.objection else "closest description"
+        )
     if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
         return "cannot tell"
     if any(state.error_after > LOST for state in joints.values()):

@@ -15,6 +15,7 @@ from modeler.diagnose.candidates import Known
 from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
+from modeler.diagnose.looks import looked_again, other_looks
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.search import MOST, Search, search
 from modeler.diagnose.state import Data, State, state_of
@@ -70,9 +71,19 @@ def diagnose(
         found = _searched(data, other, *options)
     window = _push(data, found) if CONTACT not in without else None
     if window is not None:
-        seen = _masked(data.observation, window)
-        found = _searched(dataclasses.replace(data, observation=seen), other, *options)
-    return assembled(model, found, other, window, doubted)
+        found = _searched(_masked(data, window), other, *options)
+    looks = _looks(data, logs, other, window) if found.steps else []
+    return assembled(model, found, other, window, looked_again(found, looks), doubted)
+
+
+def _looks(
+    data: Data, logs: Sequence[Log], other: Data | None, window: Window | None
+) -> list[tuple[str, Data]]:
+    """Other looks, those at the training logs without the rows of a push."""
+    return [
+        (what, look if window is None or look is other else _masked(look, window))
+        for what, look in other_looks(data, logs, other)
+    ]
 
 
 def _searched(
@@ -160,15 +171,15 @@ def _push(data: Data, found: Search) -> Window | None:
     window = contact_window(found.end)
     more = window
     while window is not None and more is not None:
-        rest = dataclasses.replace(data, observation=_masked(data.observation, window))
-        later = contact_window(state_of(rest, found.end.picks, found.end.beta))
+        later = contact_window(state_of(_masked(data, window), found.end.picks, found.end.beta))
         more = window.with_part(later) if later is not None else None
         window = more or window
     return window
 
 
-def _masked(observation: Observation, window: Window) -> Observation:
-    """The observation without the rows of a window, and a little around it."""
+def _masked(data: Data, window: Window) -> Data:
+    """The data without the rows of a window, and a little around it."""
+    observation = data.observation
     hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
     hit &= observation.time < window.end + MARGIN
     used = observation.used & ~hit[:, None]
@@ -177,4 +188,5 @@ def _masked(observation: Observation, window: Window) -> Observation:
         rows = len(part.used)
         parts.append(dataclasses.replace(part, used=used[at : at + rows]))
         at += rows
-    return dataclasses.replace(observation, used=used, stretches=tuple(parts))
+    rest = dataclasses.replace(observation, used=used, stretches=tuple(parts))
+    return dataclasses.replace(data, observation=rest)

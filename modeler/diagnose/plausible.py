@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from modeler.diagnose.braking import largest_friction
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.state import State, columns_of
 from modeler.effects import Acts
@@ -16,6 +17,9 @@ OFF = 0.5
 """Relative error of a drive gain from which on it is none."""
 
 BALANCERS = ("counterbalance", "constant_force_spring")
+
+MORE = 1.3
+"""Of the whole friction of a joint, more than which no part of it is, however badly known."""
 
 WEIGHTLESS = 0.02
 """Gravity over torque, rms, below which a joint has nothing to balance."""
@@ -34,6 +38,8 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
         pick: it.
         parameters: its parameters and shapes by name, SI.
     """
+    if pick.index >= 0 and any(column.within_friction for column in pick.form.columns):
+        return _more_than_all(state, pick, parameters)
     if pick.effect.id in BALANCERS:
         return _nothing_to_balance(state, pick) or _no_lever(state, pick, parameters)
     if pick.effect.id == "spring":
@@ -45,6 +51,19 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
     if pick.effect.id == "elasticity":
         return _other_oscillator(state, pick, parameters)
     return ""
+
+
+def _more_than_all(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A part of the friction that is larger than all of it."""
+    part, unit = parameters[pick.parameter_names()[0]], "N m" if _turns(state, pick) else "N"
+    whole = largest_friction(state, pick.index)
+    if part <= MORE * whole:
+        return ""
+    return f"all friction of its joint is {whole:.3g} {unit}, and this part of it {part:.3g} {unit}"
+
+
+def _turns(state: State, pick: Candidate) -> bool:
+    return state.data.compiled.spec.joints[pick.index].unit == "rad"
 
 
 def _no_spring(state: State, pick: Candidate) -> str:
@@ -101,7 +120,7 @@ def _other_oscillator(state: State, pick: Candidate, parameters: Mapping[str, fl
     rings = 1.0 / max(compliance * (2.0 * np.pi * parameters["f"]) ** 2, 1e-300)
     if own <= 0.0 or max(rings / own, own / rings) < LOOSE:
         return ""
-    unit = "kg m2" if state.data.compiled.spec.joints[pick.index].unit == "rad" else "kg"
+    unit = "kg m2" if _turns(state, pick) else "kg"
     return (
         f"what rings has {rings:.3g} {unit} on this axis, and the links have {own:.3g} {unit}: "
         "something else rings"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from modeler.diagnose.contact import Window
+from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
 
 FELT = 0.005
@@ -15,9 +16,6 @@ FELT = 0.005
 
 LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
-
-Key = tuple[str, str | None]
-"""Effect and joint; the joint of an effect of the whole robot is None."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +38,7 @@ class Finding:
         refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
+        looks: what other logs and other cut-offs say of it; empty for contacts and play.
     """
 
     effect: str
@@ -56,6 +55,12 @@ class Finding:
     refines: bool
     objection: str = ""
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    looks: tuple[Look, ...] = ()
+
+    @property
+    def stands(self) -> bool:
+        """True if no other look surely names another effect in its place."""
+        return all(look.agrees for look in self.looks)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -73,6 +78,7 @@ class Finding:
             "evidence": self.evidence,
             "closure": self.closure,
             "objection": self.objection,
+            "looks": [look.to_json() for look in self.looks],
         }
 
 

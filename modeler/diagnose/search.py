@@ -7,6 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from modeler.diagnose.braking import drives
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.judge import (
     Judged,
@@ -28,6 +29,10 @@ _T = TypeVar("_T")
 
 MOST = 8
 """Effects named in one diagnosis."""
+
+ASKED = 20
+"""Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
+many, it is other motion, or the logs hold nothing that returns."""
 
 STARTS = 4
 """Grid values from which an effect with two shapes is refined: its fit has several summits."""
@@ -103,7 +108,7 @@ def search(
     veto: Veto | None = None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Search:
-    """Effects that the model lacks, one after the other.
+    """Effects that the model lacks, one by one.
 
     Args:
         data: training logs.
@@ -113,17 +118,17 @@ def search(
         veto: looks at held-out logs.
         progress: called with a share between 0 and 1.
     """
-    state = start = _started(data, beta)
-    steps: list[Step] = []
-    vetoed, refused = list[Judged](), list[Judged]()  # before, and in the present state
+    start = state = _started(data, beta)
+    steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
     survey = surveyed(state, without) if most else None
     judgement = survey.judged() if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
         leading = judgement.best
-        best = _named(state, leading, refused, without)
-        accepted = put_in(state, best, veto)
-        if accepted is None:
-            refused.append(best)
+        accepted = put_in(state, _named(state, leading, refused, without), veto)
+        if isinstance(accepted, Refused):
+            refused.append(accepted.judged)
+            if len(vetoed) + len(refused) == ASKED:
+                break
             judgement = survey.judged(refused)
             continue
         best, later = accepted
@@ -141,13 +146,22 @@ def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgeme
     return Step(best, rivals, state, tuple(alternatives(best, rivals, after)))
 
 
-def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | None:
-    """The effect, or a ripple with its order counted, and the state with it; None if refused."""
+@dataclass(frozen=True, eq=False)
+class Refused:
+    """An effect that was not put in; `judged.possible` is False if physics refused it."""
+
+    judged: Judged
+
+
+def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | Refused:
+    """The effect, or a ripple with its order counted, and the state with it."""
     for judged in (best, *_counted(state, best)):
         later = extended(state, judged.candidate)
+        if drives(state, later, judged.candidate):
+            return Refused(dataclasses.replace(judged, possible=False))
         if veto is None or not veto(state, later, judged):
             return judged, later
-    return None
+    return Refused(best)
 
 
 def _counted(state: State, best: Judged) -> list[Judged]:

@@ -14,6 +14,9 @@ TOLD = 0.15
 MOST_REFUSED = 3
 
 _ONLY_HERE = "of these logs' error, but the error of the held-out motion does not fall with it"
+_PART = "it explains only part of what is systematic"
+
+_DRIVES = "of the error, but with it the friction of its joint would drive instead of brake"
 _ONLY_TIMING = (
     "of the error, but so do errors of timing: it is not seen once encoder noise is smoothed out "
     "of the motion, or its values are not those of this joint"
@@ -93,12 +96,13 @@ def refused_lines(diagnosis: Diagnosis) -> list[str]:
     timing = [judged for judged in found.last.ranked if not judged.confirmed]
     named = {step.pick.key for step in found.steps}
     lines: dict[Key, tuple[float, str]] = {}
-    for refused, why in ((found.vetoed, _ONLY_HERE), (timing, _ONLY_TIMING)):
+    for refused, why in ((found.vetoed, ""), (timing, _ONLY_TIMING)):
         for judged in refused:
+            because = why or (_ONLY_HERE if judged.possible else _DRIVES)
             key = judged.candidate.key
             if key not in named and judged.gain > lines.get(key, (TOLD, ""))[0]:
                 text = f"not named: {judged.candidate.effect.title} ({key[0]}), {where(key[1])}, "
-                lines[key] = judged.gain, f"{text}explains {percent(judged.gain)} {why}"
+                lines[key] = judged.gain, f"{text}explains {percent(judged.gain)} {because}"
     return [line for _, line in sorted(lines.values(), reverse=True)[:MOST_REFUSED]]
 
 
@@ -119,7 +123,7 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_named(first, diagnosis)}"
     if diagnosis.verdict == "closest description" and first is not None:
-        reason = first.objection or "it explains only part of what is systematic"
+        reason = first.objection or other_names(first) or _PART
         return (
             f"closest description: {_named(first, diagnosis)}; {reason}, so the cause may be "
             "outside the catalogue"
@@ -139,6 +143,19 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.refinements:
         return "nothing to add: a law that the model has can be refined"
     return "nothing to add: no effect of the catalogue surely lowers the error by more than 3 %"
+
+
+def other_names(finding: Finding) -> str:
+    """Which other looks name something else."""
+    others = [
+        f"{look.leads[0]} on {where(look.leads[1])} ({look.what})"
+        for look in finding.looks
+        if not look.agrees and look.leads is not None
+    ]
+    if not others:
+        return ""
+    count = f"{len(finding.looks) - len(others)} of {len(finding.looks)}"
+    return f"it leads in {count} other looks only, not before {', '.join(others)}"
 
 
 def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
@@ -166,6 +183,8 @@ def _effect_line(finding: Finding) -> str:
         return f"{where(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
     tail = f"; these data do not tell it from {ties}" if ties else ""
+    for doubt in (finding.objection, other_names(finding)):
+        tail += f"; {doubt}" if doubt else ""
     change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"
     return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
 

@@ -128,6 +128,7 @@ class EffectColumn:
         block: its energy function, for grouping.
         nonnegative: physics allows no negative value.
         largest: magnitude beyond which it is another effect, SI.
+        within_friction: it is a part of the joint's friction, so never larger than all of it.
     """
 
     prefix: str
@@ -138,6 +139,7 @@ class EffectColumn:
     block: EnergyBlock
     nonnegative: bool
     largest: float = math.inf
+    within_friction: bool = False
 
 
 VARIABLES = {

@@ -76,7 +76,13 @@ FRICTION: tuple[Effect, ...] = (
         equation="mu * |load| * sign(qd)",
         forms=(
             form(
-                column("mu", "abs(static + w*(load - static))*sign(v)", "ratio", nonnegative=True),
+                column(
+                    "mu",
+                    "abs(static + w*(load - static))*sign(v)",
+                    "ratio",
+                    nonnegative=True,
+                    largest=0.5,
+                ),
                 shapes=(_SHARE,),
             ),
         ),
@@ -85,7 +91,7 @@ FRICTION: tuple[Effect, ...] = (
         signature="residual times sign(qd) against |load|: a straight line",
         look_alikes="friction that depends on position; pass the same poses with another load, or "
         "move other joints meanwhile",
-        range="mu 0.01 to 0.15, not negative",
+        range="mu 0.01 to 0.15, not negative; half the load is no friction of a gear",
         source="Bittencourt and Gunnarsson 2012; Hamon, Gautier and Garrec 2010",
     ),
     Effect(
@@ -117,7 +123,7 @@ FRICTION: tuple[Effect, ...] = (
         equation="Fz * (z - sign(qd)), z' = (qd/d)(1 - z sign(qd))",
         forms=(
             form(
-                column("Fz", "z - sign(v)", "torque", nonnegative=True),
+                column("Fz", "z - sign(v)", "torque", nonnegative=True, within_friction=True),
                 shapes=(_SLIP,),
                 memory=Memory("slip", "d"),
             ),

@@ -232,3 +232,30 @@ def test_a_joint_that_never_moves_is_said(case: Case) -> None:
     still = dataclasses.replace(case.holdout, q=q)
     lines = diagnose(model, case.compiled, [still], most=0).data
     assert any("joint 1 never moves" in line for line in lines)
+
+
+def test_friction_that_would_drive_is_not_named(case: Case) -> None:
+    """What fades to less than nothing is no warm-up, though the column of one describes it."""
+
+    def fading(log: Log) -> np.ndarray:
+        _, v = motion(log)
+        fall = 14.0 * (np.exp(-log.time / 12.0) - 1.0)
+        return on_joint(log, 1, fall * np.tanh(v[:, 1] / 0.002))
+
+    diagnosis = found(case, fading)
+    assert not any(f.effect == "temperature_friction" for f in diagnosis.effects)
+    assert any(
+        "temperature_friction" in line and "would drive" in line for line in diagnosis.sentences
+    )
+
+
+def test_every_effect_tells_what_other_looks_say(case: Case) -> None:
+    diagnosis = found(case, spring)
+    looks = diagnosis.effects[0].looks
+    assert [look.what for look in looks] == [
+        "the held-out logs", "cut-offs x 0.7", "cut-offs x 1.4",
+    ]  # fmt: skip
+    assert all(look.agrees and look.leads == ("spring", "3") for look in looks)
+    assert diagnosis.to_json()["effects"][0]["looks"][0]["leads"] == {
+        "effect": "spring", "joint": "3",
+    }  # fmt: skip

@@ -10,8 +10,10 @@ from modeler.diagnose import Known, judge, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.candidates import Candidate, candidates, scales_of
 from modeler.diagnose.judge import Judged, decide, possible
+from modeler.diagnose.looks import Look
+from modeler.diagnose.result import Finding
 from modeler.diagnose.search import Survey
-from modeler.diagnose.sentences import refused_lines
+from modeler.diagnose.sentences import other_names, refused_lines
 from modeler.effects import effect_named
 from tests.diagnose.conftest import Case
 
@@ -54,7 +56,7 @@ def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be:
 
 def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
     candidate = SimpleNamespace(key=(effect, "1"))
-    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends)
+    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends, possible=True)
 
 
 @pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
@@ -108,9 +110,20 @@ def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named:
 def test_a_push_is_no_fact_while_something_acts_all_the_time(
     effect: str, left: bool, said: str
 ) -> None:
-    first = SimpleNamespace(effect=effect, closure=None, objection="")
+    first = SimpleNamespace(effect=effect, closure=None, objection="", stands=True)
     joints = {"1": SimpleNamespace(error_after=0.1, unexplained=left)}
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("agrees", "said"), [(True, "missing"), (False, "closest description")])
+def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: str) -> None:
+    looks = (Look("held out", ("spring", "2"), True), Look("low", ("stribeck", "1"), agrees))
+    first = Finding("spring", "2", 0.5, 0.2, 0.1, {}, {}, {}, (), "", 1.0, False, looks=looks)
+    joints = {"1": SimpleNamespace(error_after=0.1, unexplained=False)}
+    assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+    assert (other_names(first) == "") is agrees
+    if not agrees:
+        assert "1 of 2 other looks only, not before stribeck on joint 1 (low)" in other_names(first)
 
 
 @pytest.mark.parametrize(("refuse", "order"), [((), 36.3), ((36.3,), 36.0), ((36.3, 36.0), None)])
@@ -128,8 +141,30 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     judged = lambda s, found, c: SimpleNamespace(best=at(found[0].shapes["m"]))  # noqa: E731
     monkeypatch.setattr(search, "judge", judged)
     state = SimpleNamespace(rows=None, cache={})
+    monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
     found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
-    assert (found[0].candidate.shapes["m"] if found else None) == order
+    named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
+    assert named == order
+
+
+def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a tenth around every order of a ripple banned, there is always another one to ask."""
+    asked = []
+
+    def refused(state: object, best: object, veto: object) -> search.Refused:
+        asked.append(best)
+        return search.Refused(best)  # type: ignore[arg-type]
+
+    class Endless:
+        def judged(self, vetoed: object = ()) -> SimpleNamespace:
+            return SimpleNamespace(best=object(), ranked=())
+
+    monkeypatch.setattr(search, "put_in", refused)
+    monkeypatch.setattr(search, "_named", lambda state, best, vetoed, without: best)
+    monkeypatch.setattr(search, "surveyed", lambda state, without: Endless())
+    monkeypatch.setattr(search, "_started", lambda data, beta: None)
+    found = search.search(None, None)  # type: ignore[arg-type]
+    assert len(found.vetoed) == len(asked) == search.ASKED
 
 
 @pytest.mark.parametrize(
@@ -152,14 +187,17 @@ def test_a_small_elasticity_that_swings_what_the_joint_has_not_is_an_error_of_ti
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
         candidate = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
-        return SimpleNamespace(candidate=candidate, gain=gain, confirmed=confirmed)
+        return SimpleNamespace(
+            candidate=candidate, gain=gain, confirmed=confirmed, possible=effect_id != "drift"
+        )
 
-    vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.1)]
+    vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.4)]
     ranked = [at("elasticity", "2", 0.6, confirmed=False), at("stribeck", "3", 0.9)]
     steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
     vetoed.append(at("offset", "1", 0.8))  # named later
     last = SimpleNamespace(ranked=ranked)
     found = SimpleNamespace(search=SimpleNamespace(vetoed=vetoed, steps=steps, last=last))
-    first, second = refused_lines(found)  # type: ignore[arg-type]
+    first, second, third = refused_lines(found)  # type: ignore[arg-type]
     assert "(elasticity), joint 2, explains 60 %" in first and "errors of timing" in first
     assert "(spring), joint 1, explains 50 %" in second and "held-out motion" in second
+    assert "(drift), joint 2, explains 40 %" in third and "would drive" in third

@@ -49,6 +49,20 @@ def test_ten_times_the_inertia_is_not_this_joint(unit, named):
     assert objection(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
 
 
+@pytest.mark.parametrize(("level", "said"), [(2.0, False), (5.0, True)])
+def test_a_part_of_the_friction_is_no_larger_than_all_of_it(level, said):
+    friction = [
+        SimpleNamespace(kind="friction", rows=(0,)),
+        SimpleNamespace(kind="inertial", rows=(0,)),
+    ]
+    made = state()
+    made.data.compiled.spec.base = friction
+    made.rows.W = [np.column_stack([np.sign(np.sin(np.arange(100.0))), np.full(100, 50.0)])]
+    made.beta, made.picks = np.array([3.0, 1.0]), (pick("presliding"),)
+    text = objection(made, pick("presliding"), {"Fz1": level, "d": 0.01})
+    assert ("all friction of its joint is 3 N m" in text) is said, text
+
+
 def levered(curve, weight=0.5, noise=0.1):
     """A state whose candidate has that torque over q from -1 to 1 rad."""
     made = state(weight=weight)

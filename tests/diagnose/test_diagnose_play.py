@@ -116,7 +116,7 @@ def test_a_gear_that_rattles_is_no_push(monkeypatch):
     state = SimpleNamespace(rows=SimpleNamespace(joints=1), picks=(), beta=None)
     found = SimpleNamespace(end=state, last=SimpleNamespace(ranked=(1,)))
     monkeypatch.setattr(diagnosis, "contact_window", lambda state: window)
-    monkeypatch.setattr(diagnosis, "_masked", lambda observation, window: observation)
+    monkeypatch.setattr(diagnosis, "_masked", lambda data, window: data)
     monkeypatch.setattr(diagnosis, "state_of", lambda *a: state)
     monkeypatch.setattr(diagnosis.dataclasses, "replace", lambda data, **changes: data)
     data = SimpleNamespace(observation=None)

@@ -1,0 +1,122 @@
+"""Other looks at the same machine: what names an effect must lead in all of them.
+
+The first look is at the training logs, in the band of the diagnosis. The others change what has
+nothing to do with the robot: the held-out logs take the place of the training logs, and the filters
+cut off at `FACTORS` times the frequency. What leads in one and not in the other is a matter of the
+look, so it is not stated as fact. Two diagnoses of one machine with training and held-out logs
+exchanged, or with such another cut-off, then cannot state two names: each looks at what the other
+was made from.
+"""
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.diagnose.analyse import analysed
+from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.judge import Judged, best_shapes, decide, tied
+from modeler.diagnose.propose import proposals
+from modeler.diagnose.search import Search, Step
+from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.observation import Log
+from modeler.observation.motion import HIGHEST
+
+FACTORS = (0.7, 1.4)
+"""Cut-offs of the other looks, over those of the diagnosis."""
+
+RIVALS = 8
+"""Effects that are asked again in the other looks: those that came nearest."""
+
+
+Key = tuple[str, str | None]
+"""Effect and joint; the joint of an effect of the whole robot is None."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What another look says of one effect.
+
+    Attributes:
+        what: which look, in words.
+        leads: effect and joint that lead there; None if nothing surely does.
+        agrees: True if that is the effect, if the data there do not tell it from the effect, or if
+            nothing is sure there.
+    """
+
+    what: str
+    leads: Key | None
+    agrees: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        leads = (
+            None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
+        )
+        return {"what": self.what, "leads": leads, "agrees": self.agrees}
+
+
+def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator[tuple[str, Data]]:
+    """The same robot's data, looked at otherwise.
+
+    Args:
+        data: the training logs.
+        logs: they.
+        other: held-out logs in the same band.
+    """
+    if other is not None:
+        yield "the held-out logs", other
+    processing = data.observation.report.processing
+    highest = HIGHEST / max(log.step for log in logs)
+    for factor in FACTORS:
+        cut = {
+            name: min(factor * value, highest)
+            for name in ("position_cutoff", "parallel_cutoff")
+            if (value := getattr(processing, name))
+        }
+        changed = dataclasses.replace(processing, **cut, decimation=None, edge=None)
+        seen = analysed(data.compiled, logs, changed, chosen=True)
+        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+
+
+def looked_again(found: Search, looks: Sequence[tuple[str, Data]]) -> list[tuple[Look, ...]]:
+    """What the other looks say of every effect that was put in, in order.
+
+    Args:
+        found: the search in the first look.
+        looks: others.
+    """
+    return [
+        tuple(_look(what, data, found, place) for what, data in looks)
+        for place in range(len(found.steps))
+    ]
+
+
+def _look(what: str, data: Data, found: Search, place: int) -> Look:
+    step = found.steps[place]
+    state = _beside_earlier(data, [s.pick for s in found.steps[:place]], step.before)
+    judged = _asked_again(state, step, found)
+    best = decide(state, judged).best
+    if best is None:
+        return Look(what, None, True)
+    alike = {best.candidate.key, *(j.candidate.key for j in tied(best, judged))}
+    return Look(what, best.candidate.key, step.pick.key in alike)
+
+
+def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
+    """The state in which the effect was chosen, from other data."""
+    once = state_of(data, picks, before.beta)
+    return state_of(data, picks, once.beta, once.cache)
+
+
+def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
+    """The effect and its nearest rivals, each at the best of its shapes."""
+    refused = {j.candidate.key for j in found.vetoed}
+    rivals = [j.candidate for j in step.rivals if j.candidate.key not in refused][:RIVALS]
+    first = [step.pick, *rivals]
+    keys = {c.key for c in first}
+    again = [c for c in proposals(state, None, found.without) if c.key in keys]
+    every = [*first, *again]
+    columns = [columns_of(state.rows, c, state.cache) for c in every]
+    seen = [i for i, c in enumerate(columns) if visible(c)]
+    return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])
