@@ -6,6 +6,7 @@ from pathlib import Path
 from modeler.cli.console import Json, progress, say
 from modeler.cli.robots import robot_of
 from modeler.simulate import (
+    KEPT,
     SimulationSettings,
     check_suffix,
     hidden_from_text,
@@ -42,6 +43,12 @@ def run_simulate(args: argparse.Namespace) -> Json:
         where = f" on {effect.joint}" if effect.joint else ""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
         say(f"hidden: {effect.effect}{where}: {values}")
+    if log.range_share < 1.0:
+        say(
+            f"motion: within {log.range_share:.0%} of the way from [home] to the limits: farther, "
+            f"the loops come nearer than {KEPT:.0%} of home's distance to a singular posture, or "
+            "do not close"
+        )
     say(f"written: {args.out}")
     return {
         "robot": robot.name,
@@ -50,4 +57,5 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
         "hidden": told_hidden(log),
+        "range_share": log.range_share,
     }

@@ -9,7 +9,8 @@ from collections.abc import Callable
 import numpy as np
 
 from modeler.robot import Robot
-from modeler.simulate.closing import followed, motor_torques, rates
+from modeler.simulate.closed_motion import ClosedMotion, closed_motion
+from modeler.simulate.closing import motor_torques, rates
 from modeler.simulate.constraints import constraints_of, sampled
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import machine
@@ -27,7 +28,7 @@ from modeler.simulate.sensors import (
 )
 from modeler.simulate.settings import SimulationSettings
 from modeler.simulate.sharing import told_once
-from modeler.simulate.trajectory import Reference, reference_motion
+from modeler.simulate.trajectory import reference_motion
 
 
 def simulate_closed(
@@ -45,28 +46,35 @@ def simulate_closed(
     every = motion_limits(robot, settings.limits)
     names = [joint.name for joint in robot.moving]
     limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
-    reference = reference_motion(
-        settings.motion, limits, settings.duration, settings.rate, settings.seed
+    constraints = constraints_of(robot)
+    motion = closed_motion(
+        robot,
+        constraints,
+        limits,
+        lambda near: reference_motion(
+            settings.motion, near, settings.duration, settings.rate, settings.seed
+        ),
+        progress,
     )
     parameters = plant_parameters(robot, every, settings.parameter_seed)
     hidden = complete_effects(robot, parameters, every, settings)
-    constraints = constraints_of(robot)
-    v = followed(robot, constraints, reference.q, progress)
+    v, reference = motion.v, motion.reference
     vd, vdd = rates(constraints, v, reference.qd, reference.qdd)
     torque, states = torque_function(*machine(robot, parameters, hidden), every, hidden)
     load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
     tau = motor_torques(constraints, v, load)
-    return _log(robot, parameters, reference, settings, tau, hidden)
+    return _log(robot, parameters, motion, settings, tau, hidden)
 
 
 def _log(
     robot: Robot,
     parameters: PlantParameters,
-    reference: Reference,
+    motion: ClosedMotion,
     settings: SimulationSettings,
     tau: np.ndarray,
     hidden: tuple[HiddenEffect, ...],
 ) -> SimulatedLog:
+    reference = motion.reference
     resolution = encoder_resolution(robot.coordinates, settings)
     faults = faults_of([joint.name for joint in robot.coordinates], hidden)
     needed = np.sqrt(np.mean(tau**2, axis=0))
@@ -86,4 +94,5 @@ def _log(
         tau=told + settings.torque_noise * rms * noise,
         settings=settings,
         truth=Truth(reference.q, reference.qd, reference.qdd, tau, values, drawn, hidden),
+        range_share=motion.share,
     )
