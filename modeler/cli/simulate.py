@@ -30,6 +30,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         torque_noise=args.noise,
         encoder_counts=args.encoder_counts,
         process_noise=args.process_noise,
+        controller=args.controller,
         hidden=tuple(hidden_from_text(text) for text in args.hide),
     )
     with progress(f"simulating {robot.name}") as report:

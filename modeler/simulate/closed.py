@@ -1,17 +1,18 @@
 """Measurements of robots with loops: the commanded motion, carried out exactly.
 
 Drives of parallel robots are stiff and well tuned: the actuated joints are where they are commanded
-to be, the others follow, and the motors give what that needs. No controller is simulated.
+to be, the others follow, and the motors give what that needs. No controller is simulated; for one
+see `simulate.closed_plant`.
 """
 
 from collections.abc import Callable
 
 import numpy as np
 
-from modeler.robot import Robot
+from modeler.robot import Limits, Robot
 from modeler.simulate.closed_motion import ClosedMotion, closed_motion
 from modeler.simulate.closing import motor_torques, rates
-from modeler.simulate.constraints import constraints_of, sampled
+from modeler.simulate.constraints import Constraints, constraints_of, sampled
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import machine
 from modeler.simulate.hidden_draw import complete_effects
@@ -28,7 +29,7 @@ from modeler.simulate.sensors import (
 )
 from modeler.simulate.settings import SimulationSettings
 from modeler.simulate.sharing import told_once
-from modeler.simulate.trajectory import reference_motion
+from modeler.simulate.trajectory import Reference, reference_motion
 
 
 def simulate_closed(
@@ -44,18 +45,8 @@ def simulate_closed(
         DataError: the loops do not close on the motion.
     """
     every = motion_limits(robot, settings.limits)
-    names = [joint.name for joint in robot.moving]
-    limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
     constraints = constraints_of(robot)
-    motion = closed_motion(
-        robot,
-        constraints,
-        limits,
-        lambda near: reference_motion(
-            settings.motion, near, settings.duration, settings.rate, settings.seed
-        ),
-        progress,
-    )
+    _, motion = closed_command(robot, constraints, every, settings, progress)
     parameters = plant_parameters(robot, every, settings.parameter_seed)
     hidden = complete_effects(robot, parameters, every, settings)
     v, reference = motion.v, motion.reference
@@ -64,6 +55,25 @@ def simulate_closed(
     load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
     tau = motor_torques(constraints, v, load)
     return _log(robot, parameters, motion, settings, tau, hidden)
+
+
+def closed_command(
+    robot: Robot,
+    constraints: Constraints,
+    every: tuple[Limits, ...],
+    settings: SimulationSettings,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[tuple[Limits, ...], ClosedMotion]:
+    """Limits of the coordinates, from those of `robot.moving`, and the motion of the settings."""
+    names = [joint.name for joint in robot.moving]
+    limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
+
+    def motion(near: tuple[Limits, ...]) -> Reference:
+        return reference_motion(
+            settings.motion, near, settings.duration, settings.rate, settings.seed
+        )
+
+    return limits, closed_motion(robot, constraints, limits, motion, progress)
 
 
 def _log(

@@ -95,7 +95,7 @@ def test_without_limits_and_near_a_singular_posture() -> None:
 
 def test_what_was_done_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "steep.toml").write_text(STEEP)
-    words = ["simulate", str(tmp_path / "steep.toml"), "--duration", "4", "--rate", "50"]
+    words = ["simulate", str(tmp_path / "steep.toml"), "--duration", "8", "--rate", "50"]
     assert main([*words, "--out", str(tmp_path / "a.csv")]) == 0
     assert "of the way from [home] to the limits: farther, the loops" in capsys.readouterr().out
     words = ["simulate", "five-bar", "--duration", "4", "--rate", "50"]
