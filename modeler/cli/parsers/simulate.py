@@ -15,7 +15,8 @@ def add_simulate(commands: Commands) -> None:
         help="measurements by forward simulation in closed loop",
         description="Simulates ROBOT under a controller that sees quantised encoders, and writes "
         "the log that its logger would have written; a robot with loops carries out the commanded "
-        "motion exactly, unless --controller is given. Parameters that the robot file leaves open are drawn from the seed.",
+        "motion exactly, unless --controller is given. Parameters that the robot file leaves open "
+        "are drawn from the seed.",
         epilog="example: modeler simulate demo-arm --duration 30 --seed 1 --out run1.parquet",
     )
     add_robot(parser)
