@@ -17,6 +17,7 @@ KEPT = 0.5
 
 _NARROWER = 0.85  # of the range, from one attempt to the next
 _NARROWEST = 0.03
+_APART = 0.02  # rad or m, between postures looked at on the way from home to the first one
 _LOOKS = 100.0  # Hz, at which a motion is tried
 
 Motion = Callable[[tuple[Limits, ...]], Reference]
@@ -81,10 +82,15 @@ def closed_motion(
 
 
 def _keeps_away(robot: Robot, constraints: Constraints, reference: Reference, least: float) -> bool:
-    """True if the loops close along the motion, nowhere nearer than `least` to a singularity."""
+    """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
+    home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
+    first = reference.q[0] - home
+    way = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _APART)))
     every = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
     try:
-        v = followed(robot, constraints, reference.q[::every])
+        v = followed(
+            robot, constraints, np.vstack([home + way[:, None] * first, reference.q[::every]])
+        )
     except DataError:
         return False
     return bool(distances(constraints, v).min() >= least)
