@@ -1,5 +1,7 @@
 """The simulated robot with loops as one ordinary differential equation in its coordinates."""
 
+from dataclasses import dataclass
+
 import casadi as ca
 import numpy as np
 
@@ -46,37 +48,65 @@ def inner_states(plant: Plant, constraints: Constraints, v: np.ndarray) -> np.nd
     return z
 
 
+@dataclass(frozen=True)
+class _Following:
+    """All moving rows by the coordinates: vd = G qd, vdd = G qdd + g."""
+
+    q: ca.SX
+    qd: ca.SX
+    follow: ca.SX
+    v: ca.SX
+    vd: ca.SX
+    G: ca.SX
+    g: ca.SX
+    closer: ca.SX  # follow after a step of Newton
+
+
+def _following(constraints: Constraints, rows: int) -> _Following:
+    given, others = constraints.given, constraints.others
+    q, qd = (ca.SX.sym(name, len(given)) for name in ("q", "qd"))
+    follow = ca.SX.sym("follow", len(others))
+    v, G, g = ca.SX.zeros(rows), ca.SX.zeros(rows, len(given)), ca.SX.zeros(rows)
+    v[given], v[others] = q, follow
+    slope = _at(constraints.slope, v)
+    inner = slope[:, others]
+    factors = ca.ldl(inner.T @ inner, False)  # L D L' without pivoting: away from singularities
+
+    def least(right: ca.SX) -> ca.SX:
+        return ca.ldl_solve(inner.T @ right, *factors)
+
+    G[given, :], G[others, :] = ca.SX.eye(len(given)), -least(slope[:, given])
+    g[others] = -least(_at(constraints.curvature, v, G @ qd))
+    closer = follow - least(_at(constraints.value, v))
+    return _Following(q, qd, follow, v, G @ qd, G, g, closer)
+
+
+def _at(function: ca.Function, *arguments: ca.SX) -> ca.SX:
+    """The function's expression, not a call of it."""
+    return function.call(list(arguments), True, False)[0]
+
+
 def _assembled(
     robot: Robot, links: RigidDynamics, effects: ShaftEffects, constraints: Constraints
 ) -> Plant:
-    given, others = constraints.given, constraints.others
-    n = len(given)
-    q, qd, qdd, tau = (ca.SX.sym(name, n) for name in ("q", "qd", "qdd", "tau"))
-    follow = ca.SX.sym("follow", len(others))
-    z = ca.vertcat(follow, effects.state)
-    v = ca.SX.zeros(links.q.shape[0])
-    v[given], v[others] = q, follow
-    solve, slope = _least_squares(constraints, v)
-    G = ca.SX.zeros(v.shape[0], n)
-    G[given, :], G[others, :] = ca.SX.eye(n), -solve(slope[:, given])
-    vd = G @ qd
-    g = ca.SX.zeros(v.shape[0])
-    g[others] = -solve(constraints.curvature.call([v, vd], True, False)[0])
+    way = _following(constraints, len(robot.moving))
+    q, qd, G, vd = way.q, way.qd, way.G, way.vd
+    qdd, tau = (ca.SX.sym(name, q.shape[0]) for name in ("qdd", "tau"))
+    z = ca.vertcat(way.follow, effects.state)
     tree = [links.inertia + ca.SX(effects.inertia), links.bias, effects.torque, effects.rate]
     tree += [links.kinetic, links.potential, *effects.temperatures.values()]
     M, bias, friction, rate, kinetic, potential, *readings = ca.substitute(
-        tree, [links.q, links.qd], [v, vd]
+        tree, [links.q, links.qd], [way.v, vd]
     )
-    inertia, load = G.T @ M @ G, G.T @ (M @ g + bias + friction)
+    inertia, load = G.T @ M @ G, G.T @ (M @ way.g + bias + friction)
     rotors = ca.dot(vd, ca.SX(effects.inertia) @ vd) / 2
     solved = ca.ldl_solve(tau - load, *ca.ldl(inertia, False))
-    closer = follow - solve(constraints.value.call([v], True, False)[0])
+    z_rate = ca.vertcat(vd[constraints.others], rate)
     return Plant(
         joints=tuple(joint.name for joint in robot.coordinates),
         driven=np.array([joint.actuated for joint in robot.coordinates]),
         states=z.shape[0],
-        acceleration=_function("acceleration", [q, qd, z, tau],
-                               [solved, ca.vertcat(G[others, :] @ qd, rate)]),
+        acceleration=_function("acceleration", [q, qd, z, tau], [solved, z_rate]),
         torque=_function("torque", [q, qd, qdd, z], [inertia @ qdd + load]),
         inertia=_function("inertia", [q, z], [ca.densify(inertia)]),
         resistance=_function("resistance", [q, qd, z], [G.T @ friction]),
@@ -85,16 +115,8 @@ def _assembled(
         fastest=effects.fastest,
         temperatures=_function("temperatures", [z], [ca.vertcat(ca.SX(0, 1), *readings)]),
         warmed=tuple(effects.temperatures),
-        closer=_function("closer", [q, z], [ca.densify(ca.vertcat(closer, effects.state))]),
-    )  # fmt: skip
-
-
-def _least_squares(constraints: Constraints, v: ca.SX):  # type: ignore[no-untyped-def]
-    """b -> x of least ||J_s x - b||, by the normal equations, and J."""
-    slope = constraints.slope.call([v], True, False)[0]
-    inner = slope[:, constraints.others]
-    factors = ca.ldl(inner.T @ inner, False)
-    return (lambda b: ca.ldl_solve(inner.T @ b, *factors)), slope
+        closer=_function("closer", [q, z], [ca.densify(ca.vertcat(way.closer, effects.state))]),
+    )
 
 
 def _function(name: str, inputs: list[ca.SX], outputs: list[ca.SX]) -> ca.Function:
