@@ -44,12 +44,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         where = f" on {effect.joint}" if effect.joint else ""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
         say(f"hidden: {effect.effect}{where}: {values}")
-    if log.range_share < 1.0:
-        say(
-            f"motion: within {log.range_share:.0%} of the way from [home] to the limits: farther, "
-            f"the loops come nearer than {KEPT:.0%} of home's distance to a singular posture, or "
-            "do not close"
-        )
+    _say_narrowed(log.range_share)
     say(f"written: {args.out}")
     return {
         "robot": robot.name,
@@ -60,3 +55,12 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "hidden": told_hidden(log),
         "range_share": log.range_share,
     }
+
+
+def _say_narrowed(share: float) -> None:
+    """How much of its range a motion was given, if not all."""
+    if share < 1.0:
+        say(
+            f"motion: within {share:.0%} of the way from [home] to the limits: farther, the loops "
+            f"come nearer than {KEPT:.0%} of home's distance to a singular posture, or do not close"
+        )

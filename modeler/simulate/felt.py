@@ -1,6 +1,7 @@
 """How large a torque on a joint of a robot with loops is for the motors, which carry them."""
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from modeler.simulate.closing import motor_torques, rates
 from modeler.simulate.constraints import constraints_of, sampled
 from modeler.simulate.parameters import PlantParameters
 from modeler.simulate.plant import torque_function
-from modeler.simulate.trajectory import exciting_reference
+from modeler.simulate.trajectory import Reference, exciting_reference
 
 _DURATION, _RATE = 6.0, 50.0  # s and Hz of the motion that is looked at
 _TOP = 0.98
@@ -40,9 +41,7 @@ def felt_by_motors(
     constraints = constraints_of(robot)
     names = [moving.name for moving in robot.moving]
     own = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
-    motion = closed_motion(
-        robot, constraints, own, lambda near: exciting_reference(near, _DURATION, _RATE, seed)
-    )
+    motion = closed_motion(robot, constraints, own, partial(_exciting, seed=seed))
     v, qd = motion.v, motion.reference.qd
     vd, vdd = rates(constraints, v, qd, motion.reference.qdd)
     torque, states = torque_function(robot, parameters, tuple(limits))
@@ -58,3 +57,7 @@ def felt_by_motors(
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
     speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
     return (1.0 / max(shares) if any(shares) else 1.0), speed or limits[row].speed
+
+
+def _exciting(limits: tuple[Limits, ...], seed: int) -> Reference:
+    return exciting_reference(limits, _DURATION, _RATE, seed)
