@@ -6,6 +6,7 @@ from pathlib import Path
 from modeler.cli.console import Json, progress, say
 from modeler.cli.robots import robot_of
 from modeler.simulate import (
+    KEPT,
     SimulationSettings,
     check_suffix,
     hidden_from_text,
@@ -29,6 +30,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         torque_noise=args.noise,
         encoder_counts=args.encoder_counts,
         process_noise=args.process_noise,
+        controller=args.controller,
         hidden=tuple(hidden_from_text(text) for text in args.hide),
     )
     with progress(f"simulating {robot.name}") as report:
@@ -42,6 +44,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         where = f" on {effect.joint}" if effect.joint else ""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
         say(f"hidden: {effect.effect}{where}: {values}")
+    _say_narrowed(log.range_share)
     say(f"written: {args.out}")
     return {
         "robot": robot.name,
@@ -50,4 +53,14 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
         "hidden": told_hidden(log),
+        "range_share": log.range_share,
     }
+
+
+def _say_narrowed(share: float) -> None:
+    """How much of its range a motion was given, if not all."""
+    if share < 1.0:
+        say(
+            f"motion: within {share:.0%} of the way from [home] to the limits: farther, the loops "
+            f"come nearer than {KEPT:.0%} of home's distance to a singular posture, or do not close"
+        )

@@ -231,27 +231,36 @@ def _sums(values: np.ndarray, start: np.ndarray) -> np.ndarray:
 def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
+    Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
+    fit (see `fit.least_squares`): their sigma beside the torques that cancel in them is at least
+    that of the others beside the torques that are measured.
+
     Args:
         rows: of the analysis.
         beta: (c,) parameters that are kept; None: fitted.
     """
-    size = np.array([np.sqrt(np.mean(y**2)) if y.size else 1.0 for y in rows.y])
+    size = np.array([_rms(y) if y.size else 1.0 for y in rows.y])
     floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
-    sigma = np.maximum(size, floor)
+    free = size == 0.0
+    sigma = np.maximum(np.where(free, size.max(), size), floor)
     for _ in range(50):
         found = beta if beta is not None else _solve(rows, sigma)
-        spread = np.array(
-            [
-                np.sqrt(np.mean((y - w @ found) ** 2)) if y.size else 1.0
-                for y, w in zip(rows.y, rows.W, strict=True)
-            ]
-        )
-        updated = np.maximum(spread, floor)
+        pairs = zip(rows.y, rows.W, strict=True)
+        updated = np.array([_rms(y - w @ found) if y.size else 1.0 for y, w in pairs])
+        if free.any() and not free.all():
+            error = _rms(updated[~free] / size[~free])
+            terms = np.array([_rms(w * found) * np.sqrt(len(found)) for w in rows.W])
+            updated = np.where(free, np.maximum(updated, error * terms), updated)
+        updated = np.maximum(updated, floor)
         settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
         sigma = updated
         if settled or beta is not None:
             break
     return sigma
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def _solve(rows: Rows, sigma: np.ndarray) -> np.ndarray:

@@ -2,7 +2,8 @@
 
 Rigid links in the world frame, effects as torques on shafts, a controller that sees a quantised
 encoder: `simulate` gives a log as a machine would, and the truth beside it. Robots with loops carry
-out the commanded motion exactly, closed by equations that the modeling stages do not share.
+out the commanded motion exactly, or are driven by the controller too; they are closed by equations
+that the modeling stages do not share.
 """
 
 from typing import TYPE_CHECKING, Any

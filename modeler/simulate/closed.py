@@ -1,16 +1,18 @@
 """Measurements of robots with loops: the commanded motion, carried out exactly.
 
 Drives of parallel robots are stiff and well tuned: the actuated joints are where they are commanded
-to be, the others follow, and the motors give what that needs. No controller is simulated.
+to be, the others follow, and the motors give what that needs. No controller is simulated; for one
+see `simulate.closed_plant`.
 """
 
 from collections.abc import Callable
 
 import numpy as np
 
-from modeler.robot import Robot
-from modeler.simulate.closing import followed, motor_torques, rates
-from modeler.simulate.constraints import constraints_of, sampled
+from modeler.robot import Limits, Robot
+from modeler.simulate.closed_motion import ClosedMotion, closed_motion
+from modeler.simulate.closing import motor_torques, rates
+from modeler.simulate.constraints import Constraints, constraints_of, sampled
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import machine
 from modeler.simulate.hidden_draw import complete_effects
@@ -43,30 +45,46 @@ def simulate_closed(
         DataError: the loops do not close on the motion.
     """
     every = motion_limits(robot, settings.limits)
-    names = [joint.name for joint in robot.moving]
-    limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
-    reference = reference_motion(
-        settings.motion, limits, settings.duration, settings.rate, settings.seed
-    )
+    constraints = constraints_of(robot)
+    _, motion = closed_command(robot, constraints, every, settings, progress)
     parameters = plant_parameters(robot, every, settings.parameter_seed)
     hidden = complete_effects(robot, parameters, every, settings)
-    constraints = constraints_of(robot)
-    v = followed(robot, constraints, reference.q, progress)
+    v, reference = motion.v, motion.reference
     vd, vdd = rates(constraints, v, reference.qd, reference.qdd)
     torque, states = torque_function(*machine(robot, parameters, hidden), every, hidden)
     load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
     tau = motor_torques(constraints, v, load)
-    return _log(robot, parameters, reference, settings, tau, hidden)
+    return _log(robot, parameters, motion, settings, tau, hidden)
+
+
+def closed_command(
+    robot: Robot,
+    constraints: Constraints,
+    every: tuple[Limits, ...],
+    settings: SimulationSettings,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[tuple[Limits, ...], ClosedMotion]:
+    """Limits of the coordinates, from those of `robot.moving`, and the motion of the settings."""
+    names = [joint.name for joint in robot.moving]
+    limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
+
+    def motion(near: tuple[Limits, ...]) -> Reference:
+        return reference_motion(
+            settings.motion, near, settings.duration, settings.rate, settings.seed
+        )
+
+    return limits, closed_motion(robot, constraints, limits, motion, progress)
 
 
 def _log(
     robot: Robot,
     parameters: PlantParameters,
-    reference: Reference,
+    motion: ClosedMotion,
     settings: SimulationSettings,
     tau: np.ndarray,
     hidden: tuple[HiddenEffect, ...],
 ) -> SimulatedLog:
+    reference = motion.reference
     resolution = encoder_resolution(robot.coordinates, settings)
     faults = faults_of([joint.name for joint in robot.coordinates], hidden)
     needed = np.sqrt(np.mean(tau**2, axis=0))
@@ -86,4 +104,5 @@ def _log(
         tau=told + settings.torque_noise * rms * noise,
         settings=settings,
         truth=Truth(reference.q, reference.qd, reference.qdd, tau, values, drawn, hidden),
+        range_share=motion.share,
     )

@@ -8,7 +8,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.robot import Robot
 from modeler.simulate.constraints import Constraints, sampled
 
-_CLOSED = 1e-11  # m, and of direction cosines
+_CLOSED = 1e-11  # sizes of the robot, and of direction cosines
 _ITERATIONS = 40
 _LONGEST = 0.2  # rad or m, of one Newton step
 _JUMP = 0.8  # rad or m: a joint that moves so far at once is in another assembly mode
@@ -82,6 +82,19 @@ def motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> 
         multipliers = Q @ carried
         tau[part] = load[part, given] - np.einsum("nij,ni->nj", J[:, :, given], multipliers[..., 0])
     return tau
+
+
+def distances(constraints: Constraints, v: np.ndarray) -> np.ndarray:
+    """(n,) least singular value of J in the joints that follow; 0 in a singular posture.
+
+    Lengths count in sizes of the robot.
+    """
+    least = np.empty(len(v))
+    for part in _chunks(len(v)):
+        J = sampled(constraints.slope, v[part]) * constraints.units
+        _, R = np.linalg.qr(J[:, :, constraints.others])
+        least[part] = np.linalg.svd(R, compute_uv=False)[:, -1]
+    return least
 
 
 def _chunks(count: int) -> Iterator[slice]:

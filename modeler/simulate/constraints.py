@@ -25,6 +25,7 @@ class Constraints:
         value: v -> c.
         slope: v -> J = dc/dv.
         curvature: (v, vd) -> J' vd, so that J vdd + J' vd = 0.
+        units: (moving rows,) 1 for an angle, the robot's size [m] for a travel.
     """
 
     given: list[int]
@@ -32,10 +33,11 @@ class Constraints:
     value: ca.Function
     slope: ca.Function
     curvature: ca.Function
+    units: np.ndarray
 
 
 def constraints_of(robot: Robot) -> Constraints:
-    """The equations of a robot's relations and loops."""
+    """The equations of a robot's relations and loops; lengths in sizes of the robot."""
     moving = robot.moving
     v, vd = ca.SX.sym("v", len(moving)), ca.SX.sym("vd", len(moving))
     names = [joint.name for joint in moving]
@@ -45,7 +47,11 @@ def constraints_of(robot: Robot) -> Constraints:
         v[names.index(name)] - relation.fold(values, FUNCTIONS, float(np.pi), float)
         for name, relation in robot.relations.items()
     ]
-    frames = world_frames(robot, v)
+    size = _size(robot)
+    frames = {
+        name: Frame(frame.rotation, frame.position / size, frame.axis)
+        for name, frame in world_frames(robot, v).items()
+    }
     for loop in robot.loops:
         rows += _KINDS[loop.kind](frames[loop.frame], frames[loop.meets])
     c = ca.vertcat(*rows)
@@ -58,7 +64,14 @@ def constraints_of(robot: Robot) -> Constraints:
         value=ca.Function("c", [v], [ca.densify(ca.cse(c))]),
         slope=ca.Function("J", [v], [ca.densify(ca.cse(slope))]),
         curvature=ca.Function("k", [v, vd], [ca.densify(ca.cse(bend))]),
+        units=np.array([1.0 if joint.angular else size for joint in moving]),
     )
+
+
+def _size(robot: Robot) -> float:
+    """The largest of the robot's lengths, m; 1 where none has a symbol."""
+    values = robot.symbol_values().items()
+    return max((abs(value) for name, value in values if name != "g"), default=1.0) or 1.0
 
 
 def sampled(function: ca.Function, *samples: np.ndarray) -> np.ndarray:

@@ -86,10 +86,7 @@ def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
         raise RobotError(f"{where}: no such effect; expected one of {', '.join(HIDDEN)}")
     if robot.loops and not kind.loops:
         able = ", ".join(name for name, other in HIDDEN.items() if other.loops)
-        raise RobotError(
-            f"{where}: not simulated for robots with loops, whose motion is carried out exactly; "
-            f"expected one of {able}"
-        )
+        raise RobotError(f"{where}: not simulated for robots with loops; expected one of {able}")
     if kind.role == "gravity" and not np.any(gravity_vector(robot)):
         raise RobotError(f"{where}: the robot has no gravity; state one, or hide another effect")
     return kind

@@ -12,19 +12,27 @@ _STABLE = 1.5  # of a step times the fastest mode; Runge-Kutta 4 is stable up to
 _MOST_STEPS = 400  # per tick
 
 
-def steps_per_tick(plant: Plant, limits: tuple[Limits, ...], tick: float) -> int:
+def steps_per_tick(
+    plant: Plant,
+    limits: tuple[Limits, ...],
+    tick: float,
+    postures: tuple[np.ndarray, np.ndarray] | None = None,
+) -> int:
     """Runge-Kutta steps inside one control tick of `tick` seconds.
 
     The fastest mode is the spectral radius of d(x')/dx at rest, where dry friction is stiffest,
-    over poses of the whole range.
+    over poses of the whole range, or over `postures`: (k, joints) positions, (k, states) states.
 
     Raises:
         DataError: friction so stiff against the inertia that no sensible step follows it; names
             the joint.
     """
     fastest, joint = 0.0, 0
-    for pose in sample_poses(limits, 8):
-        values, vectors = np.linalg.eig(_jacobian(plant, pose, limits))
+    if postures is None:
+        poses = sample_poses(limits, 8)
+        postures = poses, np.zeros((len(poses), plant.states))
+    for pose, z in zip(*postures, strict=True):
+        values, vectors = np.linalg.eig(_jacobian(plant, pose, z, limits))
         worst = int(np.argmax(np.abs(values)))
         if abs(values[worst]) > fastest:
             n = pose.size
@@ -47,7 +55,10 @@ def steps_per_tick(plant: Plant, limits: tuple[Limits, ...], tick: float) -> int
 
 
 def tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
-    """x, tau -> x one tick later under constant torque; x = (q, qd, z), Runge-Kutta of order 4."""
+    """x, tau -> x one tick later under constant torque; x = (q, qd, z), Runge-Kutta of order 4.
+
+    What is left open in loops, 1e-10 of the robot's size, is closed at the end of every tick.
+    """
     n = len(plant.joints)
     x, tau = ca.MX.sym("x", 2 * n + plant.states), ca.MX.sym("tau", n)
 
@@ -64,12 +75,16 @@ def tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
     later = x
     for _ in range(steps):
         later = step(later, tau)
+    if plant.closer is not None:
+        later = ca.vertcat(later[: 2 * n], plant.closer(later[:n], later[2 * n :]))
     return ca.Function("tick", [x, tau], [later])
 
 
-def _jacobian(plant: Plant, pose: np.ndarray, limits: tuple[Limits, ...]) -> np.ndarray:
+def _jacobian(
+    plant: Plant, pose: np.ndarray, z: np.ndarray, limits: tuple[Limits, ...]
+) -> np.ndarray:
     """d(qd, qdd, z')/d(q, qd, z) at rest, torque that holds the robot there; by differences."""
-    n, z = pose.size, np.zeros(plant.states)
+    n = pose.size
     rest = np.zeros(n)
     tau = plant.torque(pose, rest, rest, z).full().ravel()
 
@@ -79,7 +94,9 @@ def _jacobian(plant: Plant, pose: np.ndarray, limits: tuple[Limits, ...]) -> np.
 
     x = np.concatenate([pose, rest, z])
     # Steps well inside the smooth core of dry friction (1e-3 of the top speed).
-    size = np.concatenate([np.full(n, 1e-6), [1e-6 * limit.speed for limit in limits], z + 1e-6])
+    size = np.concatenate(
+        [np.full(n, 1e-6), [1e-6 * limit.speed for limit in limits], np.full(z.size, 1e-6)]
+    )
     columns = [
         (rate(x + h * unit) - rate(x - h * unit)) / (2 * h)
         for h, unit in zip(size, np.eye(x.size), strict=True)

@@ -54,6 +54,8 @@ class SimulatedLog:
         settings: how it was made.
         truth: what it was made of.
         further: (n,) other measured columns by name.
+        range_share: of the way from home to the limits, that the commanded motion was given; less
+            than 1 where a robot with loops would come near a singular posture.
     """
 
     robot: str
@@ -66,6 +68,7 @@ class SimulatedLog:
     settings: SimulationSettings
     truth: Truth
     further: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
+    range_share: float = 1.0
 
 
 def log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:

@@ -24,24 +24,26 @@ class Plant:
 
     All functions take and give CasADi columns: q, qd, qdd, tau (joints), z (states). Where a
     transmission gives way, q is the position of the motor; how far the link is ahead of it, and
-    how fast, are the first of the inner states.
+    how fast, are the first of the inner states. With loops, q are the coordinates, and the joints
+    that follow them the first of the inner states.
 
     Attributes:
         joints: names, in the order of q.
         driven: (joints,) True where a motor sits.
-        states: number of inner states z of effects; all 0 at the start, but see `strain`.
+        states: number of inner states z; those of effects are 0 at the start, but see `strain`.
         acceleration: (q, qd, z, tau) -> (qdd, z').
         torque: (q, qd, qdd, z) -> tau, of links that accelerate with their motors.
-        inertia: (q) -> M, rotors included, of links that move with their motors.
+        inertia: (q), with loops (q, z) -> M, rotors included, of links that move with their motors.
         resistance: (q, qd, z) -> torque that the effects take from the motors, of links that do
             not accelerate.
-        energy: (q, qd) -> (kinetic energy, rotors included; potential energy), J, of links that
-            move with their motors.
+        energy: (q, qd), with loops (q, qd, z) -> (kinetic energy, rotors included; potential
+            energy), J, of links that move with their motors.
         strain: (q, z) -> torques that pull on links behind transmissions at rest; none to the
             others.
         fastest: rate of inner states at top speed, 1/s; 0 if speed does not make them fast.
         temperatures: (z) -> readings of thermometers, degC, on the joints of `warmed`.
         warmed: names of these joints.
+        closer: (q, z) -> z with the loops closed again, by one step of Newton; None without loops.
     """
 
     joints: tuple[str, ...]
@@ -56,6 +58,7 @@ class Plant:
     fastest: float
     temperatures: ca.Function
     warmed: tuple[str, ...]
+    closer: ca.Function | None = None
 
 
 def build_plant(
@@ -175,20 +178,22 @@ def _function(name: str, inputs: list[ca.SX], outputs: list[ca.SX]) -> ca.Functi
 
 
 def felt_inertia(plant: Plant) -> ca.Function:
-    """(q) -> (joints, joints) inertia that the motors feel, joints without motor swinging freely.
+    """(q, z) -> (joints, joints) inertia that motors feel, joints without motor swinging freely.
 
     The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
     """
-    if np.all(plant.driven):
+    if plant.closer is not None:
         return plant.inertia
-    q = ca.SX.sym("q", len(plant.joints))
+    q, z = ca.SX.sym("q", len(plant.joints)), ca.SX.sym("z", plant.states)
+    if np.all(plant.driven):
+        return ca.Function("felt", [q, z], [plant.inertia(q)])
     driven, passive = (list(map(int, np.flatnonzero(plant.driven == own))) for own in (True, False))
     inertia = plant.inertia(q)
     felt = ca.SX.zeros(inertia.shape)
     felt[driven, driven] = inertia[driven, driven] - inertia[driven, passive] @ ca.solve(
         inertia[passive, passive], inertia[passive, driven]
     )
-    return ca.Function("felt", [q], [felt])
+    return ca.Function("felt", [q, z], [felt])
 
 
 def of_free(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:

@@ -8,7 +8,9 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
-from modeler.simulate.closed import simulate_closed
+from modeler.simulate.closed import closed_command, simulate_closed
+from modeler.simulate.closed_plant import build_closed_plant, inner_states
+from modeler.simulate.constraints import constraints_of
 from modeler.simulate.controller import ControllerState, Gains, control, tuned_gains
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import machine
@@ -36,7 +38,19 @@ from modeler.simulate.transmission import settled
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
 _THERMOMETER = 0.01  # K, resolution
+_LOOKED_AT = 8  # postures of a closed robot, for the stiffest of its motions
 _LOST = 0.5  # tracking error, in ranges of motion, at which the controller has lost the robot
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What the machine is, and what it is to do."""
+
+    plant: Plant
+    limits: tuple[Limits, ...]  # of its joints
+    reference: Reference
+    along: np.ndarray  # (n, states) inner states of the plant at rest along the reference
+    share: float  # of the range of motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +79,10 @@ def simulate(
     settings: SimulationSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SimulatedLog:
-    """A measurement of `robot` under closed-loop control; with loops see `simulate.closed`.
+    """A measurement of `robot` under closed-loop control.
+
+    With loops the commanded motion is carried out exactly (see `simulate.closed`), unless the
+    settings ask for the controller.
 
     The robot's effects are simulated as physics, and so are those of `settings.hidden`, which the
     robot file lacks. The same robot and settings give the same bits.
@@ -82,31 +99,62 @@ def simulate(
     """
     settings = settings or SimulationSettings()
     check_settings(settings, tuple(joint.name for joint in robot.coordinates))
-    if robot.loops:
+    if robot.loops and not settings.controller:
         return simulate_closed(robot, settings, progress)
     every = motion_limits(robot, settings.limits)
+    parameters = plant_parameters(robot, every, settings.parameter_seed)
+    hidden = complete_effects(robot, parameters, every, settings)
+    task = (_closed_task if robot.loops else _task)(robot, parameters, every, settings, hidden)
+    plant, ticks = task.plant, task.reference.time.size
+    needed = _needed(task)
+    highest = _torque_limits(plant, needed, settings)
+    gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
+    faults = faults_of(plant.joints, hidden)
+    encoders = _Encoders(faults, encoder_resolution(robot.coordinates, settings))
+    random = process_torques(settings, ticks, np.sqrt(np.mean(needed**2, axis=0)))
+    run = _closed_loop(task, gains, encoders, random, progress)
+    return _log(robot, task, parameters, settings, run, hidden)
+
+
+def _task(
+    robot: Robot,
+    parameters: PlantParameters,
+    every: tuple[Limits, ...],
+    settings: SimulationSettings,
+    hidden: tuple[HiddenEffect, ...],
+) -> _Task:
+    """Of a robot without loops."""
     limits = of_free(robot, every)
     reference = reference_motion(
         settings.motion, limits, settings.duration, settings.rate, settings.seed
     )
-    parameters = plant_parameters(robot, every, settings.parameter_seed)
-    hidden = complete_effects(robot, parameters, every, settings)
     plant = build_plant(*machine(robot, parameters, hidden), every, hidden)
-    needed = _needed(plant, reference)
-    highest = _torque_limits(plant, needed, settings)
-    gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
-    encoders = _Encoders(faults_of(plant.joints, hidden), encoder_resolution(robot.free, settings))
-    random = process_torques(settings, reference.time.size, np.sqrt(np.mean(needed**2, axis=0)))
-    run = _closed_loop(plant, gains, reference, encoders, limits, random, progress)
-    return _log(robot, plant, parameters, reference, settings, run, hidden)
+    along = np.zeros((reference.time.size, plant.states))
+    return _Task(plant, limits, reference, along, 1.0)
 
 
-def _needed(plant: Plant, reference: Reference) -> np.ndarray:
+def _closed_task(
+    robot: Robot,
+    parameters: PlantParameters,
+    every: tuple[Limits, ...],
+    settings: SimulationSettings,
+    hidden: tuple[HiddenEffect, ...],
+) -> _Task:
+    """Of a robot with loops."""
+    constraints = constraints_of(robot)
+    limits, motion = closed_command(robot, constraints, every, settings)
+    plant = build_closed_plant(*machine(robot, parameters, hidden), every, constraints, hidden)
+    along = inner_states(plant, constraints, motion.v)
+    return _Task(plant, limits, motion.reference, along, motion.share)
+
+
+def _needed(task: _Task) -> np.ndarray:
     """(about 500, joints) torques of the commanded motion."""
+    reference = task.reference
     thinned = slice(None, None, max(1, reference.time.size // 500))
-    samples = [values[thinned].T for values in (reference.q, reference.qd, reference.qdd)]
-    count = samples[0].shape[1]
-    return plant.torque.map(count)(*samples, np.zeros((plant.states, count))).full().T
+    motion = (reference.q, reference.qd, reference.qdd, task.along)
+    samples = [values[thinned].T for values in motion]
+    return task.plant.torque.map(samples[0].shape[1])(*samples).full().T
 
 
 def _torque_limits(plant: Plant, torques: np.ndarray, settings: SimulationSettings) -> np.ndarray:
@@ -120,22 +168,21 @@ def _torque_limits(plant: Plant, torques: np.ndarray, settings: SimulationSettin
 
 
 def _closed_loop(
-    plant: Plant,
+    task: _Task,
     gains: Gains,
-    reference: Reference,
     encoders: _Encoders,
-    limits: tuple[Limits, ...],
     random: np.ndarray,
     progress: Callable[[float], None] | None,
 ) -> _Run:
     """All ticks: read the encoders, hold the torque asked for one tick ago, move on, control."""
+    plant, reference = task.plant, task.reference
     n, ticks = len(plant.joints), reference.time.size
     start = where_read(encoders.faults, reference.q[0])
-    x = np.concatenate([start, np.zeros(n), settled(plant.strain, start, plant.states)])
+    x = np.concatenate([start, np.zeros(n), settled(plant.strain, start, task.along[0])])
     # The brakes open with the torque that carries the robot, as drives remember it.
     torque = _holding_torque(plant, gains, x)
     state = ControllerState(encoders.read(x[:n]), np.zeros(n), torque)
-    steps = steps_per_tick(plant, limits, gains.tick)
+    steps = steps_per_tick(plant, task.limits, gains.tick, _postures(task))
     advance = FastFunction(tick_function(plant, gains.tick, steps))
     mass = FastFunction(felt_inertia(plant))
     run = _Run(np.empty((ticks, x.size)), np.empty((ticks, n)), np.empty((ticks, n)), random)
@@ -144,14 +191,22 @@ def _closed_loop(
             for k in range(begin, min(begin + _REPORT_EVERY, ticks)):
                 run.states[k], run.torques[k] = x, torque
                 measured = run.measured[k] = encoders.read(x[:n])
+                inertia = mass(measured, x[2 * n :]).reshape(n, n)
                 x = advance(x, torque + random[k])
-                inertia = mass(measured).reshape(n, n)
                 command = reference.q[k], reference.qd[k], reference.qdd[k]
                 state, torque = control(gains, state, inertia, measured, command)
-        _check_kept(plant, reference, limits, begin, run.states[begin : k + 1, :n])
+        _check_kept(task, begin, run.states[begin : k + 1, :n])
         if progress is not None:
             progress((k + 1) / ticks)
     return run
+
+
+def _postures(task: _Task) -> tuple[np.ndarray, np.ndarray] | None:
+    """Some of the commanded ones, where not all that the limits hold can be reached."""
+    if task.plant.closer is None:
+        return None
+    some = np.linspace(0, len(task.along) - 1, _LOOKED_AT).astype(int)
+    return task.reference.q[some], task.along[some]
 
 
 def _holding_torque(plant: Plant, gains: Gains, x: np.ndarray) -> np.ndarray:
@@ -161,11 +216,10 @@ def _holding_torque(plant: Plant, gains: Gains, x: np.ndarray) -> np.ndarray:
     return np.clip(torque, -gains.highest, gains.highest)
 
 
-def _check_kept(
-    plant: Plant, reference: Reference, limits: tuple[Limits, ...], begin: int, q: np.ndarray
-) -> None:
+def _check_kept(task: _Task, begin: int, q: np.ndarray) -> None:
     """Nothing, if the driven joints are near their commands in the samples from `begin` on."""
-    widths = np.array([limit.upper - limit.lower for limit in limits])
+    plant, reference = task.plant, task.reference
+    widths = np.array([limit.upper - limit.lower for limit in task.limits])
     error = np.abs(q - reference.q[begin : begin + len(q)]) / widths
     lost = ~(error <= _LOST) & plant.driven | ~np.isfinite(q)
     if np.any(lost):
@@ -179,13 +233,13 @@ def _check_kept(
 
 def _log(
     robot: Robot,
-    plant: Plant,
+    task: _Task,
     parameters: PlantParameters,
-    reference: Reference,
     settings: SimulationSettings,
     run: _Run,
     hidden: tuple[HiddenEffect, ...],
 ) -> SimulatedLog:
+    plant, reference = task.plant, task.reference
     n, ticks = len(plant.joints), reference.time.size
     q, qd, z = run.states[:, :n], run.states[:, n : 2 * n], run.states[:, 2 * n :]
     qdd = _accelerations(plant.acceleration, q, qd, z, run.torques + run.random)
@@ -204,6 +258,7 @@ def _log(
         settings=settings,
         truth=Truth(q, qd, qdd, run.torques, values, drawn, hidden),
         further=_thermometers(plant, z),
+        range_share=task.share,
     )
 
 

@@ -36,6 +36,8 @@ class SimulationSettings:
         linear_resolution: of the encoder of a prismatic joint, m; 0 for an ideal encoder.
         torque_noise: standard deviation of the white noise on measured torques, as a share of the
             rms torque of the joint.
+        controller: True if a robot with loops is moved by a controller, as all others are; False:
+            it carries out the commanded motion exactly.
         bandwidth: of the velocity loops, Hz; lowered where `rate` is too slow for it.
         feedforward: True if the controller uses commanded speed and acceleration.
         limits: range of motion by joint, in place of the robot file's.
@@ -54,6 +56,7 @@ class SimulationSettings:
     encoder_counts: int = 1_000_000
     linear_resolution: float = 1e-6
     torque_noise: float = 0.01
+    controller: bool = False
     bandwidth: float = 20.0
     feedforward: bool = True
     limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)

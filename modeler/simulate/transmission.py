@@ -48,15 +48,15 @@ def transmissions_of(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transmis
     return Transmissions(rows, np.hstack([unit, unit[:, rows]]), effects)
 
 
-def settled(strain: ca.Function, q: np.ndarray, states: int) -> np.ndarray:
+def settled(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np.ndarray:
     """(states,) inner states of a robot at rest: links sag until their springs carry them.
 
     Args:
         strain: (q, z) -> torque on each such link, rising with how far it is ahead.
         q: motor positions.
-        states: number of inner states, those of the transmissions first.
+        z: (states,) of a robot whose links do not sag, those of the transmissions first.
     """
-    z = np.zeros(states)
+    z = z.copy()
     for _ in range(_SWEEPS if strain.size1_out(0) else 0):
         for i in range(strain.size1_out(0)):
             low, high = -_FARTHEST, _FARTHEST

@@ -50,20 +50,20 @@ class Chain:
         return self.found[:1] == (self.hidden,)
 
 
-def chain(source: str, folder: Path, duration: int = 8, joint: str | None = None) -> Chain:
+def chain(source: str, folder: Path, joint: str | None = None) -> Chain:
     """The story of a robot, in a folder; it ends with the first step that fails.
 
     Args:
         source: name of a built-in robot, or a robot file.
         folder: for logs and models.
-        duration: s of both logs.
         joint: with a motor; None: the second one that has one, or the only one.
     """
     robot = read_robot(source)
     story = Chain(robot.name, (EFFECT, joint or _second(robot)))
     place = {name: str(folder / name) for name in ("a.csv", "b.csv", "m.json", "m2.json", "out")}
     own = () if robot.effects else ("--effects", "viscous,coulomb")
-    hide = ("--hide", "@".join(story.hidden), "--duration", str(duration), "--rate", RATE)
+    duration = "8" if len(robot.coordinates) > 1 else "20"  # one motor gives one row a sample
+    hide = ("--hide", "@".join(story.hidden), "--duration", duration, "--rate", RATE)
     a, held = place["a.csv"], ("--holdout", place["b.csv"])
     steps = {
         "simulate": ("simulate", source, *own, *hide, "--seed", "1", "--out", a),

@@ -14,6 +14,12 @@ from tests.robots import TIED
 
 QUICK = ("five-bar", "orthoglide-2003")
 
+# 3rpr_singular is refused: it has no home from which its motors could move it.
+ELSEWHERE = (
+    "3rpr_sim", "excavator", "excavator_bucket", "excavator_firsttry", "offset_parallelogram",
+    "rccc", "rccc_wide", "twoloops", "twoloops_mixed", "twoloops_poorhome",
+)  # fmt: skip
+
 
 def check(story: Chain) -> None:
     assert not any(story.statuses.values()), story.message
@@ -35,11 +41,25 @@ def test_on_every_robot_with_loops(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))
 
 
-@pytest.mark.parametrize("file", ["excavator_sim", "3rpr_sim"])
+@pytest.mark.parametrize("file", ["excavator_sim", "3rpr_passive"])
 def test_on_robots_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
 ) -> None:
     check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("file", ELSEWHERE)
+def test_on_all_from_elsewhere(
+    file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
+) -> None:
+    check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
+
+
+@pytest.mark.slow
+def test_joints_without_motor_that_swing(tmp_path: Path) -> None:
+    """Their rows are 0 = W beta; a diagnosis must not be driven to beta = 0 by them."""
+    check(chain("orthoglide-leg", tmp_path))
 
 
 def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:

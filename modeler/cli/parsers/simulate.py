@@ -15,7 +15,8 @@ def add_simulate(commands: Commands) -> None:
         help="measurements by forward simulation in closed loop",
         description="Simulates ROBOT under a controller that sees quantised encoders, and writes "
         "the log that its logger would have written; a robot with loops carries out the commanded "
-        "motion exactly. Parameters that the robot file leaves open are drawn from the seed.",
+        "motion exactly, unless --controller is given. Parameters that the robot file leaves open "
+        "are drawn from the seed.",
         epilog="example: modeler simulate demo-arm --duration 30 --seed 1 --out run1.parquet",
     )
     add_robot(parser)
@@ -55,6 +56,10 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
     add_number(
         parser, "--process-noise", "SHARE", float,
         "random torque on the machine, share of the rms torque", default.process_noise,
+    )  # fmt: skip
+    parser.add_argument(
+        "--controller", action="store_true",
+        help="a robot with loops is moved by a controller too, as others always are",
     )  # fmt: skip
     add_number(
         parser, "--encoder-counts", "N", int,

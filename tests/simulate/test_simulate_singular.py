@@ -1,0 +1,103 @@
+"""Simulated motion of robots with loops keeps away from singular postures.
+
+Measured with the table's own kinematics (`tests.loops.table_kinematics`), not the simulator's.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.robot import Robot, read_robot, robot_from_text
+from modeler.simulate import SimulationSettings, simulate
+from tests.loops.table_kinematics import Table
+from tests.robots import TIED
+
+SHARE = 0.45
+"""Of home's distance; less than what is promised by what two ways to write a loop differ."""
+
+LOOPS = [name for name in TIED if read_robot(name).loops]
+STEPS, EVERY = 10, 40
+
+# The rod is hardly longer than the crank: the slider goes mad where the crank stands upright.
+STEEP = """
+name = "steep"
+gravity = [0, "-g", 0]
+[symbols]
+g = 9.81
+R = 0.10
+L = 0.1001
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1",   "0", 1, 0, 0,      0,      0,   "q1", 0],
+  ["2",   "1", 0, 0, 0,      0,      "R", "q2", 0],
+  ["tip", "2", 0, 2, 0,      0,      "L", 0,    0],
+  ["3",   "0", 0, 1, "pi/2", "pi/2", 0,   0,    "q3"],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["pin", "tip", "3", "position"]]
+[home]
+q1 = 1.25
+q2 = -2.496
+q3 = 0.063
+"""
+
+
+def closed_home(table: Table) -> np.ndarray:
+    """[home], closed by Newton on the joints that follow."""
+    u = np.array([[table.robot.home.get(joint.name, 0.0) for joint in table.robot.free]])
+    for _ in range(30):
+        step = np.linalg.pinv(table.slopes(u, table.solved)) @ table.errors(u)[:, :, None]
+        u[:, table.solved] -= np.clip(step[:, :, 0], -0.2, 0.2) * table.scale[table.solved]
+    return u[0]
+
+
+def least_share(robot: Robot, q: np.ndarray) -> float:
+    """Least distance to a singular posture along positions (n, coordinates), beside home's."""
+    table = Table(robot)
+    home = closed_home(table)
+    targets = np.vstack([home[table.given], q[::EVERY]])
+    u, _ = table.followed(home, targets, STEPS)
+    assert np.all(np.isfinite(u))
+    least = np.linalg.svd(table.slopes(u, table.solved), compute_uv=False)[:, -1]
+    return float(least[1:].min() / least[0])
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("name", LOOPS)
+def test_half_of_homes_distance_is_kept(name: str, seed: int) -> None:
+    robot = read_robot(name)
+    log = simulate(robot, SimulationSettings(duration=20.0, rate=50.0, seed=seed))
+    assert least_share(robot, log.truth.q) > SHARE
+
+
+@pytest.mark.parametrize(
+    "file", ["3rpr_passive", "3rpr_sim", "excavator_sim", "offset_parallelogram", "rccc_wide"]
+)
+def test_on_robots_from_elsewhere(file: str, loop_robots_folder: Path) -> None:
+    robot = read_robot(str(loop_robots_folder / f"{file}.toml"))
+    log = simulate(robot, SimulationSettings(duration=8.0, rate=50.0, seed=2))
+    assert least_share(robot, log.truth.q) > SHARE
+
+
+def test_without_limits_and_near_a_singular_posture() -> None:
+    """The range of a robot without [limits], 0.3 rad around home, holds a bad posture."""
+    robot = robot_from_text(STEEP, "steep")
+    log = simulate(robot, SimulationSettings(duration=8.0, rate=50.0))
+    assert least_share(robot, log.truth.q) > SHARE
+    assert least_share(robot, np.array([[1.45]])) < SHARE
+    assert 0.1 < log.range_share < 1.0
+    assert np.ptp(log.truth.q) > 0.3 * 0.6 * log.range_share
+
+
+def test_what_was_done_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "steep.toml").write_text(STEEP)
+    words = ["simulate", str(tmp_path / "steep.toml"), "--duration", "8", "--rate", "50"]
+    assert main([*words, "--out", str(tmp_path / "a.csv")]) == 0
+    assert "of the way from [home] to the limits: farther, the loops" in capsys.readouterr().out
+    words = ["simulate", "five-bar", "--duration", "4", "--rate", "50"]
+    assert main([*words, "--out", str(tmp_path / "b.csv")]) == 0
+    assert "[home]" not in capsys.readouterr().out
