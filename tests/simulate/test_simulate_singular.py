@@ -11,6 +11,7 @@ import pytest
 from modeler.cli import main
 from modeler.robot import Robot, read_robot, robot_from_text
 from modeler.simulate import SimulationSettings, simulate
+from tests.further_robots import FurtherRobots
 from tests.loops.table_kinematics import Table
 from tests.robots import TIED
 
@@ -77,7 +78,7 @@ def test_half_of_homes_distance_is_kept(name: str, seed: int) -> None:
 @pytest.mark.parametrize(
     "file", ["3rpr_passive", "3rpr_sim", "excavator_sim", "offset_parallelogram", "rccc_wide"]
 )
-def test_on_robots_from_elsewhere(file: str, loop_robots_folder: Path) -> None:
+def test_on_robots_from_elsewhere(file: str, loop_robots_folder: FurtherRobots) -> None:
     robot = read_robot(str(loop_robots_folder / f"{file}.toml"))
     log = simulate(robot, SimulationSettings(duration=8.0, rate=50.0, seed=2))
     assert least_share(robot, log.truth.q) > SHARE
