@@ -28,8 +28,8 @@ from modeler.symbolic.closing import (
 from modeler.symbolic.derivative import derivatives
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr, Graph
-from modeler.symbolic.kinematics import Pose, base_poses
-from modeler.symbolic.loop_equations import loop_alignments, loop_equations
+from modeler.symbolic.kinematics import Pose
+from modeler.symbolic.loop_equations import loop_alignments, loop_equations, meeting
 from modeler.symbolic.precise import precise_values
 
 _RANK = 1e-9
@@ -121,13 +121,13 @@ def loop_closing(
 ) -> tuple[Closing, list[str]]:
     """The equations of all loops, and the name of the loop that each comes from."""
     robot = geometry.robot
-    posed = base_poses(geometry, frames, algebra)
     equations: list[Expr] = []
     owners: list[str] = []
     aligned: list[Expr] = []
     for loop in robot.loops:
-        found = loop_equations(geometry, loop, posed)
-        aligned += loop_alignments(geometry, loop, posed)
+        ends = meeting(geometry, loop, frames, algebra)
+        found = loop_equations(loop, *ends)
+        aligned += loop_alignments(loop, *ends)
         equations += found
         owners += [loop.name] * len(found)
     n = geometry.coordinates

@@ -146,26 +146,56 @@ def gravity_in_frames(geometry: Geometry, frames: Sequence[Pose], algebra: Algeb
     return found
 
 
-def base_poses(
-    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
-) -> list[tuple[list[Vector], Vector]]:
+AxesOrigin = tuple[list[Vector], Vector]
+"""Axes x, y, z of a frame, and its origin."""
+
+
+def base_poses(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list[AxesOrigin]:
     """Axes x, y, z of every frame and its origin, in frame 0: the forward kinematics.
 
     From the base outwards, R_j = R_a Rz(gamma) Rx(alpha) Rz(theta): each plane rotation turns two
     axes, and what one frame costs serves all that follow.
     """
-    zero, one = algebra.static(sympy.Integer(0)), algebra.static(sympy.Integer(1))
-    base = [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
-    found: list[tuple[list[Vector], Vector]] = []
-    for row, frame in zip(geometry.rows, frames, strict=True):
-        (x, y, z), origin = (base, [zero] * 3) if row.parent is None else found[row.parent]
-        for axis, length in zip((x, y, z), frame.p, strict=True):
-            origin = plus(origin, times(length, axis))
-        x, y = _turned(frame.gamma, x, y)
-        y, z = _turned(frame.alpha, y, z)
-        x, y = _turned(frame.theta, x, y)
-        found.append(([x, y, z], origin))
+    found: dict[int | None, AxesOrigin] = {None: _still(algebra)}
+    for k, (row, frame) in enumerate(zip(geometry.rows, frames, strict=True)):
+        found[k] = _carried(found[row.parent], frame)
+    return [found[k] for k in range(len(frames))]
+
+
+def poses_from(
+    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra, root: int | None, rows: set[int]
+) -> dict[int | None, AxesOrigin]:
+    """Axes and origins of some rows, and of all between them and `root`, in the frame of `root`.
+
+    Args:
+        geometry: the table.
+        frames: its poses.
+        algebra: of the entries.
+        root: a row that all of `rows` descend from, or None for the base.
+        rows: places in the table.
+    """
+    found: dict[int | None, AxesOrigin] = {root: _still(algebra)}
+    needed = {k for row in rows for k in geometry.ancestors(row)}
+    for k, (row, frame) in enumerate(zip(geometry.rows, frames, strict=True)):
+        if k in needed and row.parent in found and k != root:
+            found[k] = _carried(found[row.parent], frame)
     return found
+
+
+def _still(algebra: Algebra) -> AxesOrigin:
+    zero, one = algebra.static(sympy.Integer(0)), algebra.static(sympy.Integer(1))
+    return [[one, zero, zero], [zero, one, zero], [zero, zero, one]], [zero] * 3
+
+
+def _carried(parent: AxesOrigin, frame: Pose) -> AxesOrigin:
+    """Axes and origin of a frame from those of its antecedent."""
+    (x, y, z), origin = parent
+    for axis, length in zip((x, y, z), frame.p, strict=True):
+        origin = plus(origin, times(length, axis))
+    x, y = _turned(frame.gamma, x, y)
+    y, z = _turned(frame.alpha, y, z)
+    x, y = _turned(frame.theta, x, y)
+    return [x, y, z], origin
 
 
 def _turned(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:

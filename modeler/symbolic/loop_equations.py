@@ -3,46 +3,56 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from modeler.robot import Loop
+from modeler.symbolic.algebra import GraphAlgebra
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr
-from modeler.symbolic.kinematics import dot, plus, times
+from modeler.symbolic.kinematics import Pose, dot, plus, poses_from, times
 
 Frame = tuple[Sequence[list[Expr]], list[Expr]]
-"""(axes x, y, z; origin) in frame 0."""
+"""(axes x, y, z; origin) in one frame."""
 
 
-def loop_equations(geometry: Geometry, loop: Loop, frames: Sequence[Frame]) -> list[Expr]:
+def meeting(
+    geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: GraphAlgebra
+) -> tuple[Frame, Frame]:
+    """The two frames that meet, in the frame of the body that both their sides come from.
+
+    There, and not in frame 0, components of a plane loop stay those of its plane however the body
+    turns, and which equations are independent does not depend on it.
+
+    Args:
+        geometry: the table.
+        loop: which frames meet, and how.
+        frames: poses of the rows in their antecedent frames, in table order.
+        algebra: of their entries.
+    """
+    places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
+    ends = [places.get(name) for name in (loop.frame, loop.meets)]
+    sides = [[] if end is None else geometry.ancestors(end) for end in ends]
+    root = next((k for k in sides[0] if k in sides[1]), None)
+    posed = poses_from(geometry, frames, algebra, root, {k for k in ends if k is not None})
+    return posed[ends[0]], posed[ends[1]]
+
+
+def loop_equations(loop: Loop, one: Frame, other: Frame) -> list[Expr]:
     """Expressions that vanish where the loop is closed; some may be redundant.
 
     Lengths in m where positions are compared, cosines where directions are.
 
     Args:
-        geometry: the table.
-        loop: which frames meet, and how.
-        frames: poses of the rows in frame 0, in table order.
+        loop: how the frames meet.
+        one: axes and origin of the first, as from `meeting`.
+        other: those of the other.
     """
-    places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
-    one = frames[places[loop.frame]]
-    other = _base(one) if loop.meets == "0" else frames[places[loop.meets]]
     return [value for value in _KINDS[loop.kind](one, other) if not value.is_zero]
 
 
-def loop_alignments(geometry: Geometry, loop: Loop, frames: Sequence[Frame]) -> list[Expr]:
+def loop_alignments(loop: Loop, one: Frame, other: Frame) -> list[Expr]:
     """Expressions that are 1 where the loop is closed as meant, -1 with axes opposite.
 
     The equations compare directions by right angles, which opposite axes fulfil too.
     """
-    places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
-    one = frames[places[loop.frame]]
-    other = _base(one) if loop.meets == "0" else frames[places[loop.meets]]
     return [dot(one[0][axis], other[0][axis]) for axis in _SAME_AXES[loop.kind]]
-
-
-def _base(like: Frame) -> Frame:
-    graph = like[1][0].graph
-    zero, unit = graph.constant(0), graph.constant(1)
-    axes = [[unit if i == j else zero for j in range(3)] for i in range(3)]
-    return axes, [zero] * 3
 
 
 def _between(a: Frame, b: Frame) -> list[Expr]:
