@@ -56,7 +56,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "d17741679fc8f2a1";
+    return "3c6f8c3555111d17";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,
