@@ -8,7 +8,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnose.analyse import analysed
+from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.candidates import Known
@@ -72,7 +72,13 @@ def diagnose(
     if window is not None:
         seen = _masked(data.observation, window)
         found = _searched(dataclasses.replace(data, observation=seen), other, *options)
-    return assembled(model, found, other, window, doubted)
+    return _told(assembled(model, found, other, window, doubted), model, data)
+
+
+def _told(diagnosis: Diagnosis, model: IdentifiedModel, data: Data) -> Diagnosis:
+    """With a sentence on the band."""
+    line = bands_line(model.processing, data.observation.report.processing)
+    return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
 def _searched(

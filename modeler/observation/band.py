@@ -80,6 +80,12 @@ def _joint_motion(
     return JointMotion(joint.name, joint.unit, bool(moves.any()), band, shaken, trembling)
 
 
+def shown_band(motions: Sequence[JointMotion], pieces: Sequence[Piece]) -> float:
+    """Hz of the fastest joint, as the window of a piece shows it: 2/T at least."""
+    lengths = np.array([len(piece.time) * piece.step for piece in pieces])
+    return float(np.hypot(max(m.band for m in motions), 2.0 / weighted_median(lengths, lengths)))
+
+
 def spectra_of(pieces: Sequence[Piece]) -> list[Spectrum]:
     """The spectrum of each piece's positions."""
     return [spectrum(piece.q, piece.step) for piece in pieces]
@@ -144,7 +150,13 @@ def choose_cutoffs(
             f"parallel filter {parallel:g} Hz: {PARALLEL_BANDS:g} x the band, at least "
             f"{LEAST_PARALLEL:g} Hz, at most half the position filter"
         )
-    chosen = dataclasses.replace(processing, position_cutoff=position, parallel_cutoff=parallel)
+    own = [n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None]
+    chosen = dataclasses.replace(
+        processing,
+        position_cutoff=position,
+        parallel_cutoff=parallel,
+        chosen=(*processing.chosen, *own),
+    )
     return chosen, tuple(said)
 
 

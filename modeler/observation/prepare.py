@@ -11,6 +11,7 @@ from modeler.core.errors import DataError
 from modeler.observation.band import (
     choose_cutoffs,
     joint_motions,
+    shown_band,
     spectra_of,
     what_rings,
     what_trembles,
@@ -44,7 +45,7 @@ class Prepared:
         rings: sentences on joints that ring, by log.
         damages: values that no robot can have made, by log.
         trembles: sentences on joints that tremble beside their motion.
-        band: Hz of the motion, that of the fastest joint.
+        band: Hz of the motion of the fastest joint, or what pieces of that length can show.
     """
 
     processing: Processing
@@ -132,7 +133,7 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
         ),
         damages=tuple(damages for _, damages in mended),
         trembles=what_trembles(motions),
-        band=max(motion.band for motion in motions),
+        band=shown_band(motions, pieces),
     )
 
 

@@ -218,6 +218,8 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     assert any("position filter" in s for s in said) and any("parallel filter" in s for s in said)
     given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
     assert cutoffs_of(given, piece)[0] == given
+    assert chosen.chosen == ("position_cutoff", "parallel_cutoff")
+    assert cutoffs_of(chosen, piece)[0] == chosen
 
 
 def test_a_rate_too_low_for_the_motion_is_said():
@@ -312,7 +314,10 @@ def test_a_motion_with_slow_and_fast_parts_is_motion():
 
 
 def test_processing_survives_json_and_refuses_nonsense():
-    full = Processing(30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1)
+    full = Processing(
+        30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
+        chosen=("parallel_cutoff",),
+    )  # fmt: skip
     assert processing_from_json(full.to_json()) == full
     assert processing_from_json(Processing().to_json()) == Processing()
     for bad, words in (
