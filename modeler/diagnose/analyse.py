@@ -25,12 +25,23 @@ COMPLETE = 0.95
 
 
 def analysis_processing(fitted: Processing) -> Processing:
-    """That of the fit with the wider band."""
+    """That of the fit with the wider band; a parallel filter that was given rules both."""
     position = fitted.position_cutoff or BAND
-    narrow = fitted.parallel_cutoff or 0.0
-    return dataclasses.replace(
-        fitted, parallel_cutoff=max(narrow, min(BAND, 0.8 * position)), decimation=None
-    )
+    cutoff = fitted.parallel_cutoff or 0.0
+    if "parallel_cutoff" in fitted.chosen:
+        cutoff = max(cutoff, min(BAND, 0.8 * position))
+    return dataclasses.replace(fitted, parallel_cutoff=cutoff, decimation=None)
+
+
+def bands_line(fitted: Processing, seen: Processing) -> list[str]:
+    """A sentence on the band of a diagnosis where it is not that of the fit."""
+    if seen.parallel_cutoff == fitted.parallel_cutoff:
+        return []
+    return [
+        f"looked at up to {seen.parallel_cutoff:g} Hz, the fit up to {fitted.parallel_cutoff:g} "
+        "Hz: ripple, elasticity, delays and reversals show above; "
+        f"fit with --parallel-cutoff {fitted.parallel_cutoff:g} to have both alike"
+    ]
 
 
 def analysed(

@@ -8,7 +8,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnose.analyse import analysed
+from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.candidates import Known
@@ -73,7 +73,8 @@ def diagnose(
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
     looks = _looks(data, logs, other, window) if found.steps else []
-    return assembled(model, found, other, window, looked_again(found, looks), doubted)
+    diagnosis = assembled(model, found, other, window, looked_again(found, looks), doubted)
+    return _told(diagnosis, model, data)
 
 
 def _looks(
@@ -84,6 +85,12 @@ def _looks(
         (what, look if window is None or look is other else _masked(look, window))
         for what, look in other_looks(data, logs, other)
     ]
+
+
+def _told(diagnosis: Diagnosis, model: IdentifiedModel, data: Data) -> Diagnosis:
+    """With a sentence on the band."""
+    line = bands_line(model.processing, data.observation.report.processing)
+    return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
 def _searched(

@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.motion import band
 from modeler.diagnose.rows import Columns, Rows
 from modeler.diagnose.signals import Signals
 from modeler.diagnose.state import State
@@ -14,6 +13,9 @@ from modeler.observation.motion import low_pass
 
 SURE = 4.0
 """Least ratio of the instrumental estimate to its standard error."""
+
+SLOWEST = 0.5
+"""Hz: no motion is smoothed as if it were slower."""
 
 CONVENTION = 0.55
 """Delays below this share of a sample are a convention of the logger, not an effect."""
@@ -124,7 +126,7 @@ def _smoothed(state: State) -> Rows:
 
 def _cutoff(state: State) -> float:
     """Hz: three times the band of the motion."""
-    return 3.0 * band(state)
+    return 3.0 * max(SLOWEST, state.data.observation.report.band)
 
 
 def _smooth(signals: Signals, cutoff: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -8,7 +8,14 @@ import numpy as np
 
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
-from modeler.observation.band import Spectrum, choose_cutoffs, velocity_energy, what_rings
+from modeler.observation.band import (
+    choose_cutoffs,
+    joint_motions,
+    shown_band,
+    spectra_of,
+    what_rings,
+    what_trembles,
+)
 from modeler.observation.consistency import Consistency, consistency, without_late
 from modeler.observation.damage import Damage, repaired
 from modeler.observation.derivatives import quieter, without_velocities
@@ -16,6 +23,7 @@ from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.processing import Processing
 from modeler.observation.segments import Piece, SplitReport, split
+from modeler.observation.spectrum import Spectrum
 
 LARGEST = 1e12
 """Positions, velocities, accelerations and torques above are damage, not measurements."""
@@ -36,6 +44,8 @@ class Prepared:
         checks: of the logged derivatives, by log; None where positions are differentiated.
         rings: sentences on joints that ring, by log.
         damages: values that no robot can have made, by log.
+        trembles: sentences on joints that tremble beside their motion.
+        band: Hz of the motion of the fastest joint, or what pieces of that length can show.
     """
 
     processing: Processing
@@ -48,6 +58,8 @@ class Prepared:
     checks: tuple[Consistency | None, ...]
     rings: tuple[tuple[str, ...], ...]
     damages: tuple[tuple[Damage, ...], ...]
+    trembles: tuple[str, ...]
+    band: float
 
 
 def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
@@ -70,8 +82,9 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
             "than 4 rows; record without interruptions"
         )
     _check_cutoff(logs, pieces, processing)
-    spectra = [velocity_energy(piece) for piece in pieces]
-    chosen, choices = choose_cutoffs(processing, pieces, spectra)
+    spectra = spectra_of(pieces)
+    motions = joint_motions(spec.joints, pieces, spectra)
+    chosen, choices = choose_cutoffs(processing, pieces, motions)
     found = [own for own, _ in split_logs]
     checks = [
         _checked(log, own, chosen) if use else None
@@ -119,6 +132,8 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
             for run in range(len(logs))
         ),
         damages=tuple(damages for _, damages in mended),
+        trembles=what_trembles(motions),
+        band=shown_band(motions, pieces),
     )
 
 

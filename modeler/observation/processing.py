@@ -35,6 +35,8 @@ class Processing:
             later by it.
         edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
             `position_cutoff`, where the filter's start-up has faded below 1 %.
+        chosen: names of the cut-offs that were chosen from the logs; what is given rules all that
+            is made of a model.
     """
 
     position_cutoff: float | None = None
@@ -48,6 +50,7 @@ class Processing:
     keep_contradicted: bool = False
     keep_damaged: bool = False
     delay: float = 0.0
+    chosen: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):
@@ -101,6 +104,7 @@ def processing_from_json(raw: Mapping[str, Any]) -> Processing:
         )
     values = dict(raw)
     try:
+        values["chosen"] = tuple(str(name) for name in values.get("chosen", ()))
         if values.get("speed_floors") is not None:
             values["speed_floors"] = {
                 name: float("inf") if floor is None else float(floor)

@@ -163,21 +163,25 @@ class DataReport:
         choices: one sentence per automatic choice.
         logs: in the order given.
         joints: in the order of the manifest.
+        trembles: one sentence per joint that trembles beside its motion.
+        band: Hz of the motion.
     """
 
     processing: Processing
     choices: tuple[str, ...]
     logs: tuple[LogReport, ...]
     joints: tuple[JointReport, ...]
+    trembles: tuple[str, ...] = ()
+    band: float = 0.0
 
     def doubts(self) -> list[str]:
         """What is wrong with the measurements of all logs, one sentence each."""
-        return [line for log in self.logs for line in log.doubts()]
+        return [*(line for log in self.logs for line in log.doubts()), *self.trembles]
 
     def summary(self) -> list[str]:
         """Lines of text for people."""
         lines = [line for log in self.logs for line in log.lines()]
-        lines += list(self.choices)
+        lines += [*self.trembles, *self.choices]
         if any(log.saturated for log in self.logs):
             used = "used" if self.processing.keep_saturated else "not used"
             lines.append(f"rows with a torque at its limit are {used}")

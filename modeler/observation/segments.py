@@ -1,6 +1,6 @@
 """Pieces of a log on a uniform time grid: filters never run across a gap."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +38,7 @@ class Piece:
         contradicted: (n,) True where a logged derivative cannot be.
         clipped: (n, joints) True where the torque was at the drive's limit.
         resampled: True if the rows were moved to the grid.
+        commanded: (n, joints) positions, or None.
     """
 
     run: int
@@ -53,6 +54,7 @@ class Piece:
     contradicted: np.ndarray
     clipped: np.ndarray
     resampled: bool
+    commanded: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -144,7 +146,16 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
         contradicted=np.zeros(samples, dtype=bool),
         clipped=clipped[rows][near],
         resampled=not uniform,
+        commanded=_commanded(log, rows, on_grid),
     )
+
+
+def _commanded(
+    log: Log, rows: np.ndarray, on_grid: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray | None:
+    if log.commanded is None or not np.isfinite(log.commanded[rows]).all():
+        return None
+    return on_grid(log.commanded)
 
 
 def _nearest(stamps: np.ndarray, time: np.ndarray) -> np.ndarray:

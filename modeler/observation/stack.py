@@ -61,6 +61,8 @@ def observed(
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,
+        trembles=prepared.trembles,
+        band=prepared.band,
         logs=tuple(_log_report(log, run, prepared, stretches) for run, log in enumerate(logs)),
         joints=_joint_reports(model, parts, floors, stretches),
     )

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from modeler.diagnose import diagnose
+from modeler.diagnose.analyse import analysis_processing, bands_line
 from modeler.diagnose.noise import knocking, lasting
-from modeler.observation import Log
+from modeler.observation import Log, Processing
 from tests.diagnose.conftest import Case
 
 STEP = 0.0125
@@ -86,3 +87,16 @@ def test_noise_of_the_positions_is_told_with_what_helps(case: Case) -> None:
         lines = [line for line in diagnosis.data if "trembles" in line]
         assert len(lines) == told
         assert all("noise of the positions" in x and "--cutoff below" in x for x in lines)
+
+
+def test_a_parallel_filter_that_was_given_rules_the_diagnosis():
+    given = Processing(position_cutoff=30.0, parallel_cutoff=5.0, decimation=3)
+    automatic = dataclasses.replace(given, chosen=("position_cutoff", "parallel_cutoff"))
+    for fitted, band, lines in ((given, 5.0, 0), (automatic, 24.0, 1)):
+        seen = analysis_processing(fitted)
+        assert (seen.parallel_cutoff, seen.decimation) == (pytest.approx(band), None)
+        said = bands_line(fitted, seen)
+        assert len(said) == lines
+        assert all("up to 24 Hz, the fit up to 5 Hz" in line for line in said)
+    low = dataclasses.replace(automatic, position_cutoff=10.0)
+    assert analysis_processing(low).parallel_cutoff == pytest.approx(8.0)

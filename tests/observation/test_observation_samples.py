@@ -5,9 +5,16 @@ import dataclasses
 import numpy as np
 import pytest
 
+from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
 from modeler.observation import Log, Processing, processing_from_json
-from modeler.observation.band import choose_cutoffs, motion_band, velocity_energy, what_rings
+from modeler.observation.band import (
+    choose_cutoffs,
+    joint_motions,
+    spectra_of,
+    what_rings,
+    what_trembles,
+)
 from modeler.observation.motion import segment_of
 from modeler.observation.saturation import saturated
 from modeler.observation.segments import split
@@ -135,12 +142,20 @@ def test_saturated_samples_count_only_on_request():
     assert kept.valid.sum() - left.valid.sum() == (piece.clipped[:, 0] & left.whole).sum()
 
 
+def motions_of(*pieces):
+    joints = [
+        JointSpec(name, "revolute", "rad", "N m", True, None)
+        for name in "1234567"[: pieces[0].q.shape[1]]
+    ]
+    return joint_motions(joints, pieces, spectra_of(pieces))
+
+
 def band_of(piece):
-    return motion_band(piece, velocity_energy(piece))
+    return max(motion.band for motion in motions_of(piece))
 
 
-def cutoffs_of(processing, piece):
-    return choose_cutoffs(processing, [piece], [velocity_energy(piece)])
+def cutoffs_of(processing, *pieces):
+    return choose_cutoffs(processing, pieces, motions_of(*pieces))
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-5, 1e-3])
@@ -164,7 +179,7 @@ def ringing_log(share, hertz, of=0.3):
 @pytest.mark.parametrize("share", [0.02, 0.17, 0.97])
 def test_what_rings_far_above_the_motion_is_no_motion(share):
     piece = split(ringing_log(share, 93.0), 0, False)[0][0]
-    (found,) = what_rings([velocity_energy(piece)])
+    (found,) = what_rings(spectra_of([piece]))
     assert found.joint == 1
     assert found.frequency == pytest.approx(93.0, abs=0.1)
     assert found.share == pytest.approx(share, rel=0.02)
@@ -174,13 +189,13 @@ def test_what_rings_far_above_the_motion_is_no_motion(share):
 
 @pytest.mark.parametrize(("share", "hertz"), [(0.001, 93.0), (0.5, 20.0)])
 def test_little_energy_or_a_frequency_near_the_motion_is_no_ringing(share, hertz):
-    assert what_rings([velocity_energy(split(ringing_log(share, hertz), 0, False)[0][0])]) == []
+    assert what_rings(spectra_of(split(ringing_log(share, hertz), 0, False)[0])) == []
 
 
 def test_a_robot_that_only_shakes_moves():
     time = np.arange(20000) * 1e-3
     piece = split(log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None]), 0, False)[0][0]
-    assert what_rings([velocity_energy(piece)]) == []
+    assert what_rings(spectra_of([piece])) == []
     assert band_of(piece) == pytest.approx(60.0, abs=0.5)
 
 
@@ -203,16 +218,106 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     assert any("position filter" in s for s in said) and any("parallel filter" in s for s in said)
     given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
     assert cutoffs_of(given, piece)[0] == given
+    assert chosen.chosen == ("position_cutoff", "parallel_cutoff")
+    assert cutoffs_of(chosen, piece)[0] == chosen
 
 
 def test_a_rate_too_low_for_the_motion_is_said():
     time = np.arange(400) / 20.0
     piece = split(log_of(time, np.sin(2 * np.pi * 3.0 * time)[:, None]), 0, False)[0][0]
-    assert any("less than 5 x the motion band" in s for s in cutoffs_of(Processing(), piece)[1])
+    said = cutoffs_of(Processing(), piece)[1]
+    assert any("less than 5 x the motion band of joint 1" in s for s in said)
+    assert any("sample faster or move slower" in s for s in said)
+    said = cutoffs_of(Processing(position_cutoff=8.0), piece)[1]
+    assert any("give a higher --cutoff" in s for s in said)
+
+
+def arm_log(noise=None, joint=3, joints=4, seed=5):
+    """20 s at 200 Hz of joints that move to 0.6 Hz; noise (n,) on the position of one of them."""
+    time, draw = np.arange(4000) / 200.0, np.random.default_rng(seed)
+    q = np.zeros((len(time), joints))
+    for j in range(joints):
+        for f in (0.1, 0.2, 0.4, 0.6):
+            q[:, j] += draw.normal() / f * np.sin(2 * np.pi * f * time + draw.uniform(0.0, 6.0))
+        q[:, j] *= 0.5 / np.std(q[:, j])
+    if noise is not None:
+        q[:, joint] += noise
+    return Log("a", tuple("1234567"[:joints]), time, q, q)
+
+
+def noise_of(colour, size, seed=6):
+    """20 s at 200 Hz of noise with that standard deviation."""
+    noise = np.fft.rfft(np.random.default_rng(seed).normal(size=4000))
+    f = np.fft.rfftfreq(4000, 0.005)
+    gain = {
+        "white": np.ones_like(f),
+        "of a slow sensor": 1.0 / (1.0 + (f / 20.0) ** 8),
+        "shaking": 1.0 / (1.0 + ((f - 18.0) / 2.0) ** 2),
+        "pink": 1.0 / np.sqrt(np.maximum(f, 0.05)),
+    }[colour]
+    found = np.fft.irfft(gain * noise)
+    return size * found / np.std(found)
+
+
+def first_piece(log):
+    return split(log, 0, False)[0][0]
+
+
+@pytest.mark.parametrize("colour", ["white", "of a slow sensor", "shaking", "pink"])
+@pytest.mark.parametrize("joints", [2, 4])
+def test_the_motion_band_does_not_follow_the_noise_of_a_joint(colour, joints):
+    """Two joints cannot outvote one: pink noise of 5 mrad and more, without a gap, is motion."""
+    quiet = band_of(first_piece(arm_log(joints=joints, joint=1)))
+    assert quiet == pytest.approx(0.6, abs=0.05)
+    sizes = (0.001, 0.003) if colour == "pink" and joints == 2 else (0.001, 0.003, 0.01)
+    for size in sizes:
+        noisy = arm_log(noise_of(colour, size), joint=1, joints=joints)
+        assert band_of(first_piece(noisy)) == pytest.approx(quiet, abs=0.05), size
+
+
+def test_a_joint_that_trembles_is_told_with_its_size():
+    piece = first_piece(arm_log(noise_of("shaking", 0.005)))
+    (said,) = what_trembles(motions_of(piece))
+    assert said.startswith("joint 4: its position trembles by 5.1 mrad up to 22 Hz, beside")
+    assert what_trembles(motions_of(first_piece(arm_log(noise_of("white", 1e-4))))) == ()
+
+
+@pytest.mark.parametrize("colour", ["white", "of a slow sensor", "shaking"])
+def test_joints_at_rest_do_not_count_whatever_their_noise(colour):
+    log = arm_log()
+    log.q[:, 1:] = 0.3 + np.column_stack([noise_of(colour, 1e-3, seed) for seed in range(3)])
+    piece = first_piece(log)
+    assert [motion.moves for motion in motions_of(piece)] == [True, False, False, False]
+    assert band_of(piece) == pytest.approx(0.6, abs=0.05)
+    said = cutoffs_of(Processing(), piece)[1]
+    assert "joints 2, 3, 4 rest: not counted in the motion band" in said
+    both = motions_of(piece, first_piece(arm_log()))
+    assert all(motion.moves for motion in both)
+
+
+def test_a_commanded_joint_moves_no_faster_than_its_command():
+    """Alone, a joint that shakes from 1 Hz on shows no gap: its command tells."""
+    clean, noise = arm_log(joints=1), noise_of("pink", 0.03)
+    shaken = arm_log(noise, joint=0, joints=1)
+    assert band_of(first_piece(shaken)) > 2.0
+    told = dataclasses.replace(shaken, commanded=clean.q)
+    assert band_of(first_piece(told)) == pytest.approx(0.6, abs=0.05)
+    unused = dataclasses.replace(shaken, commanded=np.zeros_like(clean.q))
+    assert band_of(first_piece(unused)) == band_of(first_piece(shaken))
+
+
+def test_a_motion_with_slow_and_fast_parts_is_motion():
+    """A slow sweep, and strokes of a tenth of it at 3 Hz."""
+    time = np.arange(20000) * 1e-3
+    q = np.sin(2 * np.pi * 0.1 * time) + 0.1 * np.sin(2 * np.pi * 3.0 * time)
+    assert band_of(first_piece(log_of(time, q[:, None]))) == pytest.approx(3.0, abs=0.1)
 
 
 def test_processing_survives_json_and_refuses_nonsense():
-    full = Processing(30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1)
+    full = Processing(
+        30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
+        chosen=("parallel_cutoff",),
+    )  # fmt: skip
     assert processing_from_json(full.to_json()) == full
     assert processing_from_json(Processing().to_json()) == Processing()
     for bad, words in (
