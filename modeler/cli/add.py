@@ -31,7 +31,7 @@ def run_add(args: argparse.Namespace) -> Json:
         *waterfall(better),
         *added(better),
         *left_out,
-        *notes(better),
+        *notes(better, max(1, len(model.history))),
         *model.warning,
         *_ending(better),
         *(f"written: {place}" for place in written),
@@ -96,7 +96,9 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     if not model.history:
         return ["nothing is added: the model stays as it was fitted"]
     held_out = bool(model.history and model.history[-1].held_out)
-    title = "held-out error" if held_out else "error on the fitted logs (nothing was held out)"
+    title = "held-out error" if held_out else "error on parts of the fitted logs, left out in turn"
+    if len(model.history[-1].joints) > 1:
+        title += ", mean over the joints"
     lines = [f"{'':<30} {title}"]
     largest = max((step.error for step in model.history), default=0.0) or 1.0
     for step in model.history:

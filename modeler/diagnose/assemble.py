@@ -16,7 +16,7 @@ from modeler.diagnose.judge import Judged
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.profile import profile_of
 from modeler.diagnose.propose import ruled_out
-from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
+from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, Pick, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
@@ -167,7 +167,6 @@ def _finding(
     return Finding(
         effect=pick.effect.id,
         joint=pick.joint,
-        gain=judged.gain,
         error_before=start,
         error_after=end,
         parameters=parameters,
@@ -179,6 +178,7 @@ def _finding(
         closure=closed,
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
+        pick=Pick(pick, values, found.end),
     )
 
 

@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.contact import Window
 from modeler.diagnose.search import Search
+from modeler.diagnose.state import State
 
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""
@@ -20,6 +22,21 @@ Key = tuple[str, str | None]
 """Effect and joint; the joint of an effect of the whole robot is None."""
 
 
+@dataclass(frozen=True, eq=False)
+class Pick:
+    """An effect ready to go into a model: nothing has to be searched for again.
+
+    Attributes:
+        candidate: effect, joint, shapes.
+        values: (k,) of its columns, SI; a delay is that of the logs as they are.
+        state: the model with all effects that were found, about which it is linearised.
+    """
+
+    candidate: Candidate
+    values: np.ndarray
+    state: State
+
+
 @dataclass(frozen=True)
 class Finding:
     """One missing effect.
@@ -27,8 +44,8 @@ class Finding:
     Attributes:
         effect: id.
         joint: name; None for an effect of the whole robot.
-        gain: expected fall of the residual variance of its joints on motion not used for the fit.
-        error_before, error_after: relative error of its joints without and with it, held out.
+        error_before, error_after: relative error of its joints without and with it, held out: the
+            same rows, and the same weight of each joint.
         parameters: its parameters and shapes by name, SI.
         sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
             hold for all shapes that the data do not refuse.
@@ -40,11 +57,11 @@ class Finding:
         refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
+        pick: what `modeler add` puts in; None for contacts and play.
     """
 
     effect: str
     joint: str | None
-    gain: float
     error_before: float
     error_after: float
     parameters: Mapping[str, float]
@@ -56,6 +73,16 @@ class Finding:
     refines: bool
     objection: str = ""
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    pick: Pick | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def gain(self) -> float:
+        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2.
+
+        0 for what is no column, so that the error stays.
+        """
+        before = self.error_before
+        return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
