@@ -1,6 +1,7 @@
 """`modeler add MODEL EFFECT LOG... --out MODEL2`."""
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import read_logs, recompile
@@ -26,7 +27,7 @@ def run_add(args: argparse.Namespace) -> Json:
         logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
         check_apart(logs.fitted, logs.held_out)
         better, left_out = _better(model, compiled, args, logs)
-    written = _written(args, better)
+    written = _written(args, better, left_out)
     for line in (
         *waterfall(better),
         *added(better),
@@ -46,7 +47,9 @@ def _ending(better: IdentifiedModel) -> list[str]:
     return [] if better.fit.verdict is None else [f"now: {better.fit.verdict.line}"]
 
 
-def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
+def _written(
+    args: argparse.Namespace, better: IdentifiedModel, left_out: Sequence[str]
+) -> list[str]:
     """Writes the model, and robot file and page if they are asked for; their places."""
     save_model(args.out, better)
     places = [args.out]
@@ -54,7 +57,7 @@ def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
         write_atomically(Path(args.robot), better.robot_text)
         places.append(args.robot)
     if args.report is not None and better.history:
-        write_additions(Path(args.report), better.spec.robot, better.history)
+        write_additions(Path(args.report), better.spec.robot, better.history, left_out)
         places.append(args.report)
     return places
 

@@ -61,6 +61,11 @@ def lines(diagnosis: Diagnosis) -> list[str]:
                  f"{diagnosis.band:g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
         found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
+    if diagnosis.effects and diagnosis.fit_band < diagnosis.band:
+        found.append(
+            f"values are those up to {diagnosis.band:g} Hz, beside all effects named; `modeler "
+            f"add` fits up to {diagnosis.fit_band:g} Hz"
+        )
     blind = [what for what, _ in blind_spots(diagnosis)]
     if blind:
         found.append(f"these logs cannot show: {', '.join(blind)}")

@@ -74,6 +74,7 @@ def assembled(
         held_out=other.observation.logs if other else (),
         sentences=(),
         band=data.observation.report.processing.parallel_cutoff or 0.0,
+        fit_band=model.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
         changed=data.kept is not None,
         contradicted=contradicted,

@@ -43,8 +43,16 @@ def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] 
     return Path(path)
 
 
-def write_additions(path: Path, robot: str, history: Sequence[Addition]) -> Path:
+def write_additions(
+    path: Path, robot: str, history: Sequence[Addition], left_out: Sequence[str] = ()
+) -> Path:
     """Write the page of a model's history: the error after every effect that was added.
+
+    Args:
+        path: of an .html file.
+        robot: name.
+        history: of the model.
+        left_out: effects that were not added, and why.
 
     Raises:
         ModelerError: the place cannot be written.
@@ -61,7 +69,7 @@ def write_additions(path: Path, robot: str, history: Sequence[Addition]) -> Path
         headline=(percent(last), f"error left of {percent(first)}"),
         facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
         sections=_section("The error falls", figure_html(waterfall_picture(history))),
-        provenance=["To do this again, in this order:", *lines],
+        provenance=["To do this again, in this order:", *lines, *left_out],
     )
     write_atomically(Path(path), text)
     return Path(path)

@@ -153,7 +153,8 @@ class Diagnosis:
         unmoved: joints of which no row can be used.
         held_out: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
-        band: Hz up to which residuals were looked at.
+        band: Hz up to which residuals were looked at; values are those of this band too.
+        fit_band: Hz up to which the model was fitted, and `modeler add` fits.
         data: doubts about the logs themselves.
         changed: True if the base parameters were kept and the robot has changed since.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
@@ -172,6 +173,7 @@ class Diagnosis:
     held_out: tuple[str, ...]
     sentences: tuple[str, ...]
     band: float
+    fit_band: float
     data: tuple[str, ...]
     changed: bool
     contradicted: bool
@@ -197,6 +199,7 @@ class Diagnosis:
             "held_out": list(self.held_out),
             "sentences": list(self.sentences),
             "band": self.band,
+            "fit_band": self.fit_band,
             "data": list(self.data),
             "changed": self.changed,
             "contradicted": self.contradicted,

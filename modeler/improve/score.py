@@ -68,9 +68,13 @@ class Score:
 
     @property
     def better(self) -> bool:
-        """True if the whole surely falls, a joint with it, and no joint rises beyond its noise."""
-        falls = self.whole.sure and self.whole.ratio < 1.0 and any(c.falls for c in self.joints)
-        return falls and not self.spoilt
+        """True if a joint surely falls, the whole with it, and no joint rises beyond its noise.
+
+        The whole must surely fall too if another joint surely rises.
+        """
+        falls = any(change.falls for change in self.joints) and self.whole.ratio < 1.0
+        rises = any(change.rises for change in self.joints)
+        return falls and (self.whole.sure or not rises) and not self.spoilt
 
     @property
     def spoilt(self) -> bool:
