@@ -101,7 +101,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     held_out = bool(model.history and model.history[-1].held_out)
     title = "held-out error" if held_out else "error on parts of the fitted logs, left out in turn"
     if len(model.history[-1].joints) > 1:
-        title += ", mean over the joints"
+        title += ", rms over the joints"
     lines = [f"{'':<30} {title}"]
     largest = max((step.error for step in model.history), default=0.0) or 1.0
     for step in model.history:

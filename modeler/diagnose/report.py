@@ -93,7 +93,7 @@ def waterfall_picture(history: Sequence[Addition]) -> Picture:
     return Picture(
         name="waterfall",
         title="Error after every effect",
-        caption="Relative error, geometric mean over the joints. Left the error that counts: "
+        caption="Relative error, root mean square over the joints. Left the error that counts: "
         "motion that was never fitted. `modeler add MODEL undo LOG... --out MODEL` takes the last "
         "one back.",
         panels=(panels,),

@@ -57,7 +57,7 @@ class Addition:
         effect: id; "" for the model as it was first fitted.
         joint: name; None for an effect of the whole robot.
         shapes: values of its shape parameters, SI.
-        error: relative error with it on held-out logs, geometric mean over the joints; on the
+        error: relative error with it on held-out logs, root mean square over the joints; on the
             fitted logs, eight parts left out in turn, where none were held out.
         training_error: the same on the fitted logs.
         held_out: names of the held-out logs.

@@ -26,7 +26,7 @@ from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.improve.passive import on_passive
 from modeler.improve.rows import Logs, Rows, rows_of
-from modeler.improve.score import Score, errors_of, mean_error, scored, told
+from modeler.improve.score import Score, errors_of, rms_error, scored, told
 from modeler.improve.sure import with_shapes
 from modeler.improve.unseen import Unseen, left_of, left_out
 from modeler.robot import robot_from_text
@@ -109,10 +109,8 @@ def add_findings(
 
 def _refused(score: Score) -> str:
     """Why a change is none for the better."""
-    change = told(score.errors, score.changed or (score.most.joint,))
-    if score.spoilt:
-        return f"the error rises: {change}"
-    return f"the error does not surely fall: {change}"
+    verb = "rises" if score.spoilt else "does not surely fall"
+    return f"the error {verb}: {told(score.errors, score.changed or (score.most.joint,))}"
 
 
 def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
@@ -204,8 +202,8 @@ def _step(fitted: _Fitted, errors: Mapping[str, float]) -> Addition:
         effect="",
         joint=None,
         shapes={},
-        error=mean_error(errors.values()),
-        training_error=mean_error(training.values()),
+        error=rms_error(errors.values()),
+        training_error=rms_error(training.values()),
         held_out=tuple(log.name for log in fitted.rows.logs.held_out),
         robot_text=fitted.model.robot_text,
         delay=fitted.model.processing.delay,

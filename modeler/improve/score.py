@@ -60,7 +60,8 @@ class Score:
 
     Attributes:
         joints: those with rows and torque.
-        whole: all of them, by geometric means: each in units of its own error.
+        whole: all of them, the error before as 1: geometric means, so that each counts in units of
+            its own error.
     """
 
     joints: tuple[Change, ...]
@@ -131,8 +132,8 @@ def scored(before: Unseen, after: Unseen) -> Score:
         changes.append(Change(name, errors[0], errors[1], _sure(change, share, blocks)))
         whole, shares = whole + change, shares + share
     sure = _sure(whole, shares, grid.blocks)
-    means = [mean_error(of) for of in ([c.before for c in changes], [c.after for c in changes])]
-    return Score(tuple(changes), Change("", means[0], means[1], sure))
+    mean = 0.5 * whole / max(1, len(changes))
+    return Score(tuple(changes), Change("", 1.0, math.exp(-mean), sure))
 
 
 def _sure(change: float, shares: np.ndarray, blocks: int) -> bool:
@@ -143,13 +144,10 @@ def _sure(change: float, shares: np.ndarray, blocks: int) -> bool:
     return abs(change) > float(student.ppf(1.0 - 0.5 * CHANCE, blocks - 1)) * spread
 
 
-def mean_error(errors: Iterable[float]) -> float:
-    """Geometric mean of relative errors over joints.
-
-    A fall by a tenth counts the same on every joint, however large its error is.
-    """
-    logs = [math.log(max(error, LEAST)) for error in errors]
-    return math.exp(sum(logs) / len(logs)) if logs else 0.0
+def rms_error(errors: Iterable[float]) -> float:
+    """Root mean square of relative errors over joints."""
+    found = list(errors)
+    return float(np.sqrt(np.mean(np.square(found)))) if found else 0.0
 
 
 def errors_of(seen: Unseen) -> dict[str, float]:
@@ -160,14 +158,18 @@ def errors_of(seen: Unseen) -> dict[str, float]:
 
 
 def told(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
-    """The errors that change, as in "joint 7 11.4 -> 7.1 %; other joints unchanged".
+    """The errors that change: "joint 7 11.4 -> 7.1 %; joint 2 rises, 3 -> 3.2 %".
 
     Args:
         joints: error before and after, by joint.
         changed: joints whose error falls or rises.
     """
-    pairs = [(name, *joints[name]) for name in changed]
-    parts = [", ".join(f"joint {n} {100 * a:.3g} -> {100 * b:.3g} %" for n, a, b in pairs)]
+    pairs = {name: "{:.3g} -> {:.3g} %".format(*(100.0 * e for e in joints[name]))
+             for name in changed}  # fmt: skip
+    rising = [name for name in changed if joints[name][1] > joints[name][0]]
+    parts = [", ".join(f"joint {name} {text}" for name, text in pairs.items()
+                       if name not in rising)]  # fmt: skip
+    parts += [f"joint {name} rises, {pairs[name]}" for name in rising]
     if len(changed) < len(joints):
         parts.append("other joints unchanged" if changed else "no joint changes")
     return "; ".join(part for part in parts if part)

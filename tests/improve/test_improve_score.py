@@ -47,6 +47,13 @@ def test_one_joint_that_falls_is_not_drowned_by_others_that_are_larger() -> None
     assert told(seen.errors, seen.changed) == "joint 1 10 -> 6 %; other joints unchanged"
 
 
+def test_what_rises_is_told_apart() -> None:
+    errors = {"1": (0.03, 0.032), "2": (0.05, 0.02), "3": (0.1, 0.1)}
+    line = told(errors, ("1", "2"))
+    assert line == "joint 2 5 -> 2 %; joint 1 rises, 3 -> 3.2 %; other joints unchanged"
+    assert told(errors, ()) == "no joint changes"
+
+
 def test_a_joint_that_rises_beyond_its_noise_spoils_what_others_gain() -> None:
     assert changed(0.5, 1.3, 0.5).better
     refused = changed(0.5, 2.0, 0.2)
