@@ -145,7 +145,7 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
     best = _best(state, effect, joint)
     if effect.acts is Acts.TORQUE:  # least squares make delays too small
         return Pick(best, instrumental(state, best)[0], state)
-    later = extended(state, best)
+    later = extended(state, best)  # a wrong gain bends the model whose torques it scales
     return Pick(best, later.values[0], later)
 
 
