@@ -61,7 +61,6 @@ def assembled(
     findings = [] if contradicted else _findings(found, chain, window, errors, shares, seen)
     effects = tuple(f for f in findings if not f.refines)
     joints = _joints(found, errors, shares)
-    data = found.start.data
     diagnosis = Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell" if contradicted else verdict(effects, joints, found),
@@ -70,13 +69,13 @@ def assembled(
         rivals=_rivals(found),
         blind_spots=blind_spots(found),
         joints=joints,
-        unmoved=tuple(j.name for j in data.compiled.spec.joints if j.name not in joints),
+        unmoved=tuple(j.name for j in model.spec.joints if j.name not in joints),
         held_out=other.observation.logs if other else (),
         sentences=(),
-        band=data.observation.report.processing.parallel_cutoff or 0.0,
+        band=found.start.data.observation.report.processing.parallel_cutoff or 0.0,
         fit_band=model.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
-        changed=data.kept is not None,
+        changed=found.start.data.kept is not None,
         contradicted=contradicted,
         window=window,
         search=found,
@@ -179,7 +178,7 @@ def _finding(
         closure=closed,
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
-        pick=Pick(pick, values, found.end),
+        pick=Pick(pick, values, found.end, judged.visible),
     )
 
 

@@ -30,11 +30,13 @@ class Pick:
         candidate: effect, joint, shapes.
         values: (k,) of its columns, SI; a delay is that of the logs as they are.
         state: the model with all effects that were found, about which it is linearised.
+        visible: share of its columns that the model does not hide.
     """
 
     candidate: Candidate
     values: np.ndarray
     state: State
+    visible: float
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,10 @@ from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError, RobotError
 from modeler.derivation import derive, generate
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.candidates import Candidate, Known
+from modeler.diagnose.candidates import Known
 from modeler.diagnose.columns import body_parameters
 from modeler.diagnose.diagnosis import kept_parameters
+from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Pick
 from modeler.diagnose.search import extended, survey_of, surveyed
 from modeler.diagnose.sentences import where
@@ -109,7 +110,7 @@ def add_findings(
 
 def _refused(score: Score) -> str:
     """Why a change is none for the better."""
-    verb = "rises" if score.spoilt else "does not surely fall"
+    verb = "rises" if score.spoilt else "does not fall by more than chance"
     return f"the error {verb}: {told(score.errors, score.changed or (score.most.joint,))}"
 
 
@@ -144,12 +145,13 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
     state = state_of(data, (), model.beta)
     best = _best(state, effect, joint)
     if effect.acts is Acts.TORQUE:  # least squares make delays too small
-        return Pick(best, instrumental(state, best)[0], state)
-    later = extended(state, best)  # a wrong gain bends the model whose torques it scales
-    return Pick(best, later.values[0], later)
+        values = instrumental(state, best.candidate)[0]
+        return Pick(best.candidate, values, state, best.visible)
+    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
+    return Pick(best.candidate, later.values[0], later, best.visible)
 
 
-def _best(state: State, effect: Effect, joint: str | None) -> Candidate:
+def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
     passive = on_passive(state.data.compiled.spec, effect, joint)
     asked_for = (
@@ -162,17 +164,22 @@ def _best(state: State, effect: Effect, joint: str | None) -> Candidate:
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
             "motion would"
         )
-    best = found[0]
-    if best.visible < _HIDDEN:
+    return found[0]
+
+
+def _check_seen(pick: Pick) -> None:
+    """Refuse what would take its values from the model that is there."""
+    if pick.visible < _HIDDEN:
+        effect = pick.candidate.effect
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
-            f"({100 * best.visible:.1g} % of it is left); {effect.look_alikes}"
+            f"({100 * pick.visible:.1g} % of it is left); {effect.look_alikes}"
         )
-    return best.candidate
 
 
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
     """The model with the effect, and whether it is the better one."""
+    _check_seen(pick)
     after = _with(before, pick)
     refitted = pick.candidate.effect.acts is not Acts.LINK
     score = scored(before.unseen(refitted), after.unseen(refitted))

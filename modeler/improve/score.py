@@ -5,13 +5,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import t as student
 
 from modeler.diagnose.blocks import BLOCK, MOST
 from modeler.improve.unseen import Unseen
 
-CHANCE = 0.05
-"""Probability with which an error that stays seems to change."""
+SURE = 2.0
+"""Standard errors beyond which a change is sure."""
 
 FELT = 0.01
 """Share of an error by which it must change to be worth a word."""
@@ -30,13 +29,19 @@ class Change:
     Attributes:
         joint: name.
         before, after: relative error on unseen motion.
-        sure: True if the change stands out of its scatter over blocks of time.
+        scatter: change over its standard error, from blocks of time; positive where the error
+            falls.
     """
 
     joint: str
     before: float
     after: float
-    sure: bool
+    scatter: float
+
+    @property
+    def sure(self) -> bool:
+        """True if the change is more than chance."""
+        return abs(self.scatter) > SURE
 
     @property
     def falls(self) -> bool:
@@ -60,8 +65,7 @@ class Score:
 
     Attributes:
         joints: those with rows and torque.
-        whole: all of them, the error before as 1: geometric means, so that each counts in units of
-            its own error.
+        whole: product over them, so that each counts in units of its own error; 1 before.
     """
 
     joints: tuple[Change, ...]
@@ -69,17 +73,16 @@ class Score:
 
     @property
     def better(self) -> bool:
-        """True if a joint surely falls, the whole with it, and no joint rises beyond its noise.
+        """True if the whole falls by more than its standard error, and no joint is spoilt.
 
-        The whole must surely fall too if another joint surely rises.
+        And a joint with it, by more than its own and by what is worth a word.
         """
-        falls = any(change.falls for change in self.joints) and self.whole.ratio < 1.0
-        rises = any(change.rises for change in self.joints)
-        return falls and (self.whole.sure or not rises) and not self.spoilt
+        falls = any(c.scatter > 1.0 and c.ratio < 1.0 - FELT for c in self.joints)
+        return falls and self.whole.scatter > 1.0 and not self.spoilt
 
     @property
     def spoilt(self) -> bool:
-        """True if the error of a joint rises by more than its noise."""
+        """True if the error of a joint surely rises by more than its noise."""
         return any(change.rises and change.ratio > WORSE for change in self.joints)
 
     @property
@@ -106,42 +109,33 @@ def scored(before: Unseen, after: Unseen) -> Score:
     twice the logarithm of the ratio of its errors, so that each joint counts in units of its own
     noise. Blocks are paired, and residuals are coloured within them but not beyond: the variance
     of L_j is B / (B - 1) sum_b u_jb^2 with u_jb = S_jb / S_j - T_jb / T_j, that of sum_j L_j the
-    same with sum_j u_jb. A change is sure if it exceeds t standard deviations, t of Student's
-    distribution for B blocks.
+    same with sum_j u_jb.
 
     Args:
         before: residuals of the model without the change.
         after: with it, on the same logs.
     """
     grid = _Grid.of(before)
-    changes, whole, shares = [], 0.0, np.zeros(grid.blocks)
+    old, new = errors_of(before), errors_of(after)
+    changes, shares = [], np.zeros(grid.blocks)
     for j, name in enumerate(before.names):
-        sizes = [float(np.mean(seen.torque[j] ** 2)) if seen.torque[j].size else 0.0
-                 for seen in (before, after)]  # fmt: skip
-        if min(sizes) == 0.0:
+        if name not in old or name not in new:
             continue
-        old, new = (grid.sums(seen, j) for seen in (before, after))
-        errors = [
-            float(np.sqrt(np.mean(seen.residual[j] ** 2) / size))
-            for seen, size in zip((before, after), sizes, strict=True)
-        ]
-        left = [max(error, LEAST) for error in errors]
-        change = 2.0 * math.log(left[0] / left[1])
-        share = old / max(float(old.sum()), 1e-300) - new / max(float(new.sum()), 1e-300)
-        blocks = int(np.count_nonzero(old))
-        changes.append(Change(name, errors[0], errors[1], _sure(change, share, blocks)))
-        whole, shares = whole + change, shares + share
-    sure = _sure(whole, shares, grid.blocks)
-    mean = 0.5 * whole / max(1, len(changes))
-    return Score(tuple(changes), Change("", 1.0, math.exp(-mean), sure))
+        sums = [grid.sums(seen, j) for seen in (before, after)]
+        share = np.subtract(*(of / max(float(of.sum()), 1e-300) for of in sums))
+        blocks = int(np.count_nonzero(sums[0]))
+        changes.append(_judged(name, old[name], new[name], share, blocks))
+        shares += share
+    mean = math.exp(sum(math.log(c.ratio) for c in changes))
+    return Score(tuple(changes), _judged("", 1.0, mean, shares, grid.blocks))
 
 
-def _sure(change: float, shares: np.ndarray, blocks: int) -> bool:
-    """True if a change stands out of its scatter over blocks."""
-    if blocks < 2:
-        return False
-    spread = float(np.sqrt(blocks / (blocks - 1) * np.sum(shares**2)))
-    return abs(change) > float(student.ppf(1.0 - 0.5 * CHANCE, blocks - 1)) * spread
+def _judged(name: str, before: float, after: float, shares: np.ndarray, blocks: int) -> Change:
+    """A change whose scatter over blocks has the shares u_b."""
+    log = 2.0 * math.log(max(before, LEAST) / max(after, LEAST))
+    spread = float(np.sqrt(np.sum(shares**2) * blocks / max(1, blocks - 1)))
+    scatter = log / max(spread, 1e-9) if blocks > 1 else 0.0
+    return Change(name, before, after, scatter)
 
 
 def rms_error(errors: Iterable[float]) -> float:

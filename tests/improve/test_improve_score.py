@@ -4,7 +4,6 @@ import dataclasses
 import math
 
 import numpy as np
-import pytest
 
 from modeler.improve.score import Score, scored, told
 from modeler.improve.unseen import Unseen
@@ -65,11 +64,11 @@ def test_a_rise_is_weighed_against_the_falls() -> None:
     assert changed(0.5, 1.1).better
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_another_model_that_is_as_good_is_not_better(seed: int) -> None:
+def test_another_model_that_is_as_good_is_seldom_better() -> None:
     """Half of the residual is another one: differences as large as chance makes them."""
-    same = [changed(1.0, 1.0, 1.0, share=0.5, seed=1000 * k + seed).better for k in range(5)]
-    assert sum(same) <= 2
+    same = [changed(1.0, 1.0, 1.0, share=0.5, seed=1000 * k) for k in range(200)]
+    assert sum(score.better for score in same) < 50
+    assert sum(score.whole.sure for score in same) < 30
 
 
 def test_what_falls_in_a_few_moments_only_is_seen() -> None:
