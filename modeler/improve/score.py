@@ -73,12 +73,15 @@ class Score:
 
     @property
     def better(self) -> bool:
-        """True if the whole falls by more than its standard error, and no joint is spoilt.
+        """True if the whole falls by more than its standard error, or a joint surely falls.
 
-        And a joint with it, by more than its own and by what is worth a word.
+        The latter counts if none surely rises and the whole falls at all; neither, if a joint is
+        spoilt.
         """
-        falls = any(c.scatter > 1.0 and c.ratio < 1.0 - FELT for c in self.joints)
-        return falls and self.whole.scatter > 1.0 and not self.spoilt
+        shown = any(c.scatter > 1.0 and c.ratio < 1.0 - FELT for c in self.joints)
+        alone = any(c.falls for c in self.joints) and not any(c.rises for c in self.joints)
+        falls = (shown and self.whole.scatter > 1.0) or (alone and self.whole.ratio < 1.0)
+        return falls and not self.spoilt
 
     @property
     def spoilt(self) -> bool:
