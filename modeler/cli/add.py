@@ -1,6 +1,7 @@
 """`modeler add MODEL EFFECT LOG... --out MODEL2`."""
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import read_logs, recompile
@@ -26,12 +27,12 @@ def run_add(args: argparse.Namespace) -> Json:
         logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
         check_apart(logs.fitted, logs.held_out)
         better, left_out = _better(model, compiled, args, logs)
-    written = _written(args, better)
+    written = _written(args, better, left_out)
     for line in (
         *waterfall(better),
         *added(better),
         *left_out,
-        *notes(better),
+        *notes(better, max(1, len(model.history))),
         *model.warning,
         *_ending(better),
         *(f"written: {place}" for place in written),
@@ -46,7 +47,9 @@ def _ending(better: IdentifiedModel) -> list[str]:
     return [] if better.fit.verdict is None else [f"now: {better.fit.verdict.line}"]
 
 
-def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
+def _written(
+    args: argparse.Namespace, better: IdentifiedModel, left_out: Sequence[str]
+) -> list[str]:
     """Writes the model, and robot file and page if they are asked for; their places."""
     save_model(args.out, better)
     places = [args.out]
@@ -54,7 +57,7 @@ def _written(args: argparse.Namespace, better: IdentifiedModel) -> list[str]:
         write_atomically(Path(args.robot), better.robot_text)
         places.append(args.robot)
     if args.report is not None and better.history:
-        write_additions(Path(args.report), better.spec.robot, better.history)
+        write_additions(Path(args.report), better.spec.robot, better.history, left_out)
         places.append(args.report)
     return places
 
@@ -96,7 +99,9 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     if not model.history:
         return ["nothing is added: the model stays as it was fitted"]
     held_out = bool(model.history and model.history[-1].held_out)
-    title = "held-out error" if held_out else "error on the fitted logs (nothing was held out)"
+    title = "held-out error" if held_out else "error on parts of the fitted logs, left out in turn"
+    if len(model.history[-1].joints) > 1:
+        title += ", rms over the joints"
     lines = [f"{'':<30} {title}"]
     largest = max((step.error for step in model.history), default=0.0) or 1.0
     for step in model.history:

@@ -100,5 +100,5 @@ def _improved(
     for line in (*waterfall(better), *left_out):
         say(f"   {line}")
     if better.history:
-        write_additions(out / "improved.html", better.spec.robot, better.history)
+        write_additions(out / "improved.html", better.spec.robot, better.history, left_out)
     return better

@@ -38,8 +38,8 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
     if seen.parallel_cutoff == fitted.parallel_cutoff:
         return []
     return [
-        f"looked at up to {seen.parallel_cutoff:g} Hz, the fit up to {fitted.parallel_cutoff:g} "
-        "Hz: ripple, elasticity, delays and reversals show above; "
+        f"errors and values are those up to {seen.parallel_cutoff:g} Hz, beside all effects "
+        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, elasticity, delays and reversals show above; "
         f"fit with --parallel-cutoff {fitted.parallel_cutoff:g} to have both alike"
     ]
 

@@ -18,7 +18,7 @@ from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.profile import profile_of
 from modeler.diagnose.propose import ruled_out
-from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, finite
+from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, Pick, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
@@ -72,12 +72,11 @@ def assembled(
         rivals=_rivals(found),
         blind_spots=blind_spots(found),
         joints=joints,
-        unmoved=tuple(
-            j.name for j in found.start.data.compiled.spec.joints if j.name not in joints
-        ),
+        unmoved=tuple(j.name for j in model.spec.joints if j.name not in joints),
         held_out=other.observation.logs if other else (),
         sentences=(),
         band=found.start.data.observation.report.processing.parallel_cutoff or 0.0,
+        fit_band=model.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
         changed=found.start.data.kept is not None,
         contradicted=contradicted, window=window, search=found,
@@ -171,7 +170,6 @@ def _finding(
     return Finding(
         effect=pick.effect.id,
         joint=pick.joint,
-        gain=judged.gain,
         error_before=start,
         error_after=end,
         parameters=parameters,
@@ -183,6 +181,7 @@ def _finding(
         closure=closed,
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
+        pick=Pick(pick, values, found.end, judged.visible),
     )
 
 

@@ -87,7 +87,7 @@ def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
     names = ("fx", "fy", "fz")
     left = finite(over(found.end, range(len(errors)), errors))
     return Finding(
-        CONTACT, None, 1.0 - 1.0 / window.ratio, left, left,
+        CONTACT, None, left, left,
         {"t0": window.start, "t1": window.end} | dict(zip(names, map(float, force), strict=True)),
         {}, {"t0": "s", "t1": "s"} | dict.fromkeys(names, "N"), (),
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
@@ -122,7 +122,7 @@ def _play(found: Search, state: State, errors: np.ndarray, least: float) -> list
         return []
     shares = {k: judged.share for k, judged in _columns(found).items()}
     j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), _LEAST))
-    return [_backlash(found, errors, [j, *bursting], 1.0 - 1.0 / ratios[j], _bursts(ratios[j]))]
+    return [_backlash(found, errors, [j, *bursting], _bursts(ratios[j]))]
 
 
 def _bursts(ratio: float) -> str:
@@ -156,11 +156,11 @@ def _faint(found: Search, errors: np.ndarray, least: float, knocks: bool) -> lis
     for j, judged in sorted(seen.items(), key=lambda entry: -entry[1].share):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
         if ratio > least and judged.sure > SURE:
-            return [_backlash(found, errors, [j], judged.gain, _bursts(ratio))]
+            return [_backlash(found, errors, [j], _bursts(ratio))]
         if knocks and share > KNOCKS and judged.gain > GATE:
             text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
-            return [_backlash(found, errors, [j], judged.gain, text, doubt)]
+            return [_backlash(found, errors, [j], text, doubt)]
     return []
 
 
@@ -168,7 +168,6 @@ def _backlash(
     found: Search,
     errors: np.ndarray,
     bursting: Sequence[int],
-    gain: float,
     text: str,
     objection: str = "",
 ) -> Finding:
@@ -181,6 +180,6 @@ def _backlash(
     others = tuple((PLAY, names[k]) for k in bursting if k != first)
     left = finite(errors[first])
     return Finding(
-        PLAY, names[first], gain, left, left, {}, {}, {}, others,
+        PLAY, names[first], left, left, {}, {}, {}, others,
         f"joint {names[first]}: {text}", None, False, objection,
     )  # fmt: skip

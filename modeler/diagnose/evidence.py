@@ -68,7 +68,7 @@ def evidence_picture(found: Search, step: Step) -> Picture:
 
 
 def rivals_picture(step: Step) -> Picture:
-    """The gain of the best effects, side by side."""
+    """What the best effects explain within the logs, side by side."""
     items = [step.judged, *step.rivals[:7]]
     names = tuple(
         i.candidate.effect.id.replace("_", "<br>")
@@ -81,11 +81,11 @@ def rivals_picture(step: Step) -> Picture:
         name=f"rivals_{step.pick.effect.id}_{step.pick.joint or 'robot'}",
         title="Why not another effect",
         caption=(
-            "Share of the error variance of its own joints that each effect would explain on "
-            "motion that was held out. An effect on another joint is no rival, but perhaps the "
-            "next one."
+            "Share of the error variance of its own joints that each effect explains within these "
+            "logs, cross-validated. An effect on another joint is no rival, but perhaps the next "
+            "one."
         ),
-        panels=((Panel("", "", "gain [%]", (bars,)),),),
+        panels=((Panel("", "", "explained [%]", (bars,)),),),
         heights=(1.0,),
         widths=(1.0,),
         height=340,

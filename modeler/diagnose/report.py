@@ -43,8 +43,16 @@ def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] 
     return Path(path)
 
 
-def write_additions(path: Path, robot: str, history: Sequence[Addition]) -> Path:
+def write_additions(
+    path: Path, robot: str, history: Sequence[Addition], left_out: Sequence[str] = ()
+) -> Path:
     """Write the page of a model's history: the error after every effect that was added.
+
+    Args:
+        path: of an .html file.
+        robot: name.
+        history: of the model.
+        left_out: effects that were not added, and why.
 
     Raises:
         ModelerError: the place cannot be written.
@@ -61,7 +69,7 @@ def write_additions(path: Path, robot: str, history: Sequence[Addition]) -> Path
         headline=(percent(last), f"error left of {percent(first)}"),
         facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
         sections=_section("The error falls", figure_html(waterfall_picture(history))),
-        provenance=["To do this again, in this order:", *lines],
+        provenance=["To do this again, in this order:", *lines, *left_out],
     )
     write_atomically(Path(path), text)
     return Path(path)
@@ -85,8 +93,9 @@ def waterfall_picture(history: Sequence[Addition]) -> Picture:
     return Picture(
         name="waterfall",
         title="Error after every effect",
-        caption="Relative error over all joints. Left the error that counts: motion that was never "
-        "fitted. `modeler add MODEL undo LOG... --out MODEL` takes the last one back.",
+        caption="Relative error, root mean square over the joints. Left the error that counts: "
+        "motion that was never fitted. `modeler add MODEL undo LOG... --out MODEL` takes the last "
+        "one back.",
         panels=(panels,),
         heights=(1.0,),
         widths=(0.5, 0.5),
@@ -146,7 +155,8 @@ def _runner_up(diagnosis: Diagnosis) -> str:
     if not diagnosis.rivals:
         return "nothing"
     effect, joint, gain = diagnosis.rivals[0]
-    return f"nothing; the runner-up is {effect} on {where(joint)}, {percent(max(0.0, gain))}"
+    share = percent(max(0.0, gain))
+    return f"nothing; the runner-up is {effect} on {where(joint)}, {share} within these logs"
 
 
 def _sections(diagnosis: Diagnosis) -> list[str]:
@@ -190,7 +200,7 @@ def _table(diagnosis: Diagnosis) -> str:
         return f"<p>{html.escape(diagnosis.sentences[0])}</p>"
     head = (
         '<tr><th class="text">effect</th><th class="text">joint</th><th class="text">values</th>'
-        '<th>error before</th><th>error after</th><th class="text">expected gain</th>'
+        '<th>error before</th><th>error after</th><th class="text">gain</th>'
         '<th class="text">why</th></tr>'
     )
     return f"<table>{head}{''.join(_row(f) for f in findings)}</table>"
@@ -210,7 +220,7 @@ def _row(finding: Finding) -> str:
         f'<td class="text values">{html.escape(values)}</td>',
         f"<td>{percent(finding.error_before)}</td>",
         f"<td>{percent(finding.error_after)}</td>",
-        f'<td class="bar"><span style="width:{round(110 * finding.gain)}px"></span>'
+        f'<td class="bar"><span style="width:{round(110 * max(0.0, finding.gain))}px"></span>'
         f"{percent(finding.gain)}</td>",
         f'<td class="text why">{html.escape(finding.evidence)}</td>',
     ]

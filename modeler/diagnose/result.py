@@ -7,15 +7,34 @@ from typing import Any
 
 import numpy as np
 
+from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
+from modeler.diagnose.state import State
 
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""
 
 LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pick:
+    """An effect ready to go into a model: nothing has to be searched for again.
+
+    Attributes:
+        candidate: effect, joint, shapes.
+        values: (k,) of its columns, SI; a delay is that of the logs as they are.
+        state: the model with all effects that were found, about which it is linearised.
+        visible: share of its columns that the model does not hide.
+    """
+
+    candidate: Candidate
+    values: np.ndarray
+    state: State
+    visible: float
 
 
 @dataclass(frozen=True)
@@ -25,8 +44,8 @@ class Finding:
     Attributes:
         effect: id.
         joint: name; None for an effect of the whole robot.
-        gain: expected fall of the residual variance of its joints on motion not used for the fit.
-        error_before, error_after: relative error of its joints without and with it, held out.
+        error_before, error_after: relative error of its joints without and with it, held out: the
+            same rows, and the same weight of each joint.
         parameters: its parameters and shapes by name, SI.
         sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
             hold for all shapes that the data do not refuse.
@@ -39,11 +58,11 @@ class Finding:
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
         looks: what other logs and other cut-offs say of it; empty for contacts and play.
+        pick: what `modeler add` puts in; None for contacts and play.
     """
 
     effect: str
     joint: str | None
-    gain: float
     error_before: float
     error_after: float
     parameters: Mapping[str, float]
@@ -56,11 +75,21 @@ class Finding:
     objection: str = ""
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     looks: tuple[Look, ...] = ()
+    pick: Pick | None = field(default=None, repr=False, compare=False)
 
     @property
     def stands(self) -> bool:
         """True if no other look surely names another effect in its place."""
         return all(look.agrees for look in self.looks)
+
+    @property
+    def gain(self) -> float:
+        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2.
+
+        0 for what is no column, so that the error stays.
+        """
+        before = self.error_before
+        return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -132,7 +161,8 @@ class Diagnosis:
         unmoved: joints of which no row can be used.
         held_out: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
-        band: Hz up to which residuals were looked at.
+        band: Hz up to which residuals were looked at; values are those of this band too.
+        fit_band: Hz up to which the model was fitted, and `modeler add` fits.
         data: doubts about the logs themselves.
         changed: True if the base parameters were kept and the robot has changed since.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
@@ -151,6 +181,7 @@ class Diagnosis:
     held_out: tuple[str, ...]
     sentences: tuple[str, ...]
     band: float
+    fit_band: float
     data: tuple[str, ...]
     changed: bool
     contradicted: bool
@@ -176,6 +207,7 @@ class Diagnosis:
             "held_out": list(self.held_out),
             "sentences": list(self.sentences),
             "band": self.band,
+            "fit_band": self.fit_band,
             "data": list(self.data),
             "changed": self.changed,
             "contradicted": self.contradicted,

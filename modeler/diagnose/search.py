@@ -278,7 +278,13 @@ def surveyed(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
 ) -> Survey:
     """All candidates in a state, or those of one effect, or of one joint."""
-    found = [c for c in proposals(state, only, without) if joint in (None, c.joint)]
+    return survey_of(
+        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
+    )
+
+
+def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
+    """Some candidates in a state; those that show."""
     columns = [columns_of(state.rows, c, state.cache) for c in found]
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)

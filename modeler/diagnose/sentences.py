@@ -50,19 +50,24 @@ def blind_spots(diagnosis: Diagnosis) -> list[tuple[str, str]]:
 
 
 def evidence(step: Step, before: float, after: float) -> str:
-    """Why this effect, in one or two sentences."""
+    """Why this effect, in one or two sentences.
+
+    Args:
+        step: that put it in.
+        before: the error that is printed for it.
+        after: that with it.
+    """
     judged = step.judged
-    effect = judged.candidate.effect
     text = (
-        f"{effect.title}: explains {percent(judged.gain)} of the error variance left on motion "
-        f"that was held out; error {percent(before)} -> {percent(after)}"
+        f"{judged.candidate.effect.title}: error {percent(before)} -> {percent(after)} on motion "
+        "that was held out"
     )
     rivals = [r for r in step.rivals if r.possible and r.candidate.key != judged.candidate.key]
-    if rivals and rivals[0].gain > 0.0:
+    if rivals and rivals[0].share > 0.0 and judged.share > 0.0:
         other = rivals[0]
         text += (
-            f". Runner-up: {other.candidate.effect.title} ({where(other.candidate.joint)}), "
-            f"{percent(other.gain)}"
+            f". Runner-up: {other.candidate.effect.title} ({where(other.candidate.joint)}), which "
+            f"explains {percent(other.share / judged.share)} of what it does within these logs"
         )
     return text
 

@@ -1,39 +1,60 @@
-"""One effect more: described, derived, emitted, fitted, and with_verdict on other motion."""
+"""One effect more: described, derived, emitted, fitted, and judged on other motion."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from modeler.compare.predict import on_rows
-from modeler.compare.prediction import check_prediction, relative_error
 from modeler.compiled import CompiledModel, load
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, RobotError
 from modeler.derivation import derive, generate
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.candidates import Candidate, Known
+from modeler.diagnose.candidates import Known
 from modeler.diagnose.columns import body_parameters
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
-from modeler.diagnose.search import surveyed
+from modeler.diagnose.result import Pick
+from modeler.diagnose.search import extended, survey_of, surveyed
+from modeler.diagnose.sentences import where
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.timing import instrumental
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
+from modeler.improve.passive import on_passive
 from modeler.improve.rows import Logs, Rows, rows_of
+from modeler.improve.score import Score, errors_of, rms_error, scored, told
 from modeler.improve.sure import with_shapes
-from modeler.observation import Observation
-from modeler.observation.torque import model_torque
+from modeler.improve.unseen import Unseen, left_of, left_out
 from modeler.robot import robot_from_text
 
 if TYPE_CHECKING:
     from modeler.diagnose import Finding
 
 _HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
+
+
+@dataclass(frozen=True, eq=False)
+class _Fitted:
+    """A model, and the logs as its robot sees them.
+
+    Attributes:
+        model: as fitted; its last effect has no verdict yet.
+        rows: of the logs.
+    """
+
+    model: IdentifiedModel
+    rows: Rows
+
+    def unseen(self, refitted: bool) -> Unseen:
+        """What it leaves of held-out logs; where there are none, of its own logs in turn."""
+        if not self.rows.held_out and refitted:
+            return left_out(self.model, self.rows.fitted)
+        return left_of(self.model, self.rows.compiled, self.rows.seen[-1])
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
@@ -55,39 +76,42 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    robot = robot_from_text(model.robot_text, "robot of the model")
-    effect = asked(model, name, joint, robot.catalogue)
-    rows = rows_of(compiled, logs, model.processing)
-    observation = analysed(compiled, logs.fitted, model.processing, prepared=rows.prepared[0])
-    kept = kept_parameters(model, compiled, logs.fitted, observation)
-    if effect.acts is Acts.LINK and kept is None:
-        kept = model.beta
-    data = Data(compiled, observation, kept, Known(robot.catalogue, robot.coupling))
-    state = state_of(data, (), model.beta)
-    best = _best(state, effect, joint)
-    values = best.values
-    if effect.acts is Acts.TORQUE:  # least squares make delays too small
-        values = instrumental(state, best.candidate)[0]
-    return _added(model, rows, state, best.candidate, values)
+    effect = asked(model, name, joint, robot_from_text(model.robot_text, "robot").catalogue)
+    before = _Fitted(model, rows_of(compiled, logs, model.processing))
+    after, _ = _judged(before, _found(before, effect, joint))
+    return _finished(after)
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")
 def add_findings(
     model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: Logs
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
-    """The model with the effects of a diagnosis, one after the other; why others are left out.
+    """The model with the effects of a diagnosis that lower the error; why others are left out.
 
-    A reason is one line that names the effect and its joint.
+    One after the other; each is judged beside those that were put in before it, by `scored`. A
+    reason is one line that names the effect and its joint.
     """
-    left_out = []
+    left, best = [], _Fitted(model, rows_of(compiled, logs, model.processing))
     for finding in findings:
         try:
-            model = add_effect(model, compiled, finding.effect, finding.joint, logs)
-        except DataError as error:
-            place = f", joint {finding.joint}" if finding.joint is not None else ""
-            left_out.append(f"left out: {finding.effect}{place} ({error})")
+            catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
+            asked(best.model, finding.effect, finding.joint, catalogue)
+            assert finding.pick is not None  # `asked` refuses what is no column
+            after, score = _judged(best, finding.pick)
+        except (DataError, RobotError) as error:
+            left.append(f"left out: {finding.effect}, {where(finding.joint)} ({error})")
             continue
-        compiled = load(model.spec, model.sources)
-    return model, tuple(left_out)
+        if score.better:
+            best = after
+        else:
+            left.append(f"left out: {finding.effect}, {where(finding.joint)} ({_refused(score)})")
+    return model if best.model is model else _finished(best), tuple(left)
+
+
+def _refused(score: Score) -> str:
+    """Why a change is none for the better."""
+    verb = "rises" if score.spoilt else "does not fall by more than chance"
+    return f"the error {verb}: {told(score.errors, score.changed or (score.most.joint,))}"
 
 
 def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
@@ -100,61 +124,130 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
         raise DataError("undo: no effect was added to this model; name one to add")
     before = model.history[-2]
     processing = dataclasses.replace(model.processing, delay=before.delay)
-    fitted, rows = _fitted(
+    fitted = _fitted(
         before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
     )
-    return _finished(fitted, model.history[:-1], rows)
+    history = dataclasses.replace(fitted.model, history=model.history[:-1])
+    return _finished(dataclasses.replace(fitted, model=history))
+
+
+def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
+    """The effect at its best shapes, about the model with it."""
+    model, rows = before.model, before.rows
+    robot = robot_from_text(model.robot_text, "robot of the model")
+    observation = analysed(
+        rows.compiled, rows.logs.fitted, model.processing, prepared=rows.prepared[0]
+    )
+    kept = kept_parameters(model, rows.compiled, rows.logs.fitted, observation)
+    if effect.acts is Acts.LINK and kept is None:
+        kept = model.beta
+    data = Data(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
+    state = state_of(data, (), model.beta)
+    best = _best(state, effect, joint)
+    if effect.acts is Acts.TORQUE:  # least squares make delays too small
+        values = instrumental(state, best.candidate)[0]
+        return Pick(best.candidate, values, state, best.visible)
+    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
+    return Pick(best.candidate, later.values[0], later, best.visible)
 
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    found = surveyed(state, only=effect.id, joint=joint).judged().ranked
+    passive = on_passive(state.data.compiled.spec, effect, joint)
+    asked_for = (
+        surveyed(state, only=effect.id, joint=joint) if passive is None
+        else survey_of(state, [passive])
+    )  # fmt: skip
+    found = asked_for.judged().ranked
     if not found:
         raise DataError(
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
             "motion would"
         )
-    best = found[0]
-    if best.visible < _HIDDEN:
+    return found[0]
+
+
+def _check_seen(pick: Pick) -> None:
+    """Refuse what would take its values from the model that is there."""
+    if pick.visible < _HIDDEN:
+        effect = pick.candidate.effect
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
-            f"({100 * best.visible:.1g} % of it is left); {effect.look_alikes}"
+            f"({100 * pick.visible:.1g} % of it is left); {effect.look_alikes}"
         )
-    return best
 
 
-def _added(
-    model: IdentifiedModel, rows: Rows, state: State, pick: Candidate, values: np.ndarray
-) -> IdentifiedModel:
-    history = model.history or (_step(model, None, rows),)
-    if pick.effect.acts is Acts.LINK:
-        felt = [p.name for p in body_parameters(pick, state.rows.signals[0])]
-        better, seen = _loaded(model, rows.compiled, felt, values), rows
-    elif pick.effect.acts is Acts.TORQUE:
-        delay = model.processing.delay + float(values[0])
-        processing = dataclasses.replace(model.processing, delay=delay)
-        better, seen = _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
-    else:
-        better, seen = _fitted(described(model.robot_text, pick, values, state.reference), rows.of)
-    return _finished(better, (*history, _step(better, pick, seen)), seen)
+def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
+    """The model with the effect, and whether it is the better one."""
+    _check_seen(pick)
+    after = _with(before, pick)
+    refitted = pick.candidate.effect.acts is not Acts.LINK
+    score = scored(before.unseen(refitted), after.unseen(refitted))
+    history = before.model.history or (_step(before, {n: a for n, (a, _) in score.errors.items()}),)
+    step = dataclasses.replace(
+        _step(after, {n: b for n, (_, b) in score.errors.items()}),
+        effect=pick.candidate.effect.id,
+        joint=pick.candidate.joint,
+        shapes=dict(pick.candidate.shapes),
+        joints=score.errors,
+        changed=score.changed,
+        falls=score.better,
+    )
+    model = dataclasses.replace(after.model, history=(*history, step))
+    return dataclasses.replace(after, model=model), score
 
 
-def _finished(model: IdentifiedModel, history: Sequence[Addition], rows: Rows) -> IdentifiedModel:
-    """The model with its history, the spread along its shapes, and its verdict."""
-    model = dataclasses.replace(model, history=tuple(history))
+def _step(fitted: _Fitted, errors: Mapping[str, float]) -> Addition:
+    """A model as a step of its history.
+
+    Args:
+        fitted: it.
+        errors: relative, by joint, on unseen motion.
+    """
+    training = errors_of(left_of(fitted.model, fitted.rows.compiled, fitted.rows.fitted))
+    return Addition(
+        effect="",
+        joint=None,
+        shapes={},
+        error=rms_error(errors.values()),
+        training_error=rms_error(training.values()),
+        held_out=tuple(log.name for log in fitted.rows.logs.held_out),
+        robot_text=fitted.model.robot_text,
+        delay=fitted.model.processing.delay,
+        joints={name: (error, error) for name, error in errors.items()},
+    )
+
+
+def _with(before: _Fitted, pick: Pick) -> _Fitted:
+    """The model with the effect, fitted."""
+    model, rows, effect = before.model, before.rows, pick.candidate.effect
+    if effect.acts is Acts.LINK:
+        felt = [p.name for p in body_parameters(pick.candidate, pick.state.rows.signals[0])]
+        return _Fitted(_loaded(model, rows.compiled, felt, pick.values), rows)
+    if effect.acts is Acts.TORQUE:
+        seen = pick.state.data.observation.report.processing
+        processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
+        return _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
+    text = described(model.robot_text, pick.candidate, pick.values, pick.state.reference)
+    return _fitted(text, rows.of)
+
+
+def _finished(fitted: _Fitted) -> IdentifiedModel:
+    """The model with the spread along its shapes, and its verdict."""
+    model, rows = fitted.model, fitted.rows
     wide = analysed(rows.compiled, rows.logs.fitted, model.processing, prepared=rows.prepared[0])
     model = with_shapes(model, rows.compiled, wide)
     fit = with_verdict(rows.compiled, rows.fitted, model.fit)
     return dataclasses.replace(model, fit=fit)
 
 
-def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> tuple[IdentifiedModel, Rows]:
-    """The robot of that file fitted to the logs, and their rows."""
+def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> _Fitted:
+    """The robot of that file fitted to the logs."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
     rows = seen(load(emitted.spec, emitted.files))
     fit, used = identify(rows.fitted), provenance(rows.fitted.report)
-    return IdentifiedModel(text, emitted.spec, emitted.files, fit, used), rows
+    return _Fitted(IdentifiedModel(text, emitted.spec, emitted.files, fit, used), rows)
 
 
 def _loaded(
@@ -168,25 +261,3 @@ def _loaded(
     pairs = zip(model.fit.parameters, beta, strict=True)
     parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
     return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))
-
-
-def _step(model: IdentifiedModel, pick: Candidate | None, rows: Rows) -> Addition:
-    """The error of a model, as a step of its history."""
-    training, *held_out = [_error(model, rows.compiled, seen) for seen in rows.seen]
-    return Addition(
-        effect=pick.effect.id if pick else "",
-        joint=pick.joint if pick else None,
-        shapes=dict(pick.shapes) if pick else {},
-        error=held_out[0] if held_out else training,
-        training_error=training,
-        held_out=tuple(log.name for log in rows.logs.held_out),
-        robot_text=model.robot_text,
-        delay=model.processing.delay,
-    )
-
-
-def _error(model: IdentifiedModel, compiled: CompiledModel, seen: Observation) -> float:
-    """Relative error over all joints."""
-    prediction = on_rows(seen, model_torque(seen, compiled, model.beta))
-    check_prediction(prediction)
-    return relative_error(prediction)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from modeler.core.errors import DataError
 from modeler.effects import RIPPLES, Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
+from modeler.improve.passive import passive_joints, plain
 from modeler.robot.place import listed, near
 
 CANNOT = {
@@ -55,6 +56,11 @@ def _check_joint(model: IdentifiedModel, effect: Effect, joint: str) -> None:
             "--joint out"
         )
     names = _places(model, effect)
+    if joint not in names and joint in passive_joints(model.spec) and effect.acts in _JOINTED:
+        raise DataError(
+            f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
+            "write it into the robot file, or add viscous, coulomb or passive_friction"
+        )
     if joint not in names:
         raise DataError(f"--joint {joint}: no such joint; expected one of {listed(names)}")
 
@@ -77,18 +83,17 @@ def _check_absent(model: IdentifiedModel, effect: Effect, joint: str | None) -> 
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
     if joint in present:
         raise DataError(f"{effect.id}: joint {joint} has it in this model already")
-    if joint is None and present and present >= set(_places(model, effect)):
+    motors = {joint.name for joint in model.spec.joints if joint.actuated}
+    if joint is None and present and present >= motors:
         raise DataError(f"{effect.id}: every joint has it in this model already")
 
 
 def _places(model: IdentifiedModel, effect: Effect) -> list[str]:
     """Where the effect may act: joints with a motor, joints that loops leave over, or links."""
-    closure = model.spec.closure
     if effect.acts is Acts.LINK:
         return list(dict.fromkeys(p.joint for p in model.spec.standard if p.effect == "rigid_body"))
-    if effect.acts is not Acts.PASSIVE:
-        return [joint.name for joint in model.spec.joints if joint.actuated]
-    if closure is None:
-        return []
-    driven = {*closure.given, *closure.platform}
-    return [name for place, name in enumerate(closure.variables) if place not in driven]
+    passive = list(passive_joints(model.spec))
+    if effect.acts is Acts.PASSIVE:
+        return passive
+    driven = [joint.name for joint in model.spec.joints if joint.actuated]
+    return driven + passive if plain(effect) else driven

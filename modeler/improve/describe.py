@@ -6,7 +6,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.signals import Reference
 from modeler.diagnose.tilt import tilt_basis
-from modeler.effects import PASSIVE_FRICTION_IS, Acts, Effect
+from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
 
@@ -29,7 +29,7 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: Referen
         return with_gravity(text, _tilted(text, values, reference).tolist())
     if effect.acts is Acts.PASSIVE:
         assert pick.joint is not None
-        return _passive(text, pick.joint)
+        return _passive(text, effect, pick.joint)
     assert pick.joint is not None
     if effect.acts is Acts.MOTOR:
         text = _coupled(text, pick, reference)
@@ -37,12 +37,12 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: Referen
     return with_reference(changed, _referred(reference)) if _depends(effect) else changed
 
 
-def _passive(text: str, joint: str) -> str:
-    """The file with viscous and Coulomb friction on a joint without motor."""
+def _passive(text: str, effect: Effect, joint: str) -> str:
+    """The file with friction on a joint without motor."""
     robot = robot_from_text(text, "robot of the model")
     everyone = [row.name for row in robot.moving if row.actuated]
-    for effect in PASSIVE_FRICTION_IS:
-        text = with_effect(text, effect, joint, {}, everyone)
+    for name in PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,):
+        text = with_effect(text, name, joint, {}, everyone)
     return text
 
 

@@ -1,12 +1,11 @@
 """What the user should know of an effect that was added, beside its error."""
 
-from modeler.diagnose.sentences import percent, where
+from modeler.diagnose.sentences import where
 from modeler.diagnose.values import told_spread
 from modeler.effects import Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel
+from modeler.improve.score import told
 from modeler.robot import robot_from_text
-
-_FALLS = 0.99  # of the error before: anything above is no fall
 
 
 def added(model: IdentifiedModel) -> list[str]:
@@ -44,26 +43,38 @@ def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
     return {name: f" {unit}" for name, unit in units.items() if unit != "1"}
 
 
-def notes(model: IdentifiedModel) -> list[str]:
-    """Sentences on the step that was added last; empty where all is as asked."""
+def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
+    """Sentences on steps that were added: which errors fall, and what is not as asked.
+
+    Args:
+        model: with its history.
+        since: place of the first of them in the history.
+    """
     if len(model.history) < 2:
         return []
-    before, last = model.history[-2:]
-    effect = effect_named(last.effect, robot_from_text(model.robot_text, "robot").catalogue)
-    assert effect is not None
+    catalogue = robot_from_text(model.robot_text, "robot").catalogue
     found = []
-    if _stands_in(effect, last):
-        found.append(
-            f"{effect.id}, {where(last.joint)}: the logs have no column temperature{last.joint} or "
-            "temperature, so the time since their start stands for it; log it to know more"
-        )
-    if last.error > _FALLS * before.error:
-        found.append(
-            f"{effect.id}, {where(last.joint)}: the error does not fall "
-            f"({percent(before.error)} -> {percent(last.error)}); `modeler add MODEL undo` takes "
-            "the effect out again"
-        )
+    for step in model.history[since:]:
+        effect = effect_named(step.effect, catalogue)
+        assert effect is not None
+        name = f"{effect.id}, {where(step.joint)}"
+        if _stands_in(effect, step):
+            found.append(
+                f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
+                "time since their start stands for it; log it to know more"
+            )
+        found.append(_change(name, step))
     return found
+
+
+def _change(name: str, step: Addition) -> str:
+    change = told(step.joints, step.changed)
+    if step.falls:
+        return f"{name}: the error falls: {change}"
+    return (
+        f"{name}: the error does not fall ({change}); `modeler add MODEL undo` takes the effect "
+        "out again"
+    )
 
 
 def _stands_in(effect: Effect, step: Addition) -> bool:

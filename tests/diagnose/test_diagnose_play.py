@@ -39,9 +39,8 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
 
 
 def column(effect, joint, gain, refines=False):
-    return module.Finding(
-        effect, joint, gain, 0.1, 0.05, {}, {}, {}, (), "", 1.0, refines
-    )  # fmt: skip
+    left = 0.1 * (1.0 - gain) ** 0.5
+    return module.Finding(effect, joint, 0.1, left, {}, {}, {}, (), "", 1.0, refines)
 
 
 def said(found, findings=()):

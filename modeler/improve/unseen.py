@@ -1,0 +1,66 @@
+"""What a model leaves of motion that it was not fitted to."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.compiled import CompiledModel
+from modeler.diagnose.blocks import blocks_of
+from modeler.diagnose.gram import base_of, pieces
+from modeler.fit import IdentifiedModel
+from modeler.observation import Observation
+from modeler.observation.torque import model_torque
+
+
+@dataclass(frozen=True, eq=False)
+class Unseen:
+    """Rows of every joint that count; J joints.
+
+    Attributes:
+        names: of the joints.
+        residual: (rows_j,) by joint, measured minus predicted torque, N m or N.
+        torque: (rows_j,) by joint, measured.
+        time: (rows_j,) by joint, s.
+        run: (rows_j,) by joint, index of the log.
+    """
+
+    names: tuple[str, ...]
+    residual: tuple[np.ndarray, ...]
+    torque: tuple[np.ndarray, ...]
+    time: tuple[np.ndarray, ...]
+    run: tuple[np.ndarray, ...]
+
+
+def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:
+    """What it leaves of logs."""
+    left = observation.torque - model_torque(observation, compiled, model.beta)
+    return _rows(observation, [left[own, j] for j, own in enumerate(observation.used.T)])
+
+
+def left_out(model: IdentifiedModel, observation: Observation) -> Unseen:
+    """What it leaves of its own logs, each eighth predicted from a fit to the others."""
+    used = observation.used.T
+    W = [observation.columns[own, j] for j, own in enumerate(used)]
+    y = [observation.torque[own, j] for j, own in enumerate(used)]
+    blocks = blocks_of(observation)
+    number = [blocks.number[own] for own in used]
+    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
+    base = base_of(W, y, sigma, number, blocks.fold)
+    crossed, left = base.crossed, []
+    for j, own in enumerate(number):
+        predicted = np.zeros(len(own))
+        for b, rows in pieces(own):
+            predicted[rows] = base.columns[j][rows] @ crossed.beta[crossed.place[b]]
+        left.append(y[j] - sigma[j] * predicted)
+    return _rows(observation, left)
+
+
+def _rows(observation: Observation, left: list[np.ndarray]) -> Unseen:
+    used = observation.used.T
+    return Unseen(
+        tuple(joint.name for joint in observation.joints),
+        tuple(left),
+        tuple(observation.torque[own, j] for j, own in enumerate(used)),
+        tuple(observation.time[own] for own in used),
+        tuple(observation.run[own] for own in used),
+    )

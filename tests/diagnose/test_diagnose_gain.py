@@ -1,0 +1,59 @@
+"""The gain of an effect is what its two printed errors imply, and nothing else."""
+
+import math
+
+import numpy as np
+import pytest
+
+from modeler.diagnose import diagnose
+from modeler.diagnose.sentences import percent
+from modeler.observation import Log
+from tests.diagnose.conftest import Case, motion, on_joint
+
+
+def coupled(log: Log) -> np.ndarray:
+    """Springs on two joints, friction on the third: what one explains is felt on others."""
+    q, v = motion(log)
+    friction = 2.5 * np.cos(q[:, 0] - 1.0) * np.tanh(v[:, 0] / 0.002)
+    springs = on_joint(log, 2, 1.5 * q[:, 2]) + on_joint(log, 1, 2.0 * np.sin(2.0 * q[:, 1]))
+    return springs + on_joint(log, 0, friction)
+
+
+def gains(log: Log) -> np.ndarray:
+    """A wrong drive gain: the parameters of all joints bend to it."""
+    return on_joint(log, 1, 0.4 * log.tau[:, 1])
+
+
+def late(log: Log) -> np.ndarray:
+    """A delay, and a push."""
+    slope = np.gradient(log.tau, log.time, axis=0)
+    push = np.where((log.time > 8.0) & (log.time < 9.0), 6.0, 0.0)
+    return -0.004 * slope + on_joint(log, 0, push)
+
+
+@pytest.mark.parametrize("held_out", [True, False])
+@pytest.mark.parametrize("hidden", [coupled, gains, late])
+def test_gain_is_computed_from_the_printed_errors(case: Case, hidden, held_out: bool) -> None:  # type: ignore[no-untyped-def]
+    model, train, holdout = case.hidden(hidden)
+    found = diagnose(model, case.compiled, [train], [holdout] if held_out else [])
+    findings = [*found.effects, *found.refinements]
+    assert findings
+    told = found.to_json()
+    for plain, finding in zip([*told["effects"], *told["refinements"]], findings, strict=True):
+        before, after = plain["error_before"], plain["error_after"]
+        assert math.isclose(plain["gain"], 1.0 - (after / before) ** 2, abs_tol=1e-12)
+        if finding.pick is None:
+            assert plain["gain"] == 0.0
+        else:
+            assert f"error {percent(before)} -> {percent(after)} on motion" in finding.evidence
+
+
+def test_an_effect_of_one_joint_has_the_errors_of_that_joint(case: Case) -> None:
+    """Alone, they are those of the table of joints: same rows, same weights."""
+    model, train, holdout = case.hidden(lambda log: on_joint(log, 2, 1.5 * motion(log)[0][:, 2]))
+    found = diagnose(model, case.compiled, [train], [holdout])
+    (first,) = [f for f in found.effects if f.effect == "spring"]
+    joint = found.joints["3"]
+    assert len(found.effects) + len(found.refinements) == 1
+    assert first.error_before == pytest.approx(joint.error_before)
+    assert first.error_after == pytest.approx(joint.error_after)

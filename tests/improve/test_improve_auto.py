@@ -1,0 +1,139 @@
+"""What a diagnosis names goes into the model, if it lowers the error on motion never fitted."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.diagnose import Diagnosis, diagnose
+from modeler.fit import IdentifiedModel
+from modeler.improve import Logs, add_effect, add_findings, notes
+from modeler.improve import add as module
+from modeler.observation import Log
+from tests.diagnose.conftest import Case, motion, on_joint
+from tests.diagnose.conftest import case as case  # the fixture
+
+
+def spring(log: Log) -> np.ndarray:
+    q, _ = motion(log)
+    return on_joint(log, 2, 1.5 * q[:, 2])
+
+
+def two(log: Log) -> np.ndarray:
+    """A spring on joint 3, and friction that depends on the position of joint 1."""
+    q, v = motion(log)
+    friction = 2.5 * np.cos(q[:, 0] - 1.0) * np.tanh(v[:, 0] / 0.002)
+    return spring(log) + on_joint(log, 0, friction)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Found:
+    """A model, its logs and what is missing."""
+
+    model: IdentifiedModel
+    logs: Logs
+    diagnosis: Diagnosis
+
+
+@pytest.fixture(scope="module")
+def sprung(case: Case) -> Found:
+    model, train, holdout = case.hidden(two)
+    logs = Logs([train], [holdout])
+    return Found(model, logs, diagnose(model, case.compiled, logs.fitted, logs.held_out))
+
+
+def test_nothing_is_searched_for_again(
+    case: Case, sprung: Found, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(module, "surveyed")
+    better, left_out = add_findings(
+        sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs
+    )
+    assert {(s.effect, s.joint) for s in better.history[1:]} >= {
+        ("spring", "3"), ("position_friction", "1")
+    }  # fmt: skip
+    assert left_out == ()
+    lines = notes(better, 1)
+    assert len(lines) == len(better.history) - 1
+    assert all("the error falls: joint" in line for line in lines)
+
+
+def test_every_step_lowers_the_error(case: Case, sprung: Found) -> None:
+    every = [*sprung.diagnosis.effects, *sprung.diagnosis.refinements]
+    better, _ = add_findings(sprung.model, case.compiled, every, sprung.logs)
+    errors = [step.error for step in better.history]
+    assert errors == sorted(errors, reverse=True)
+    for step in better.history[1:]:
+        assert step.falls and step.changed
+        assert any(step.joints[joint][1] < step.joints[joint][0] for joint in step.changed)
+
+
+def test_what_holds_on_the_fitted_logs_only_is_left_out(case: Case) -> None:
+    """The held-out run is of a machine without the spring: with it, the error rises there."""
+    model, train, _ = case.hidden(spring)
+    found = diagnose(model, case.compiled, [train])
+    assert ("spring", "3") in {(f.effect, f.joint) for f in found.effects}
+    before = case.fitted(case.train)  # it describes the held-out run, as no spring is in it
+    same, left_out = add_findings(
+        before, case.compiled, found.effects, Logs([train], [case.holdout])
+    )
+    assert same is before
+    assert any("left out: spring, joint 3 (the error rises: joint" in line for line in left_out)
+
+
+def test_an_effect_that_is_not_there_is_added_by_name_and_told(case: Case, sprung: Found) -> None:
+    worse = add_effect(sprung.model, case.compiled, "stribeck", "2", sprung.logs)
+    assert not worse.history[-1].falls
+    (line,) = notes(worse)
+    assert "stribeck, joint 2: the error does not fall (" in line and "undo" in line
+
+
+def test_what_cannot_be_added_is_left_out_with_its_reason(case: Case, sprung: Found) -> None:
+    first = sprung.diagnosis.effects[0]
+    findings = [dataclasses.replace(first, effect="elasticity", joint="2", pick=None), first]
+    better, left_out = add_findings(sprung.model, case.compiled, findings, sprung.logs)
+    assert [step.effect for step in better.history] == ["", first.effect]
+    (line,) = left_out
+    assert line.startswith("left out: elasticity, joint 2 (elasticity: cannot be added (the joint")
+
+
+@pytest.mark.parametrize("refitted", [True, False], ids=["spring", "payload"])
+def test_without_held_out_logs_parts_are_left_out_in_turn(case: Case, refitted: bool) -> None:
+    model, train, _ = case.hidden(spring)
+    effect, joint = ("spring", "3") if refitted else ("payload", None)
+    better = add_effect(model, case.compiled, effect, joint, Logs([train]))
+    step = better.history[-1]
+    assert step.falls is refitted and step.held_out == ()
+    if refitted:  # parameters that see a row describe it a little too well
+        assert step.error > step.training_error
+
+
+def wrong_gain(log: Log) -> np.ndarray:
+    return on_joint(log, 1, 0.5 * log.tau[:, 1])
+
+
+def loaded(log: Log) -> np.ndarray:
+    _, v = motion(log)
+    return on_joint(log, 1, 0.06 * np.abs(log.tau[:, 1]) * np.tanh(v[:, 1] / 0.002))
+
+
+@pytest.mark.parametrize(
+    ("hidden", "effect", "joint", "name"),
+    [
+        (wrong_gain, "drive_gain", "2", "eps2"),
+        (loaded, "load_friction", "2", "mu2"),
+        (spring, "spring", "3", "Ks3"),
+    ],
+)
+def test_add_finds_the_value_that_the_diagnosis_prints(case, hidden, effect, joint, name):  # type: ignore[no-untyped-def]
+    """Effects that read torques are linearised about the model with them, in both."""
+    model, train, holdout = case.hidden(hidden)
+    logs = Logs([train], [holdout])
+    found = diagnose(model, case.compiled, logs.fitted, logs.held_out)
+    named = next(f for f in found.effects if (f.effect, f.joint) == (effect, joint))
+    for better in (
+        add_findings(model, case.compiled, [named], logs)[0],
+        add_effect(model, case.compiled, effect, joint, logs),
+    ):
+        values = {p.name: p.value for p in better.fit.parameters}
+        assert values[name] == pytest.approx(named.parameters[name], rel=0.1)

@@ -1,0 +1,105 @@
+"""Whether a change of a model is for the better: by joint, in units of its error, in blocks."""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from modeler.improve.score import Score, scored, told
+from modeler.improve.unseen import Unseen
+
+RATE, SPAN = 20.0, 30.0
+
+
+def coloured(seed: int, joint: int) -> np.ndarray:
+    """(rows,) residual of rms 1 that lasts for a quarter of a second."""
+    white = np.random.default_rng([seed, joint]).normal(size=int(RATE * SPAN) + 4)
+    smooth = np.convolve(white, np.ones(5) / 5.0, mode="valid")
+    return smooth / np.sqrt(np.mean(smooth**2))
+
+
+def unseen(*residuals: np.ndarray, torque: float = 10.0) -> Unseen:
+    count = len(residuals)
+    time = np.arange(len(residuals[0])) / RATE
+    return Unseen(
+        tuple(str(j + 1) for j in range(count)),
+        residuals,
+        (np.full(len(time), torque),) * count,
+        (time,) * count,
+        (np.zeros(len(time), dtype=int),) * count,
+    )
+
+
+def changed(*factors: float, share: float = 0.0, seed: int = 0) -> Score:
+    """Every joint's residual by a factor, and with a share of something else in it."""
+    old = [coloured(seed, j) for j in range(len(factors))]
+    other = [coloured(seed + 100, j) for j in range(len(factors))]
+    new = [f * (math.sqrt(1.0 - share**2) * e + share * o)
+           for f, e, o in zip(factors, old, other, strict=True)]  # fmt: skip
+    return scored(unseen(*old), unseen(*new))
+
+
+def test_one_joint_that_falls_is_not_drowned_by_others_that_are_larger() -> None:
+    old = [coloured(0, 0), 50.0 * coloured(0, 1)]
+    seen = scored(unseen(*old), unseen(0.6 * old[0], 1.004 * old[1]))
+    assert seen.better and seen.changed == ("1",)
+    assert told(seen.errors, seen.changed) == "joint 1 10 -> 6 %; other joints unchanged"
+
+
+def test_what_rises_is_told_apart() -> None:
+    errors = {"1": (0.03, 0.032), "2": (0.05, 0.02), "3": (0.1, 0.1)}
+    line = told(errors, ("1", "2"))
+    assert line == "joint 2 5 -> 2 %; joint 1 rises, 3 -> 3.2 %; other joints unchanged"
+    assert told(errors, ()) == "no joint changes"
+
+
+def test_a_joint_that_rises_beyond_its_noise_spoils_what_others_gain() -> None:
+    assert changed(0.5, 1.3, 0.5).better
+    refused = changed(0.5, 2.0, 0.2)
+    assert refused.whole.ratio < 1.0 and refused.spoilt and not refused.better
+
+
+def test_a_rise_is_weighed_against_the_falls() -> None:
+    assert not changed(0.9, 1.3).better
+    assert changed(0.5, 1.1).better
+
+
+def test_another_model_that_is_as_good_is_seldom_better() -> None:
+    """Half of the residual is another one: differences as large as chance makes them."""
+    same = [changed(1.0, 1.0, 1.0, share=0.5, seed=1000 * k) for k in range(200)]
+    assert sum(score.better for score in same) < 50
+    assert sum(score.whole.sure for score in same) < 30
+
+
+def test_what_falls_in_a_few_moments_only_is_seen() -> None:
+    """Friction at reversals: nine tenths of the residual lie in a sixth of the time."""
+    noise = coloured(3, 0)
+    burst = np.where(np.arange(len(noise)) % 120 < 20, 8.0 * coloured(4, 0), 0.0)
+    assert scored(unseen(noise + burst), unseen(noise + 0.5 * burst)).better
+
+
+def test_errors_that_are_as_good_as_none_neither_count_nor_spoil() -> None:
+    old = [coloured(0, 0), 1e-6 * coloured(0, 1)]
+    assert scored(unseen(*old), unseen(0.7 * old[0], 10.0 * old[1])).better
+    assert not scored(unseen(*old), unseen(old[0], 0.1 * old[1])).better
+
+
+def test_rows_of_another_grid_are_compared_block_by_block() -> None:
+    """A delay moves the rows: they are no longer the same moments."""
+    old, new = unseen(coloured(0, 0)), unseen(0.6 * coloured(5, 0))
+    moved = dataclasses.replace(new, time=(new.time[0] + 0.013,))
+    thinned = dataclasses.replace(
+        moved,
+        **{name: (getattr(moved, name)[0][::2],) for name in ("residual", "torque", "time", "run")},
+    )
+    assert scored(old, moved).better and scored(old, thinned).better
+
+
+def test_two_logs_may_have_the_same_clock() -> None:
+    one = unseen(coloured(0, 0))
+    rows = len(one.time[0])
+    run = np.repeat([0, 2], [rows // 2, rows - rows // 2])
+    time = np.concatenate([one.time[0][: rows // 2], one.time[0][: rows - rows // 2]])
+    both = dataclasses.replace(one, run=(run,), time=(time,))
+    better = dataclasses.replace(both, residual=(0.6 * both.residual[0],))
+    assert scored(both, better).better
