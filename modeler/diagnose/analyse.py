@@ -39,8 +39,9 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
         return []
     return [
         f"errors and values are those up to {seen.parallel_cutoff:g} Hz, beside all effects "
-        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, elasticity, delays and reversals show above; "
-        f"fit with --parallel-cutoff {fitted.parallel_cutoff:g} to have both alike"
+        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, "
+        "elasticity, delays and reversals show above; fit with --parallel-cutoff "
+        f"{fitted.parallel_cutoff:g} to have both alike"
     ]
 
 
