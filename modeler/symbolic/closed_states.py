@@ -28,7 +28,11 @@ def closing_of(model: SymbolicModel) -> Closing:
     assert closure is not None
     return Closing(
         model.graph, model.geometry.values, closure.equations, closure.jacobian,
+<<<<<<< HEAD
         closure.given, closure.solved, closure.lengths, closure.size,
+=======
+        closure.given, closure.solved, closure.lengths, others=closure.others,
+>>>>>>> 9ddca00 (Two kinds of proof are two types; the independence of base parameters with loops is proven in balls)
     )  # fmt: skip
 
 
