@@ -28,11 +28,7 @@ def closing_of(model: SymbolicModel) -> Closing:
     assert closure is not None
     return Closing(
         model.graph, model.geometry.values, closure.equations, closure.jacobian,
-<<<<<<< HEAD
-        closure.given, closure.solved, closure.lengths, closure.size,
-=======
-        closure.given, closure.solved, closure.lengths, others=closure.others,
->>>>>>> 9ddca00 (Two kinds of proof are two types; the independence of base parameters with loops is proven in balls)
+        closure.given, closure.solved, closure.lengths, closure.size, others=closure.others,
     )  # fmt: skip
 
 
