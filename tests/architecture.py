@@ -31,7 +31,7 @@ PACKAGES: dict[str, set[str]] = {
     "core": {"numpy", "mpmath"},
     "effects": set(),
     "robot": set(),
-    "symbolic": {"numpy", "sympy", "casadi"},
+    "symbolic": {"numpy", "sympy", "casadi", "flint"},
     "base": {"numpy", "sympy"},
     "terms": {"numpy", "sympy"},
     "papers": {"sympy"},
@@ -56,6 +56,7 @@ ONLY_IN = {
     "cffi": ("compiled/bind.py",),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("fit/possible.py",),
+    "flint": ("symbolic/balls.py",),
 }
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

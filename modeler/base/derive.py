@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.base.agreement import torque_agreement
-from modeler.base.certificate import PRIME
+from modeler.base.ball_rank import ball_rank
 from modeler.base.elimination import TooLarge
 from modeler.base.fallback import numeric_grouping
 from modeler.base.field import ExactField, geometry_field
@@ -14,8 +14,8 @@ from modeler.base.grouping import (
     with_closure_relations,
 )
 from modeler.base.numeric import NumericRank, Sample, numeric_rank, sampled
-from modeler.base.proof import Certificate, NotProved, certificate
-from modeler.base.result import BaseParameters, Proof, Sampling
+from modeler.base.proof import NotProved, certificate
+from modeler.base.result import BallRank, BaseParameters, Certificate, Proof, SampledRank, Sampling
 from modeler.symbolic import Geometry, SymbolicModel, exact_geometry
 
 SEED = 20030914
@@ -35,10 +35,20 @@ _TIED = (
 _LOOPS = (
     "Relations: those of the opened tree ({tree}), for every joint that closes a loop those of the "
     "bodies that move alike with both its sides, and around loops those whose energies are "
-    "multiples of the closure equations; all exact in the symbols. That there are no others: at "
-    "random closed postures over the reachable range the torques of the base columns have full "
-    "rank; the last singular value kept is {margin:.0e} times the rounding, and a perturbation "
-    "must be as large as a singular value to lower a rank (Weyl)."
+    "multiples of the closure equations; all exact in the symbols."
+)
+_IN_BALLS = (
+    " Independence: at {where}, a minor of the torques of the base columns is not 0, for all "
+    "numbers that rounding leaves possible (ball arithmetic)."
+)
+_WHERE = {
+    True: "closed postures, proven to exist next to those of the walk (Krawczyk)",
+    False: "states of few digits",
+}
+_SAMPLED = (
+    " Independence is not proven: {why}. At random states the torques of the base columns have "
+    "full rank; the last singular value kept is {margin:.0e} times the rounding, and a "
+    "perturbation must be as large as a singular value to lower a rank (Weyl)."
 )
 _OPEN = {
     False: "link by link over the exact field",
@@ -103,8 +113,9 @@ def _exact(
     """Raises NotProved or TooLarge unless everything agrees."""
     K = geometry_field(geometry)
     relations = _relations(model, geometry, K, numeric, seed)
+    proved: Certificate
     if model.closure is not None:
-        proved = Certificate(numeric.rank, 0)
+        proved = ball_rank(model, relations.kept, sample, seed)
     else:
         proved = certificate(geometry, model.columns, K, relations, seed)
     parameters, unidentifiable = base_from_relations(model.columns, relations, K)
@@ -112,12 +123,13 @@ def _exact(
     if agreement > _AGREEMENT:
         raise NotProved(f"base and standard torque differ by {agreement:.1e}")
     proof = Proof(
-        kind="exact at the given values" if statement else "exact",
-        statement=_statement(model, numeric) + statement + _unproven(model),
-        prime=PRIME,
-        points=proved.points,
+        kind=_kind(proved, at_nominal=bool(statement)),
+        statement=_statement(model)
+        + _independent(model, proved, numeric)
+        + statement
+        + _unproven(model),
+        certificate=proved,
         seed=seed,
-        exact_rank=proved.rank,
         numeric_rank=numeric.rank,
         gap=numeric.gap,
         tolerance=numeric.tolerance,
@@ -143,13 +155,30 @@ def _relations(
     return relations
 
 
-def _statement(model: SymbolicModel, numeric: NumericRank) -> str:
+def _kind(proved: Certificate, at_nominal: bool) -> str:
+    """What is exact, in a word or few."""
+    values = " at the given values" if at_nominal else ""
+    if isinstance(proved, SampledRank):
+        return f"relations exact{values}, rank sampled"
+    return f"exact{values}"
+
+
+def _statement(model: SymbolicModel) -> str:
     """The argument of an exact grouping."""
     tied = model.geometry.tied
     if model.closure is None:
         return _TIED if tied else _EXACT
-    margin = numeric.gap[0] / max(numeric.gap[1], float(np.finfo(float).eps))
-    return _LOOPS.format(tree=_OPEN[tied], margin=margin)
+    return _LOOPS.format(tree=_OPEN[tied])
+
+
+def _independent(model: SymbolicModel, proved: Certificate, numeric: NumericRank) -> str:
+    """The argument of the independence, where relations and independence have two."""
+    if isinstance(proved, BallRank):
+        return _IN_BALLS.format(where=_WHERE[model.closure is not None])
+    if isinstance(proved, SampledRank):
+        margin = numeric.gap[0] / max(numeric.gap[1], float(np.finfo(float).eps))
+        return _SAMPLED.format(why=proved.why, margin=margin)
+    return ""
 
 
 def _unproven(model: SymbolicModel) -> str:
@@ -169,13 +198,14 @@ def _numeric(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
 ) -> BaseParameters:
     found = numeric_grouping(model, sample, numeric)
+    proved = ball_rank(model, [p.column for p in found.parameters], sample, seed)
     proof = Proof(
         kind="numeric",
-        statement=_NUMERIC.format(why=why, bound=found.bound) + _unproven(model),
-        prime=PRIME,
-        points=0,
+        statement=_NUMERIC.format(why=why, bound=found.bound)
+        + _independent(model, proved, numeric)
+        + _unproven(model),
+        certificate=proved,
         seed=seed,
-        exact_rank=0,
         numeric_rank=numeric.rank,
         gap=numeric.gap,
         tolerance=numeric.tolerance,

@@ -75,10 +75,10 @@ def random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) 
         return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
     u = closed_walk(model, samples, rng, _REGULAR).postures
     qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
-    return _carried(model, u, qd, qdd)
+    return carried(model, u, qd, qdd)
 
 
-def _carried(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
+def carried(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
     """The motion of all free variables at closed postures from that of the coordinates."""
     motion = closed_motion(model, u, qd)
     ud = np.einsum("nij,nj->ni", motion.coupling, qd)
@@ -100,7 +100,7 @@ def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
     walk = closed_walk(model, samples, rng)
     qd, qdd = rng.normal(size=(2, len(walk.postures), len(model.closure.given)))
     phi, other = (
-        regressor_values(model, _carried(model, u, qd, qdd))
+        regressor_values(model, carried(model, u, qd, qdd))
         for u in (walk.postures, rounded_off(model, walk.postures, rng))
     )
     lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
@@ -113,6 +113,12 @@ def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
     return Sample(both[0], both[1], walk)
 
 
+def signal_values(model: SymbolicModel, samples: int) -> np.ndarray:
+    """(signals, samples): what effects read besides the motion, positive and of order 1."""
+    shape = (len(model.signals), samples)
+    return np.random.default_rng(samples).uniform(0.1, 1.0, shape)
+
+
 def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
     """(samples, coordinates, columns): the standard regressor at the nominal geometry."""
     q, qd, qdd = states
@@ -122,9 +128,7 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
         for kind, array in (("q", q), ("qd", qd), ("qdd", qdd))
         for i in range(q.shape[1])
     }
-    generator = np.random.default_rng(len(q))
-    for k in range(len(model.signals)):
-        inputs[f"s[{k}]"] = generator.uniform(0.1, 1.0, len(q))
+    inputs |= {f"s[{k}]": values for k, values in enumerate(signal_values(model, len(q)))}
     entries = model.regressor
     phi = np.zeros((*q.shape, len(model.columns)))
     found = model.graph.evaluate(list(entries.values()), {**values, **inputs})

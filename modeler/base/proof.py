@@ -1,12 +1,11 @@
-"""The proof of a grouping: modulo a prime, and in floating point."""
-
-from dataclasses import dataclass
+"""The proof of a grouping modulo a prime."""
 
 import numpy as np
 
 from modeler.base.certificate import PRIME, ModularState, modular_rank
 from modeler.base.field import Element, ExactField
 from modeler.base.grouping import Relations
+from modeler.base.result import ModularRank
 from modeler.base.shafts import friction_relations
 from modeler.effects import EnergyBlock
 from modeler.symbolic import Geometry, StandardColumn, in_block
@@ -18,26 +17,13 @@ class NotProved(Exception):
     """The certificate contradicts the relations; says how."""
 
 
-@dataclass(frozen=True)
-class Certificate:
-    """What was checked modulo the prime.
-
-    Attributes:
-        rank: of the energy rows of the kept columns.
-        points: random states, over all checks.
-    """
-
-    rank: int
-    points: int
-
-
 def certificate(
     geometry: Geometry,
     columns: tuple[StandardColumn, ...],
     K: ExactField,
     relations: Relations,
     seed: int,
-) -> Certificate:
+) -> ModularRank:
     """The relations hold at random states and geometries, and the kept columns are independent.
 
     Raises:
@@ -54,7 +40,7 @@ def certificate(
     rank = _modular_rank(columns, relations, state)
     if rank != len(relations.kept):
         raise NotProved(f"of {len(relations.kept)} columns kept only {rank} are independent")
-    return Certificate(rank, _CHECKS * points)
+    return ModularRank(rank, PRIME, _CHECKS * points, seed)
 
 
 def _check_relations(

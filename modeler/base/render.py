@@ -4,7 +4,16 @@ import textwrap
 from typing import Any
 
 from modeler.base.relation_text import coefficient_text, relation_latex, relation_text
-from modeler.base.result import BaseParameters, Proof, Sampling
+from modeler.base.result import (
+    BallRank,
+    BaseParameters,
+    Certificate,
+    ExactState,
+    ModularRank,
+    Proof,
+    SampledRank,
+    Sampling,
+)
 
 _WIDTH = 96
 
@@ -61,17 +70,40 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
 
 
 def _certificate(proof: Proof) -> dict[str, Any]:
+    found = proof.certificate
+    modular = found if isinstance(found, ModularRank) else None
     return {
         "statement": proof.statement,
-        "prime": proof.prime,
-        "points": proof.points,
+        "prime": modular and modular.prime,
+        "points": modular and modular.points,
         "seed": proof.seed,
-        "exact_rank": proof.exact_rank,
+        "exact_rank": None if isinstance(found, SampledRank) else found.rank,
+        "independence": _independence(found),
         "numeric_rank": proof.numeric_rank,
         "tolerance": proof.tolerance,
         "scale": proof.scale,
         "base_against_standard_torque": proof.agreement,
         "sampling": None if proof.sampling is None else _sampling(proof.sampling),
+    }
+
+
+def _independence(found: Certificate) -> dict[str, Any]:
+    told: dict[str, Any] = {"rank": found.rank, "seed": found.seed}
+    if isinstance(found, ModularRank):
+        return {"kind": "modular", **told, "prime": found.prime, "points": found.points}
+    if isinstance(found, SampledRank):
+        return {"kind": "sampled", **told, "why": found.why}
+    states = [_state(state) for state in found.states]
+    rows = [list(row) for row in found.rows]
+    return {"kind": "balls", **told, "bits": found.bits, "states": states, "rows": rows}
+
+
+def _state(state: ExactState) -> dict[str, Any]:
+    return {
+        "positions": dict(state.positions),
+        "speeds": dict(state.speeds),
+        "accelerations": dict(state.accelerations),
+        "signals": list(state.signals),
     }
 
 
@@ -86,12 +118,8 @@ def _sampling(sampling: Sampling) -> dict[str, Any]:
 def proof_text(proof: Proof) -> str:
     """The proof in a few lines."""
     paragraphs = [f"proof: {proof.kind}. {proof.statement}"]
-    if proof.points:
-        paragraphs.append(
-            f"rank {proof.exact_rank} modulo {proof.prime} ({proof.points} random points, seed "
-            f"{proof.seed})"
-        )
     paragraphs += [
+        _independence_text(proof.certificate),
         f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
         f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
         f"{proof.tolerance:g} of the largest; {proof.scale}",
@@ -99,6 +127,20 @@ def proof_text(proof: Proof) -> str:
         f"base torque against standard torque: {proof.agreement:.1e} of the largest",
     ]
     return "\n".join(textwrap.fill(text, _WIDTH) for text in paragraphs)
+
+
+def _independence_text(found: Certificate) -> str:
+    if isinstance(found, ModularRank):
+        return (
+            f"rank {found.rank} modulo {found.prime} ({found.points} random points, seed "
+            f"{found.seed})"
+        )
+    if isinstance(found, BallRank):
+        return (
+            f"rank {found.rank} in balls of {found.bits} bits (a minor of {found.rank} rows at "
+            f"{len(found.states)} exact states, seed {found.seed}; --json lists them)"
+        )
+    return f"rank {found.rank} in floating point only (seed {found.seed}): {found.why}"
 
 
 def _sampling_text(sampling: Sampling, seed: int) -> str:

@@ -46,16 +46,87 @@ class Sampling:
 
 
 @dataclass(frozen=True)
+class ModularRank:
+    """Independence proven modulo a prime: a minor that is not 0 there is not 0.
+
+    Attributes:
+        rank: of the energy rows of the base columns.
+        prime: modulus.
+        points: random states and geometries, over all checks of the relations.
+        seed: of these.
+    """
+
+    rank: int
+    prime: int
+    points: int
+    seed: int
+
+
+@dataclass(frozen=True)
+class ExactState:
+    """A state of a ball certificate: doubles that are meant to the last digit.
+
+    Attributes:
+        positions: of all free joints, rad or m, by name. With loops those of the actuated joints
+            are exact; the passive ones are near to the posture that is meant.
+        speeds: of the actuated joints, rad/s or m/s.
+        accelerations: of the actuated joints, rad/s2 or m/s2.
+        signals: what effects read besides the motion.
+    """
+
+    positions: Mapping[str, float]
+    speeds: Mapping[str, float]
+    accelerations: Mapping[str, float]
+    signals: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class BallRank:
+    """Independence proven in ball arithmetic: a minor of the torques whose ball excludes 0.
+
+    Attributes:
+        rank: of the torques of the base columns.
+        bits: precision of the balls.
+        seed: of the states.
+        states: at which the rows are taken.
+        rows: (number of the state, actuated joint) of every row of the minor.
+    """
+
+    rank: int
+    bits: int
+    seed: int
+    states: tuple[ExactState, ...]
+    rows: tuple[tuple[int, str], ...]
+
+
+@dataclass(frozen=True)
+class SampledRank:
+    """Independence seen at random states in floating point, not proven.
+
+    Attributes:
+        rank: of the torques in floating point.
+        seed: of the states.
+        why: what a proof lacks.
+    """
+
+    rank: int
+    seed: int
+    why: str
+
+
+Certificate = ModularRank | BallRank | SampledRank
+"""Why the base columns are independent."""
+
+
+@dataclass(frozen=True)
 class Proof:
     """Why the base parameters are right, and what anyone needs to check it again.
 
     Attributes:
         kind: "exact" if relations and independence are both proved.
         statement: the argument in one or two sentences.
-        prime: modulus of the certificate.
-        points: number of random states of the certificate.
+        certificate: of the independence.
         seed: of all random states.
-        exact_rank: rank of the energy rows modulo the prime at generic geometry.
         numeric_rank: rank of the torque regressor in floating point at the nominal geometry.
         gap: (last kept, first dropped) singular value, columns scaled to unit length; the second is
             0.0 if nothing was dropped.
@@ -67,10 +138,8 @@ class Proof:
 
     kind: str
     statement: str
-    prime: int
-    points: int
+    certificate: Certificate
     seed: int
-    exact_rank: int
     numeric_rank: int
     gap: tuple[float, float]
     tolerance: float

@@ -28,7 +28,7 @@ def closing_of(model: SymbolicModel) -> Closing:
     assert closure is not None
     return Closing(
         model.graph, model.geometry.values, closure.equations, closure.jacobian,
-        closure.given, closure.solved, closure.lengths, closure.size,
+        closure.given, closure.solved, closure.lengths, closure.size, others=closure.others,
     )  # fmt: skip
 
 

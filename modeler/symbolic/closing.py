@@ -52,6 +52,8 @@ class Closing:
         lengths: by u, True for a travel in m.
         size: of the robot, m: the longest way from a frame to the next with all joints at 0.
         alignments: positive where the loops are closed as meant.
+        others: equations that follow from `equations` where the loops are closed, but perhaps not
+            where these alone hold.
     """
 
     graph: Graph
@@ -63,6 +65,7 @@ class Closing:
     lengths: tuple[bool, ...]
     size: float
     alignments: Sequence[Expr] = ()
+    others: Sequence[Expr] = ()
 
     @property
     def unknowns(self) -> int:
@@ -90,6 +93,11 @@ class Closing:
     def residuals(self, u: np.ndarray) -> np.ndarray:
         """(n, equations) of (n, unknowns)."""
         return self.evaluate(self.equations, u)
+
+    def openness(self, u: np.ndarray) -> np.ndarray:
+        """(n,) largest residual, that of the other equations included."""
+        found = self.evaluate([*self.equations, *self.others], u)
+        return np.asarray(np.max(np.abs(found), axis=1, initial=0.0))
 
     def aligned(self, u: np.ndarray) -> np.ndarray:
         """(n,) True where no loop is closed with axes opposite; NaN postures are not."""

@@ -75,6 +75,12 @@ class Closure:
         """Number of equations that follow from the others."""
         return len(self.every) - len(self.equations)
 
+    @property
+    def others(self) -> tuple[Expr, ...]:
+        """The equations that follow from the independent ones."""
+        held = {equation.ref for equation in self.equations}
+        return tuple(equation for equation in self.every if equation.ref not in held)
+
 
 def closure_of(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra

@@ -3,7 +3,8 @@
 One step solves the linearised loops for the passive joints, J_s du_s = -f - J_q dq: prediction of
 the motion dq and correction of what the step before left open, in one. A walker whose step leaves
 the loops wide open, whose determinant of J_s changes sign or whose passive joints run away goes
-back and takes another direction: it never passes to another assembly mode.
+back and takes another direction: it never passes to another assembly mode. Equations that follow
+from the others near home count as open loops where they no longer do.
 """
 
 from collections.abc import Sequence
@@ -89,7 +90,7 @@ def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
     for _ in range(_POLISHING):
         inner = closing.jacobians(u)[:, :, solved]
         u[:, solved] -= np.linalg.solve(inner, closing.residuals(u)[:, :, None])[:, :, 0]
-    left = np.max(np.abs(closing.residuals(u)), axis=1, initial=0.0)
+    left = closing.openness(u)
     far = np.abs(u - start) / closing.scale
     return u[(left < _CLOSED * closing.size) & (np.max(far, axis=1) < _STEP)]
 
@@ -122,7 +123,7 @@ class _Paths:
     def step(self) -> np.ndarray:
         """One step of every walker; the postures, all but closed, that are reached by it."""
         f, J, sign = self._linearised(self.u)
-        lost = np.max(np.abs(f), axis=1) > _OPEN * self.closing.size
+        lost = self.closing.openness(self.u) > _OPEN * self.closing.size
         lost |= (sign != self.sign) | self._outside(self.u)
         self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
         stuck = self.pace < _SLOWEST

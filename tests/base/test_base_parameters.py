@@ -46,7 +46,7 @@ def test_base_torque_is_standard_torque(name):
     base = derive(read_robot(name))
     assert base.proof.kind == "exact"
     assert base.proof.agreement < 1e-12
-    assert base.proof.numeric_rank == base.proof.exact_rank == base.rank
+    assert base.proof.numeric_rank == base.proof.certificate.rank == base.rank
     last, first = base.proof.gap
     assert first < 1e-9 * last
 

@@ -18,7 +18,7 @@ from modeler.simulate import HIDDEN
 
 LONG = {
     "sympy", "numpy", "scipy", "casadi", "pyarrow", "matplotlib", "plotly", "rich", "jinja2",
-    "cffi", "threadpoolctl",
+    "cffi", "threadpoolctl", "flint",
 }  # fmt: skip
 
 _TRACED = """
@@ -67,7 +67,7 @@ def test_what_answers_at_once_loads_nothing_long(words, status) -> None:
 
 def test_long_packages_would_be_noticed() -> None:
     status, _, packages = loaded("derive", "two-link", "--no-terms")
-    assert status == 0 and packages >= {"sympy", "numpy"}
+    assert status == 0 and packages >= {"sympy", "numpy", "flint"}
 
 
 def test_choices_are_those_that_commands_know() -> None:

@@ -106,7 +106,7 @@ def test_numbers_keep_the_structure_of_a_loop():
     twin = robot_from_text(f"{found.text}\n[home]\n{home}\n", "twin")
     base = derive(twin).base
     assert base.rank == derive(robot).base.rank == 39
-    assert base.proof.exact_rank == 39
+    assert base.proof.certificate.rank == 39
     assert any(note.startswith("lengths of one loop that are equal") for note in found.notes)
     assert len(twin.symbols) == 6  # g, D2, D3, D4, R4, D8: RL4 is on no loop, and no length of it
 
@@ -355,7 +355,7 @@ def test_cut_joints_are_loops():
     by_hand = HAND_BOOM.format(**values) + "\n".join(lines.splitlines()[:3])
     expected = as_json("boom", derive(robot_from_text(by_hand, "by hand")).base)
     assert as_json("boom", base)["base"] == expected["base"]
-    assert base.proof.exact_rank == base.rank
+    assert base.proof.certificate.rank == base.rank
     assert any("[home]" in note for note in found.notes)
 
 

@@ -1,0 +1,172 @@
+"""The rank of robots with loops, proven in balls: all of them, and never what is not so."""
+
+import json
+
+import numpy as np
+import pytest
+
+from modeler.base import ball_rank as balls
+from modeler.base import base_parameters
+from modeler.base.ball_rank import ball_rank
+from modeler.base.numeric import carried, regressor_values, sampled
+from modeler.base.render import as_json, proof_text
+from modeler.base.result import BallRank, ModularRank, SampledRank
+from modeler.robot import read_robot, robot_from_text
+from modeler.symbolic import derive_model
+from modeler.symbolic.balls import flint, symbol_balls
+from modeler.symbolic.closed_states import closed_walk, closing_of
+from modeler.symbolic.enclosed import Enclosures, NotEnclosed
+from tests.base.test_hard_tables import CASES, model_of
+from tests.loops.test_loops_implied import FOUR_BAR
+from tests.modules import module
+from tests.robots import ROBOTS
+
+SEED = 11
+
+BENNETT = """
+name = "bennett"
+gravity = [0, 0, "-g"]
+[symbols]
+g = 9.81
+al = 0.5
+be = 1.1
+a = 0.3
+b = "a*sin(be)/sin(al)"
+[mdh]
+columns = ["j", "a", "mu", "sigma", "alpha", "d", "theta"]
+rows = [
+    ["1", "0", 1, 0, 0, 0, "q1"],
+    ["2", "1", 0, 0, "al", "a", "q2"],
+    ["3", "2", 0, 0, "be", "b", "q3"],
+    ["3e", "3", 0, 2, "al", "a", 0],
+    ["0e", "0", 0, 2, "-be", "-b", 0],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["L", "3e", "0e", "revolute"]]
+[home]
+q1 = 0.8
+"""
+"""Closed at these lengths only: three of five equations follow from the others near home."""
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_every_built_in_robot_is_certified(name):
+    model, base, _ = module(name)
+    found = base.proof.certificate
+    assert isinstance(found, ModularRank if model.closure is None else BallRank)
+    assert found.rank == base.rank and base.proof.kind == "exact"
+    told = as_json(name, base)["certificate"]
+    assert told["exact_rank"] == base.rank
+    assert (told["prime"] is None) == (model.closure is not None)
+
+
+def test_further_robots_are_certified_or_say_why(loop_robots_folder):
+    for path in loop_robots_folder.all():
+        base = base_parameters(derive_model(read_robot(str(path))))
+        found = base.proof.certificate
+        assert found.rank == base.rank, path.name
+        assert not isinstance(found, SampledRank), (path.name, found.why)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "delta", "orthoglide-2012"])
+def test_dependent_columns_are_not_certified(name):
+    """One column more than the base, which others make up; one without any effect."""
+    model, base, _ = module(name)
+    kept = [parameter.column for parameter in base.parameters]
+    sample = sampled(model, 60, SEED)
+    assert isinstance(ball_rank(model, kept, sample, SEED), BallRank)
+    grouped = {term.parameter for p in base.parameters for term in p.terms[1:]}
+    one = next(i for i, name in enumerate(model.names) if name in grouped)
+    found = ball_rank(model, [*kept, one], sample, SEED)
+    assert isinstance(found, SampledRank) and "hold a singular matrix" in found.why
+    nothing = model.names.index(base.unidentifiable[0])
+    found = ball_rank(model, [*kept, nothing], sample, SEED)
+    assert isinstance(found, SampledRank)
+
+
+def test_postures_off_the_loops_are_not_enclosed():
+    model = module("delta").model
+    (u,) = closed_walk(model, 1, np.random.default_rng(2)).postures
+    with flint().ctx.workprec(128):
+        enclosures = Enclosures(model, symbol_balls(model.robot), None)
+        q = enclosures.posture(u)
+        values = enclosures.equations({f"q[{k}]": x for k, x in enumerate(q)})
+        assert all(x.contains(0) and float(x.rad()) < 1e-30 for x in values)
+        off = u.copy()
+        off[model.closure.solved[0]] += 1e-4
+        with pytest.raises(NotEnclosed, match="do not close within"):
+            enclosures.posture(off)
+        far = u.copy()
+        far[list(model.closure.given)] += 2.5  # out of reach
+        with pytest.raises(NotEnclosed):
+            enclosures.posture(far)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "delta", "evra"])
+def test_anyone_can_run_the_certificate_again(name):
+    """From the JSON alone, in floating point: the rows that it names have full rank."""
+    model, base, _ = module(name)
+    told = json.loads(json.dumps(as_json(name, base)["certificate"]["independence"]))
+    states = told["states"]
+    free = [joint.name for joint in model.robot.free]
+    names = [joint.name for joint in model.robot.coordinates]
+    u = np.array([[state["positions"][k] for k in free] for state in states])
+    qd, qdd = (
+        np.array([[state[kind][k] for k in names] for state in states])
+        for kind in ("speeds", "accelerations")
+    )
+    closed = closing_of(model).closed(u)
+    assert np.max(np.abs(closed - u)) < 1e-4
+    phi = regressor_values(model, carried(model, closed, qd, qdd))
+    rows = [phi[i, names.index(joint)] for i, joint in told["rows"]]
+    W = np.array(rows)[:, [parameter.column for parameter in base.parameters]]
+    assert told["kind"] == "balls" and W.shape == (base.rank, base.rank)
+    assert np.linalg.matrix_rank(W / np.linalg.norm(W, axis=0), tol=1e-12) == base.rank
+
+
+def test_more_bits_are_taken_where_few_do_not_do(monkeypatch):
+    model, base, _ = module("five-bar")
+    kept = [parameter.column for parameter in base.parameters]
+    monkeypatch.setattr(balls, "_BITS", (12, 128))
+    found = ball_rank(model, kept, sampled(model, 60, SEED), SEED)
+    assert isinstance(found, BallRank) and found.bits == 128
+
+
+def test_what_is_sampled_only_says_so(monkeypatch):
+    monkeypatch.setattr(balls, "_BITS", (12,))
+    model = module("five-bar").model
+    base = base_parameters(model)
+    assert base.rank == 11 and base.proof.kind == "relations exact, rank sampled"
+    text = " ".join(proof_text(base.proof).split())
+    assert "Independence is not proven" in text and "rank 11 in floating point only" in text
+    told = as_json("five-bar", base)["certificate"]
+    assert told["prime"] is told["exact_rank"] is told["points"] is None
+    assert told["independence"]["kind"] == "sampled" and told["independence"]["why"]
+
+
+def test_equations_that_a_planar_loop_repeats_are_implied():
+    """The swinging four-bar closes in three equations, of which its plane makes one."""
+    model = derive_model(robot_from_text(FOUR_BAR, "four-bar"))
+    assert model.closure.redundant == 1
+    assert isinstance(base_parameters(model).proof.certificate, BallRank)
+
+
+def test_equations_that_follow_for_other_reasons_are_not_taken_for_implied():
+    """The Bennett linkage: rank 7 as the torques have it at postures that close all equations."""
+    model = derive_model(robot_from_text(BENNETT, "bennett"))
+    walk = closed_walk(model, 60, np.random.default_rng(3))
+    assert np.max(closing_of(model).openness(walk.postures)) < 1e-12
+    base = base_parameters(model)
+    found = base.proof.certificate
+    assert base.rank == 7 and isinstance(found, SampledRank)
+    assert "3 closure equations seem to follow from the others" in found.why
+
+
+def test_numbers_without_loops_have_a_proven_lower_bound():
+    rows, gravity, more, rank, kind = CASES["tilted base, radicals"]
+    base = base_parameters(model_of(rows, gravity, more))
+    found = base.proof.certificate
+    assert (base.rank, base.proof.kind) == (rank, kind)
+    assert isinstance(found, BallRank) and found.rank == rank
+    assert "states of few digits" in proof_text(base.proof)
