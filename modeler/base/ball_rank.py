@@ -17,7 +17,6 @@ from modeler.symbolic import SymbolicModel
 from modeler.symbolic.balls import BallFunction, exact_ball, flint, proven_regular, symbol_balls
 from modeler.symbolic.closed_states import closing_of
 from modeler.symbolic.enclosed import Enclosures, NotEnclosed
-from modeler.symbolic.redundant import Redundant
 
 _BITS = (128, 256, 512)
 _DIGITS = 6
@@ -38,9 +37,9 @@ def ball_rank(
         sample: whose closed postures are used.
         seed: of the states.
     """
-    redundant = Redundant(model) if model.closure and model.closure.redundant else None
-    if redundant and redundant.unproven:
-        why = f"{redundant.unproven} closure equations seem to follow from the others, unproven"
+    if model.closure and model.closure.redundant:
+        count = model.closure.redundant
+        why = f"{count} closure equations seem to follow from the others, unproven"
         return SampledRank(len(kept), seed, why)
     choice = _Choice(model, kept, sample, seed)
     if len(choice.rows) < len(kept):
@@ -49,7 +48,7 @@ def ball_rank(
     for bits in _BITS:
         with flint().ctx.workprec(bits):
             try:
-                matrix = choice.matrix(redundant)
+                matrix = choice.matrix()
             except NotEnclosed as error:
                 why = str(error)
                 continue
@@ -118,7 +117,7 @@ class _Choice:
             for i in self.used
         )
 
-    def matrix(self, redundant: Redundant | None) -> list[list[Any]]:
+    def matrix(self) -> list[list[Any]]:
         """The chosen rows in balls, columns scaled.
 
         Raises:
@@ -126,7 +125,7 @@ class _Choice:
         """
         model = self.model
         symbols = symbol_balls(model.robot)
-        enclosures = Enclosures(model, symbols, redundant)
+        enclosures = Enclosures(model, symbols)
         place = {column: i for i, column in enumerate(self.kept)}
         entries = {at: x for at, x in model.regressor.items() if at[1] in place}
         regressor = BallFunction(model.graph, list(entries.values()), symbols)

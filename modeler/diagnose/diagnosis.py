@@ -57,11 +57,9 @@ def diagnose(
     Raises:
         DataError: no usable row.
     """
-    known = known or Known()
-    without = _ids(without, known.catalogue)
     seen = analysed(compiled, logs, model.processing)
-    data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known)
-    other = _held_out(data, holdout)
+    data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
+    without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = _faults(model, compiled, seen, other)
     options = model.beta, without, 0 if any(f.certain for f in doubted) else most, progress
     found = _searched(data, other, *options)
@@ -72,8 +70,8 @@ def diagnose(
     window = _push(data, found) if CONTACT not in without else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
-    looks = _looks(data, logs, other, window) if found.steps else []
-    diagnosis = assembled(model, found, other, window, looked_again(found, looks), doubted)
+    looks = looked_again(found, _looks(data, logs, other, window) if found.steps else [])
+    diagnosis = assembled(model, found, other, window, looks, doubted)
     return _told(diagnosis, model, data)
 
 

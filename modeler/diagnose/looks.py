@@ -94,13 +94,22 @@ def looked_again(found: Search, looks: Sequence[tuple[str, Data]]) -> list[tuple
 
 def _look(what: str, data: Data, found: Search, place: int) -> Look:
     step = found.steps[place]
-    state = _beside_earlier(data, [s.pick for s in found.steps[:place]], step.before)
+    picks = [s.pick for s in found.steps[: place + 1]]
+    if not all(_logged(data, pick) for pick in picks):
+        return Look(what, None, True)
+    state = _beside_earlier(data, picks[:-1], step.before)
     judged = _asked_again(state, step, found)
     best = decide(state, judged).best
     if best is None:
         return Look(what, None, True)
     alike = {best.candidate.key, *(j.candidate.key for j in tied(best, judged))}
     return Look(what, best.candidate.key, step.pick.key in alike)
+
+
+def _logged(data: Data, candidate: Candidate) -> bool:
+    """False for what reads a temperature that these logs lack."""
+    temperature = data.rows.signals[0].reference.temperature
+    return "T" not in candidate.form.names or candidate.joint in temperature
 
 
 def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
@@ -116,7 +125,7 @@ def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     first = [step.pick, *rivals]
     keys = {c.key for c in first}
     again = [c for c in proposals(state, None, found.without) if c.key in keys]
-    every = [*first, *again]
+    every = [c for c in (*first, *again) if _logged(state.data, c)]
     columns = [columns_of(state.rows, c, state.cache) for c in every]
     seen = [i for i, c in enumerate(columns) if visible(c)]
     return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])

@@ -18,7 +18,6 @@ import numpy as np
 from modeler.symbolic.balls import Ball, BallFunction, exact_ball, flint
 from modeler.symbolic.closed_states import closing_of
 from modeler.symbolic.model import SymbolicModel
-from modeler.symbolic.redundant import Redundant
 
 _STEPS = 40
 _NEAR = 1e-6
@@ -45,18 +44,15 @@ class NotEnclosed(Exception):
 class Enclosures:
     """States of a model in balls, at the precision of the caller."""
 
-    def __init__(
-        self, model: SymbolicModel, symbols: Mapping[str, Ball], redundant: Redundant | None
-    ) -> None:
+    def __init__(self, model: SymbolicModel, symbols: Mapping[str, Ball]) -> None:
         """For a model, with or without loops.
 
         Args:
             model: of the robot.
             symbols: balls of its symbols.
-            redundant: the equations that must follow from the others; None without loops.
         """
         self.model, self.closure = model, model.closure
-        self.symbols, self.redundant = symbols, redundant
+        self.symbols = symbols
         self.bits = int(flint().ctx.prec)
         if self.closure is not None:
             slopes = [entry for line in self.closure.jacobian for entry in line]
@@ -107,8 +103,6 @@ class Enclosures:
         q = _with(q, solved, image)
         if not all(x > 0 for x in self.alignments(_inputs(q=q))):
             raise NotEnclosed("a loop may be closed with axes opposite")
-        if self.redundant and not self.redundant.follow(self.symbols, _inputs(q=q)):
-            raise NotEnclosed("a closure equation may not follow from the others at a posture")
         return q
 
     def _settled(self, q: list[Ball], Y: Ball) -> list[Ball]:

@@ -118,7 +118,7 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
 @pytest.mark.parametrize(("agrees", "said"), [(True, "missing"), (False, "closest description")])
 def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: str) -> None:
     looks = (Look("held out", ("spring", "2"), True), Look("low", ("stribeck", "1"), agrees))
-    first = Finding("spring", "2", 0.5, 0.2, 0.1, {}, {}, {}, (), "", 1.0, False, looks=looks)
+    first = Finding("spring", "2", 0.2, 0.1, {}, {}, {}, (), "", 1.0, False, looks=looks)
     joints = {"1": SimpleNamespace(error_after=0.1, unexplained=False)}
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
     assert (other_names(first) == "") is agrees
