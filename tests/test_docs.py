@@ -8,7 +8,7 @@ import os
 import re
 import shlex
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -70,6 +70,11 @@ def _words(line: str) -> list[str]:
     return _FLOAT.sub(" # ", line).split()
 
 
+def _bare(line: str) -> list[str]:
+    """The words without counts."""
+    return re.sub(r"\d+", "#", _FLOAT.sub("#", line)).split()
+
+
 def _near(shown: str, printed: str) -> bool:
     a, b = float(shown), float(printed)
     mantissa, _, exponent = shown.partition("e")
@@ -95,6 +100,10 @@ def missing(shown: list[str], printed: list[str]) -> str | None:
     return None
 
 
+def _place(words: Callable[[str], list[str]], line: str, printed: list[str], at: int) -> int | None:
+    return next((i for i in range(at, len(printed)) if words(printed[i]) == words(line)), None)
+
+
 def renewed(shown: list[str], printed: list[str]) -> list[str]:
     """The shown lines with the numbers that are printed now, where they differ by more than that.
 
@@ -102,8 +111,10 @@ def renewed(shown: list[str], printed: list[str]) -> list[str]:
     """
     at, lines = 0, []
     for line in shown:
-        found = next((i for i in range(at, len(printed)) if _words(printed[i]) == _words(line)), -1)
-        if found < 0:
+        found = _place(_words, line, printed, at)
+        if found is None:
+            found = _place(_bare, line, printed, at)
+        if found is None:
             lines.append(line)
             continue
         lines.append(line if same(line, printed[found]) else printed[found])
