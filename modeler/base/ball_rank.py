@@ -16,6 +16,7 @@ from modeler.base.result import BallRank, ExactState, SampledRank
 from modeler.symbolic import SymbolicModel
 from modeler.symbolic.balls import BallFunction, exact_ball, flint, proven_regular, symbol_balls
 from modeler.symbolic.closed_states import closing_of
+from modeler.symbolic.constants import surely_zero
 from modeler.symbolic.enclosed import Enclosures, NotEnclosed
 
 _BITS = (128, 256, 512)
@@ -37,8 +38,9 @@ def ball_rank(
         sample: whose closed postures are used.
         seed: of the states.
     """
-    if model.closure and model.closure.redundant:
-        count = model.closure.redundant
+    over = model.closure.others if model.closure else ()
+    count = sum(not surely_zero(equation, model.robot) for equation in over)
+    if count:
         why = f"{count} closure equations seem to follow from the others, unproven"
         return SampledRank(len(kept), seed, why)
     choice = _Choice(model, kept, sample, seed)

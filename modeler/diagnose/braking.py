@@ -29,6 +29,8 @@ def drives(before: State, after: State, pick: Candidate) -> bool:
     if pick.effect.family != "friction" or not pick.local:
         return False
     j = pick.index
+    if not _own(after, j):
+        return False  # a model without friction says nothing of the whole
     left = float(np.sqrt(np.mean(after.residual[j] ** 2)))
     own = [k for k, other in enumerate(after.picks) if _brakes(other, j)]
     worst = _driving(after, j, own)
@@ -57,10 +59,15 @@ def _driving(state: State, j: int, picks: Sequence[int]) -> float:
     return float(np.sqrt(np.mean(np.minimum(0.0, _friction(state, j, picks) * way) ** 2)))
 
 
+def _own(state: State, j: int) -> list[int]:
+    """Base columns of the friction of joint j alone."""
+    base = state.data.compiled.spec.base
+    return [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
+
+
 def _friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
     """(rows_j,) friction torque of joint j, N m or N: of the model and some of the picks."""
-    base = state.data.compiled.spec.base
-    own = [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
+    own = _own(state, j)
     torque = state.rows.W[j][:, own] @ state.beta[own]
     for k in picks:
         columns = state.extra[k][j]

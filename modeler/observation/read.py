@@ -88,13 +88,13 @@ def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
             f"{table.path}: no column {name}: joint {joint.name} of {spec.robot} is passive and "
             "its position must be logged, or computed from the closed loops before; add the column"
         )
-    return table.numbers(name)
+    return table.measured(name)
 
 
 def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
     tau, current = f"tau{joint.name}", f"current{joint.name}"
     if tau in table:
-        return table.numbers(tau), tau
+        return table.measured(tau), tau
     if current in table:
         if joint.drive_gain is None:
             raise DataError(
@@ -102,7 +102,7 @@ def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarra
                 f"for joint {joint.name}; write [drive_gains] {joint.name} = torque per unit in "
                 f"the robot file, or log {tau}"
             )
-        return joint.drive_gain * table.numbers(current), f"{current} x {joint.drive_gain:g}"
+        return joint.drive_gain * table.measured(current), f"{current} x {joint.drive_gain:g}"
     if not joint.actuated:
         return np.zeros(table.rows), "0 (passive)"
     raise DataError(
@@ -115,7 +115,7 @@ def _optional(table: Table, prefix: str, spec: ModuleSpec, notes: list[str]) -> 
     names = [f"{prefix}{joint.name}" for joint in spec.joints]
     there = [name for name in names if name in table]
     if len(there) == len(names):
-        return np.column_stack([table.numbers(name) for name in names])
+        return np.column_stack([table.measured(name) for name in names])
     if there:
         absent = [name for name in names if name not in table]
         notes.append(
@@ -150,7 +150,7 @@ def _extra(table: Table, spec: ModuleSpec, notes: list[str]) -> dict[str, np.nda
     text = [name for name in others if not table.is_numeric(name)]
     if text:
         notes.append(f"{', '.join(text)} not numeric, left out")
-    found = {name: table.numbers(name) for name in others if name not in text}
+    found = {name: table.measured(name) for name in others if name not in text}
     return found | _temperatures(table, found, notes)
 
 
@@ -176,7 +176,7 @@ def _temperatures(
 
 def _missing(table: Table, spec: ModuleSpec) -> dict[str, int]:
     names = [name for name in table.names if name in _used_names(spec) and table.is_numeric(name)]
-    counts = {name: int(np.isnan(table.numbers(name)).sum()) for name in names}
+    counts = {name: int(np.isnan(table.measured(name)).sum()) for name in names}
     return {name: count for name, count in counts.items() if count}
 
 

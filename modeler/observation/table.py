@@ -12,7 +12,7 @@ import pyarrow.parquet
 from modeler.core.errors import DataError
 from modeler.observation.csv_text import check_csv
 
-_TINY = 1e-100  # in any unit; the square of what is measured smaller is no number any more
+_TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
 
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
@@ -55,7 +55,7 @@ class Table:
         )
 
     def numbers(self, name: str) -> np.ndarray:
-        """The column as floats, (rows,); null, NaN and infinite entries are NaN, specks are 0.
+        """The column as floats, (rows,); null, NaN and infinite entries are NaN.
 
         Raises:
             DataError: the column is missing or holds something else than numbers.
@@ -70,7 +70,13 @@ class Table:
             raise DataError(self._not_a_number(name, column))
         values = np.array(pc.cast(column, pa.float64(), safe=False).to_numpy(), dtype=float)
         values[~np.isfinite(values)] = np.nan
+        return values
+
+    def measured(self, name: str) -> np.ndarray:
+        """The same of something that was measured: specks are 0, what is beyond all measure NaN."""
+        values = self.numbers(name)
         values[np.abs(values) < _TINY] = 0.0
+        values[np.abs(values) > _HUGE] = np.nan
         return values
 
     def _not_a_number(self, name: str, column: pa.ChunkedArray) -> str:

@@ -75,4 +75,5 @@ def test_a_measured_machine_gets_the_verdict_of_an_expert(name):
 @pytest.mark.skipif(DATA is None, reason="no measured logs: shared/data is not beside us")
 def test_a_log_of_one_joint_does_not_make_a_model_of_six():
     verdict = verdict_of("ur10e", [f"{DATA}/ur10e/ur-20_01_22-joint_5.parquet"])
-    assert verdict.line.startswith("not usable: not enough data for 58 parameters: ")
+    assert verdict.line.startswith("not usable: ")
+    assert "not enough data for 58 parameters" in verdict.line

@@ -25,8 +25,8 @@ LOOPED = [name for name in TIED if read_robot(name).loops]
 # file -> inertial base parameters and all, by an independent program; kind of proof
 FILES = {
     "offset_parallelogram": (3, 5, "exact"),
-    "rccc": (16, 16, "numeric"),
-    "rccc_wide": (16, 16, "numeric"),
+    "rccc": (16, 16, "exact"),
+    "rccc_wide": (16, 16, "exact"),
     "twoloops": (22, 22, "exact at the given values"),
     "twoloops_poorhome": (22, 22, "exact at the given values"),
     "twoloops_mixed": (22, 22, "exact at the given values"),
