@@ -79,6 +79,7 @@ def test_choices_are_those_that_commands_know() -> None:
 # that swallows what is raised in it.
 _INTERRUPTED = """
 import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job may have it ignored
 wanted = sys.argv.pop(1)
 class Slow:
     def find_spec(self, name, path=None, target=None):
