@@ -1,6 +1,5 @@
 """Constants of the geometry that are zero for certain: in rational numbers, as they are written."""
 
-import operator
 from collections.abc import Mapping
 from fractions import Fraction
 
@@ -29,7 +28,7 @@ def _rational(robot: Robot) -> dict[str, Fraction]:
     known: dict[str, Fraction] = {}
     for name, expression in robot.symbols.items():
         try:
-            known[name] = expression.fold(known, {}, None, Fraction, operator.pow)
+            known[name] = expression.fold(known, {}, None, Fraction)
         except (KeyError, TypeError, ZeroDivisionError):
             continue  # an angle: missed where it is needed
     return known

@@ -44,6 +44,8 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
         ("rotor_inertia", 30.0, True),
         ("rotor_inertia", -0.1, False),
         ("offset", -30.0, True),
+        ("load_friction", 0.45, True),
+        ("load_friction", 0.97, False),
     ],
 )
 def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be: bool) -> None:
