@@ -3,9 +3,9 @@
 The first look is at the training logs, in the band of the diagnosis. The others change what has
 nothing to do with the robot: the held-out logs take the place of the training logs, and the filters
 cut off at `FACTORS` times the frequency. What leads in one and not in the other is a matter of the
-look, so it is not stated as fact. Two diagnoses of one machine with training and held-out logs
-exchanged, or with such another cut-off, then cannot state two names: each looks at what the other
-was made from.
+look, so it is not stated as fact. Diagnoses of one machine with training and held-out logs
+exchanged, or with such another cut-off, then state two names only where the one is not among the
+nearest rivals of the other: each looks at what the other was made from.
 """
 
 import dataclasses
