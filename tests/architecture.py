@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
-SOUTH = ("compiled", "observation", "fit", "compare", "diagnose")
+SOUTH = ("compiled", "observation", "fit", "compare", "hypotheses", "diagnose")
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
 # and of the north the catalogue of effects, which imports nothing but the core: columns of an
@@ -16,7 +16,8 @@ STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
-    "diagnose": {"core", "effects", *SOUTH[:-1]},
+    "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
+    "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
@@ -40,6 +41,7 @@ PACKAGES: dict[str, set[str]] = {
     "observation": {"numpy", "scipy", "pyarrow"},
     "fit": {"numpy", "scipy", "clarabel"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
+    "hypotheses": {"numpy", "scipy"},
     "diagnose": {"numpy", "scipy", "threadpoolctl"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "show": {"numpy", "matplotlib"},

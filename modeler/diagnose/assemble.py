@@ -6,7 +6,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.diagnose.blind import blind_spots
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.closure import CLOSED, closure
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
@@ -16,7 +15,6 @@ from modeler.diagnose.errors import crossed_errors, held_out_squares, over, rela
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
-from modeler.diagnose.profile import profile_of
 from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, Pick, finite
 from modeler.diagnose.search import Search, Step
@@ -24,9 +22,10 @@ from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import systematic_share
 from modeler.diagnose.timing import instrumental
-from modeler.diagnose.values import named_intervals, shape_units, values_of
+from modeler.diagnose.values import named_intervals, profile_of, shape_units, values_of
 from modeler.effects import RIPPLES, Acts
 from modeler.fit import IdentifiedModel
+from modeler.hypotheses.candidates import Candidate
 from modeler.observation.channels import Fault
 
 LOST = 1.0

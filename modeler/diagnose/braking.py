@@ -11,8 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.state import State
+from modeler.hypotheses.candidates import Candidate
 
 FADES = frozenset({"t", "load", "static"})
 """What may be absent while a joint moves: time since the start, load."""

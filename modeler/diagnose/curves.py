@@ -3,8 +3,8 @@
 import numpy as np
 
 from modeler.diagnose.orders import order_spectrum
-from modeler.diagnose.signals import Signals, resonance
 from modeler.diagnose.state import State
+from modeler.hypotheses.signals import Signals, resonance
 
 _KNOTS = {"q": 14, "v": 24, "a": 10, "load": 12, "torque": 16}
 _LIGHT = 0.1  # damping ratio of what rings

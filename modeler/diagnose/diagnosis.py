@@ -11,7 +11,6 @@ from modeler.core.errors import DataError
 from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
-from modeler.diagnose.candidates import Known
 from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
@@ -22,6 +21,7 @@ from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
+from modeler.hypotheses.candidates import Known
 from modeler.observation import Log, Observation
 from modeler.observation.channels import Fault, faults
 

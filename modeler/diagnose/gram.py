@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from modeler.diagnose.orthonormal import orthonormal
-from modeler.diagnose.rows import Columns, Rows
+from modeler.hypotheses.orthonormal import orthonormal
+from modeler.hypotheses.rows import Columns, Rows
 
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""

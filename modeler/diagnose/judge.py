@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.gram import VISIBLE, Pool
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.rank import Ranking
-from modeler.diagnose.rows import Columns
 from modeler.diagnose.state import State
 from modeler.diagnose.timing import confirmed
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.rows import Columns
 
 GATE = 0.03
 """Least share of the residual variance on held-out motion that is worth a name."""

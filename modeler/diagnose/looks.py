@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
 from modeler.diagnose.propose import proposals
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.hypotheses.candidates import Candidate
 from modeler.observation import Log
 from modeler.observation.motion import HIGHEST
 

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from modeler.diagnose.braking import largest_friction
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.state import State, columns_of
 from modeler.effects import Acts
+from modeler.hypotheses.candidates import Candidate
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from

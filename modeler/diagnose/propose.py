@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate, candidates
 from modeler.diagnose.orders import ripple_candidates
 from modeler.diagnose.state import State
 from modeler.effects import RIPPLES, effect_named
+from modeler.hypotheses.candidates import Candidate, candidates
 
 _WAVES = (*RIPPLES, "encoder_eccentricity")
 

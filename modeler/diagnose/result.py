@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import State
+from modeler.hypotheses.candidates import Candidate
 
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""

@@ -8,7 +8,6 @@ from typing import TypeVar
 import numpy as np
 
 from modeler.diagnose.braking import drives
-from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.judge import (
     Judged,
     Judgement,
@@ -21,9 +20,10 @@ from modeler.diagnose.levers import constant_force
 from modeler.diagnose.orders import counted
 from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals, ruled_out
-from modeler.diagnose.rows import Columns
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
 from modeler.effects import RIPPLES, effect_named
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.rows import Columns
 
 _T = TypeVar("_T")
 

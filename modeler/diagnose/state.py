@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.diagnose.blocks import Blocks, blocks_of
-from modeler.diagnose.candidates import Candidate, JointScale, Known, scales_of
 from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
 from modeler.diagnose.rank import Ranking, rank
-from modeler.diagnose.rows import Columns, Rows, rows_of
-from modeler.diagnose.signals import Reference
-from modeler.diagnose.tilt import frame_slopes, tilt_weights
 from modeler.effects import Acts
+from modeler.hypotheses.blocks import Blocks, blocks_of
+from modeler.hypotheses.candidates import Candidate, JointScale, Known, scales_of
+from modeler.hypotheses.rows import Columns, Rows, rows_of
+from modeler.hypotheses.signals import Reference
+from modeler.hypotheses.tilt import frame_slopes, tilt_weights
 from modeler.observation import Observation
 
 if TYPE_CHECKING:

@@ -4,11 +4,11 @@ import dataclasses
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.rows import Columns, Rows
-from modeler.diagnose.signals import Signals
 from modeler.diagnose.state import State
 from modeler.effects import Acts
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.rows import Columns, Rows
+from modeler.hypotheses.signals import Signals
 from modeler.observation.motion import low_pass
 
 SURE = 4.0

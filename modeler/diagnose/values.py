@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.columns import body_parameters
-from modeler.diagnose.profile import Profile
 from modeler.diagnose.state import State
-from modeler.diagnose.tilt import tilt_basis
 from modeler.effects import Acts
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.columns import body_parameters
+from modeler.hypotheses.conditional import Problem
+from modeler.hypotheses.profile import Profile, profile
+from modeler.hypotheses.tilt import tilt_basis
 
 LOPSIDED = 2.0
 """Ratio of the sides of an interval above which one standard deviation does not describe it."""
@@ -44,6 +45,28 @@ def values_of(state: State, pick: Candidate, values: np.ndarray, deviations: np.
         dict(zip(units, map(float, deviations), strict=False)),
         units,
     )
+
+
+def profile_of(state: State, place: int) -> Profile | None:
+    """The likelihood along the shapes of an effect that was put in.
+
+    Args:
+        state: with the effect.
+        place: of it among the effects of the state.
+    """
+    sizes = [len(values) for values in state.values]
+    first = state.W[0].shape[1] - sum(sizes[place:])
+    own = slice(first, first + sizes[place])
+    pick = state.picks[place]
+    problem = Problem(
+        state.rows,
+        state.data.observation,
+        tuple(np.delete(w, own, axis=1) for w in state.W),
+        state.y,
+        state.base.sigma,
+        state.scales[pick.scaled],
+    )
+    return profile(problem, pick)
 
 
 def named_intervals(along: Profile, named: Values) -> dict[str, tuple[float, float]]:

@@ -12,8 +12,6 @@ from modeler.compiled import CompiledModel, load
 from modeler.core.errors import DataError, RobotError
 from modeler.derivation import derive, generate
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.candidates import Known
-from modeler.diagnose.columns import body_parameters
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Pick
@@ -23,6 +21,8 @@ from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.timing import instrumental
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance, with_verdict
+from modeler.hypotheses.candidates import Known
+from modeler.hypotheses.columns import body_parameters
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.improve.passive import on_passive

@@ -3,10 +3,10 @@
 import numpy as np
 
 from modeler.core.errors import DataError, RobotError
-from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.signals import Reference
-from modeler.diagnose.tilt import tilt_basis
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.signals import Reference
+from modeler.hypotheses.tilt import tilt_basis
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
 

@@ -3,8 +3,8 @@
 import dataclasses
 
 from modeler.core.contract import ModuleSpec
-from modeler.diagnose.candidates import Candidate
 from modeler.effects import Acts, Effect
+from modeler.hypotheses.candidates import Candidate
 
 
 def passive_joints(spec: ModuleSpec) -> dict[str, int]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.blocks import BLOCK, MOST
+from modeler.hypotheses.blocks import BLOCK, MOST
 from modeler.improve.unseen import Unseen
 
 SURE = 2.0

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.compiled import CompiledModel
-from modeler.diagnose.blocks import blocks_of
 from modeler.diagnose.gram import base_of, pieces
 from modeler.fit import IdentifiedModel
+from modeler.hypotheses.blocks import blocks_of
 from modeler.observation import Observation
 from modeler.observation.torque import model_torque
 

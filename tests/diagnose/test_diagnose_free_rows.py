@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.diagnose.gram import sigma_of
-from modeler.diagnose.rows import Rows
+from modeler.hypotheses.rows import Rows
 
 
 def test_rows_without_torque_do_not_drive_the_parameters_to_zero() -> None:

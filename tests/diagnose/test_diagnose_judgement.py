@@ -8,13 +8,13 @@ import pytest
 
 from modeler.diagnose import Known, judge, search
 from modeler.diagnose.assemble import verdict
-from modeler.diagnose.candidates import Candidate, candidates, scales_of
 from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
 from modeler.diagnose.search import Survey
 from modeler.diagnose.sentences import other_names, refused_lines
 from modeler.effects import effect_named
+from modeler.hypotheses.candidates import Candidate, candidates, scales_of
 from tests.diagnose.conftest import Case
 
 TURNING = ("counterbalance", "constant_force_spring", "encoder_eccentricity")

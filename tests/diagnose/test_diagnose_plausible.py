@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose.candidates import Candidate, JointScale
 from modeler.diagnose.plausible import objection
 from modeler.effects import effect_named
+from modeler.hypotheses.candidates import Candidate, JointScale
 
 INERTIA = 2.0  # kg m^2
 

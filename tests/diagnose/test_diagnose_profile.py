@@ -8,10 +8,9 @@ import pytest
 from modeler.api import compile_model, derive, generate, identified, load, observe
 from modeler.diagnose import Known
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.profile import profile_of
 from modeler.diagnose.search import extended, surveyed
 from modeler.diagnose.state import Data, state_of
-from modeler.diagnose.values import told_spread
+from modeler.diagnose.values import profile_of, told_spread
 from modeler.fit import identify, load_model, save_model
 from modeler.improve import Logs, add_effect, added, undone
 from modeler.observation import read_log

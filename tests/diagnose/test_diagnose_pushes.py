@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.diagnose.candidates import candidates, scales_of
 from modeler.diagnose.event_pictures import push_picture
 from modeler.diagnose.report import write_diagnosis
 from modeler.effects import effect_named
+from modeler.hypotheses.candidates import candidates, scales_of
 from modeler.observation import Log
 from tests.diagnose.conftest import Case, motion, on_joint
 

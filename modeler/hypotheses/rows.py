@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.columns import all_columns, own_columns
-from modeler.diagnose.signals import Reference, Signals
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.columns import all_columns, own_columns
+from modeler.hypotheses.signals import Reference, Signals
 from modeler.observation import Observation
 from modeler.observation.row_filter import SPREAD, only
 from modeler.observation.stretch import Stretch

@@ -3,10 +3,10 @@
 import numpy as np
 
 from modeler.core.contract import ModuleSpec, ParameterSpec
-from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.signals import Signals
-from modeler.diagnose.tilt import tilt_columns
 from modeler.effects import ENCODERS, Acts, Memory
+from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.signals import Signals
+from modeler.hypotheses.tilt import tilt_columns
 
 FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp,

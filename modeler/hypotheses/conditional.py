@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.diagnose.blocks import blocks_of
-from modeler.diagnose.candidates import Candidate, JointScale
-from modeler.diagnose.orthonormal import orthonormal
-from modeler.diagnose.rows import Columns, Rows
+from modeler.hypotheses.blocks import blocks_of
+from modeler.hypotheses.candidates import Candidate, JointScale
+from modeler.hypotheses.orthonormal import orthonormal
+from modeler.hypotheses.rows import Columns, Rows
 from modeler.observation import Observation
 
 

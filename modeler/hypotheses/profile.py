@@ -24,11 +24,10 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.diagnose.candidates import Candidate, JointScale
-from modeler.diagnose.conditional import Point, Problem
-from modeler.diagnose.state import State
 from modeler.effects import Shape
 from modeler.fit.coloured import autocorrelation, repeated
+from modeler.hypotheses.candidates import Candidate, JointScale
+from modeler.hypotheses.conditional import Point, Problem
 
 SURE = 3.841458820694124
 """95 % quantile of chi-square with one degree of freedom."""
@@ -118,28 +117,6 @@ class Profile:
         every = np.array([np.concatenate([p.others, p.values]) for p in self.points])
         apart = every - np.concatenate([self.told.others, self.told.values])
         return np.asarray((apart * self.share[:, None]).T @ apart)
-
-
-def profile_of(state: State, place: int) -> Profile | None:
-    """The likelihood along the shapes of an effect that was put in.
-
-    Args:
-        state: with the effect.
-        place: of it among the effects of the state.
-    """
-    sizes = [len(values) for values in state.values]
-    first = state.W[0].shape[1] - sum(sizes[place:])
-    own = slice(first, first + sizes[place])
-    pick = state.picks[place]
-    problem = Problem(
-        state.rows,
-        state.data.observation,
-        tuple(np.delete(w, own, axis=1) for w in state.W),
-        state.y,
-        state.base.sigma,
-        state.scales[pick.scaled],
-    )
-    return profile(problem, pick)
 
 
 def profile(problem: Problem, told: Candidate) -> Profile | None:

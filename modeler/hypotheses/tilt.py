@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.diagnose.signals import Reference, Signals
+from modeler.hypotheses.signals import Reference, Signals
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
