@@ -17,7 +17,6 @@ import pytest
 from modeler.cli import main, parser
 from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, Acts
-from modeler.improve.ask import CANNOT
 from modeler.observation import Processing
 from modeler.robot import builtin_text, robot_from_text
 from modeler.robot.read import _KEYS
@@ -277,7 +276,7 @@ def test_the_table_of_effects_on_loops_is_true():
     )  # fmt: skip
     told = {key: names.split(", ") for key, names in rows.items()}
     joints = [e for e in CATALOGUE if e.acts in (Acts.JOINT, Acts.MOTOR)]
-    joints += [e for e in CATALOGUE if e.acts is Acts.POSITION and e.id not in CANNOT]
+    joints += [e for e in CATALOGUE if e.acts is Acts.POSITION and not e.hindrance]
     has_c = [e for e in joints if e.acts is not Acts.POSITION and e.forms[0].names <= {"v", "a"}]
     assert set(told["in `[effects]`, and added"]) == {e.id for e in has_c}
     without = {e.id for e in joints} - {e.id for e in has_c}

@@ -9,7 +9,7 @@ from modeler.diagnose.blind import blind_spots
 from modeler.diagnose.closure import CLOSED, closure
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
-from modeler.diagnose.detected import CONTACT, detected
+from modeler.diagnose.detected import detected
 from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
 from modeler.diagnose.judge import Judged
@@ -23,7 +23,7 @@ from modeler.diagnose.state import Data, State, state_of
 from modeler.diagnose.systematic import systematic_share
 from modeler.diagnose.timing import instrumental
 from modeler.diagnose.values import named_intervals, profile_of, shape_units, values_of
-from modeler.effects import RIPPLES, Acts
+from modeler.effects import Acts
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation.channels import Fault
@@ -230,9 +230,8 @@ def _mends(found: Search, step: Step) -> bool:
 
 def _same_waves(first: Candidate, later: Candidate) -> bool:
     """True for ripple and run-out of the same order: what one leaves looks like the other."""
-    orders = [c.shapes.get("m", c.shapes.get("k", 0.0)) for c in (first, later)]
-    kinds = {c.effect.id for c in (first, later)}
-    waves = kinds <= {*RIPPLES, "encoder_eccentricity"}
+    orders = [c.order for c in (first, later)]
+    waves = all(c.effect.orders is not None for c in (first, later))
     return waves and abs(orders[0] - orders[1]) < SAME_WAVES * max(orders)
 
 
@@ -270,7 +269,7 @@ def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Se
     if effects:
         first = effects[0]
         closed = first.closure is None or first.closure >= CLOSED
-        if first.effect == CONTACT and any(state.unexplained for state in joints.values()):
+        if first.event and any(state.unexplained for state in joints.values()):
             closed = False  # something acts all the time: what stood out of it may be no push
         return (
             "missing" if closed and first.stands and not first.objection else "closest description"

@@ -6,7 +6,7 @@ from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.result import Key
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import State
-from modeler.effects import ENCODERS, Acts, effect_named
+from modeler.effects import Acts, effect_named
 
 
 def blind_spots(found: Search) -> tuple[Key, ...]:
@@ -19,12 +19,14 @@ def blind_spots(found: Search) -> tuple[Key, ...]:
     def ruled(effect: str, joint: str | None) -> bool:
         return ruled_out(effect, joint, found.without)
 
+    catalogue = found.start.data.known.catalogue
     for joint in spec.joints:
-        for name in ENCODERS:
+        for name in [effect.id for effect in catalogue if effect.whole_axis]:
             if joint.actuated and (name, joint.name) not in seen and not ruled(name, joint.name):
                 hidden.append((name, joint.name))
-    if found.start.data.kept is None and not ruled("payload", None):
-        hidden.append(("payload", None))
+    for name in [effect.id for effect in catalogue if effect.last_link]:
+        if found.start.data.kept is None and not ruled(name, None):
+            hidden.append((name, None))
     hidden += [key for key in _unmoved(found.start) if not ruled(*key)]
     named = {step.pick.key for step in found.steps}
     named |= {tie.candidate.key for step in found.steps for tie in step.ties}

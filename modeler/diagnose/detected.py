@@ -14,6 +14,7 @@ from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Finding, finite
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import State
+from modeler.effects import Acts, Effect
 
 KNOCKS = 0.85
 """Share of a residual's energy in outbursts from which on something knocks."""
@@ -34,10 +35,6 @@ _LEAST = 1e-3  # share that counts for a column of play that explains nothing
 
 WEAK = 0.5
 """Gain of a column below which play that is heard without it comes first."""
-
-PLAY = "backlash"
-_RINGS = "elasticity"
-CONTACT = "external_force"
 
 
 def detected(
@@ -60,7 +57,7 @@ def detected(
     """
     contact = [_contact(found, window, errors)] if window is not None else []
     alone = all(f.refines for f in findings)
-    rings = any(f.effect == _RINGS for f in findings)
+    rings = any(_rings(f) for f in findings)
     play = _play(found, found.end, errors, BURST) or _faint(
         found, errors, FAINT if alone else BESIDE, knocks=not rings
     )
@@ -78,8 +75,22 @@ def detected(
 
 def _knocked(finding: Finding) -> Finding:
     """The finding beside play in a gear."""
-    weak = finding.effect == _RINGS and finding.gain < WEAK
+    weak = _rings(finding) and finding.gain < WEAK
     return dataclasses.replace(finding, refines=True) if weak else finding
+
+
+def _rings(finding: Finding) -> bool:
+    return finding.pick is not None and finding.pick.candidate.effect.rings
+
+
+def _event(found: Search) -> Effect:
+    """What a push is called."""
+    return next(e for e in found.start.data.known.catalogue if e.acts is Acts.WINDOW)
+
+
+def _knocking(found: Search) -> list[Effect]:
+    """Effects that knock; one at most."""
+    return [e for e in found.start.data.known.catalogue if e.knocks][:1]
 
 
 def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
@@ -87,13 +98,13 @@ def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
     names = ("fx", "fy", "fz")
     left = finite(over(found.end, range(len(errors)), errors))
     return Finding(
-        CONTACT, None, left, left,
+        _event(found).id, None, left, left,
         {"t0": window.start, "t1": window.end} | dict(zip(names, map(float, force), strict=True)),
         {}, {"t0": "s", "t1": "s"} | dict.fromkeys(names, "N"), (),
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
         f"explain, {window.ratio:.0f} times the energy of any other window; these rows are left "
         "out of everything else",
-        None, False, _again(found.end, errors),
+        None, False, _again(found.end, errors), event=True,
     )  # fmt: skip
 
 
@@ -110,7 +121,8 @@ def _asked(found: Search) -> list[int]:
     """Joints whose gear may have play."""
     return [
         j for j, joint in enumerate(found.end.data.compiled.spec.joints)
-        if joint.actuated and not ruled_out(PLAY, joint.name, found.without)
+        for effect in _knocking(found)
+        if joint.actuated and not ruled_out(effect.id, joint.name, found.without)
     ]  # fmt: skip
 
 
@@ -136,7 +148,7 @@ def _columns(found: Search) -> dict[int, Judged]:
     """What the column of play explains, by joint."""
     return {
         judged.candidate.index: judged
-        for judged in found.last.ranked if judged.candidate.effect.id == PLAY
+        for judged in found.last.ranked if judged.candidate.effect.knocks
     }  # fmt: skip
 
 
@@ -177,9 +189,10 @@ def _backlash(
     """
     names = [joint.name for joint in found.end.data.compiled.spec.joints]
     first = bursting[0]
-    others = tuple((PLAY, names[k]) for k in bursting if k != first)
+    (effect,) = _knocking(found)
+    others = tuple((effect.id, names[k]) for k in bursting if k != first)
     left = finite(errors[first])
     return Finding(
-        PLAY, names[first], left, left, {}, {}, {}, others,
+        effect.id, names[first], left, left, {}, {}, {}, others,
         f"joint {names[first]}: {text}", None, False, objection,
     )  # fmt: skip

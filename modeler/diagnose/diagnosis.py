@@ -12,7 +12,6 @@ from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.contact import MARGIN, Window, contact_window
-from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.looks import looked_again, other_looks
 from modeler.diagnose.result import Diagnosis
@@ -67,7 +66,7 @@ def diagnose(
     if aligned is not None:
         data, other = aligned, _held_out(aligned, holdout)
         found = _searched(data, other, *options)
-    window = _push(data, found) if CONTACT not in without else None
+    window = _push(data, found) if _may_push(data, without) else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
     looks = looked_again(found, _looks(data, logs, other, window) if found.steps else [])
@@ -162,6 +161,11 @@ def kept_parameters(
         for y, w, s in zip(free.rows.y, free.rows.W, free.base.sigma, strict=True)
     )
     return model.beta if given > CHANGED * fitted else None
+
+
+def _may_push(data: Data, without: Sequence[str]) -> bool:
+    """True unless the user rules it out."""
+    return any(e.acts is Acts.WINDOW and e.id not in without for e in data.known.catalogue)
 
 
 def _rattles(state: State) -> bool:

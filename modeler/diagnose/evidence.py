@@ -18,7 +18,6 @@ from modeler.compare.picture import (
 from modeler.diagnose.orders import order_spectrum
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.state import State, columns_of
-from modeler.effects import RIPPLES
 from modeler.observation.travel import travel_since_reversal
 
 _BINS = 40
@@ -50,7 +49,7 @@ def evidence_picture(found: Search, step: Step) -> Picture:
         Panel(before.title, before.x_label, before.y_label, (*before.series, drawn), zero=True),
         after,
     ]
-    if pick.effect.id in RIPPLES:
+    if pick.effect.several:
         panels.append(_orders(state, step, j, unit))
     name = f"joint {pick.joint}" if pick.joint is not None else "the whole robot"
     return Picture(
@@ -182,7 +181,7 @@ def _binned(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
 def _orders(state: State, step: Step, j: int, unit: str) -> Panel:
     spectrum = order_spectrum(state, j)
     assert spectrum is not None
-    order = step.pick.shapes["m"]
+    order = step.pick.order
     near = (spectrum.order > 0.5 * order) & (spectrum.order < 1.5 * order)
     return Panel(
         "order spectrum", "waves per turn", f"amplitude [{unit}]",

@@ -93,8 +93,9 @@ class Judged:
 
     @property
     def unlikely(self) -> bool:
-        """True if its sign is possible, but rare."""
-        return self.candidate.effect.rarely_negative and float(self.values[0]) < 0.0
+        """True if it is possible, but rare, or its sign is."""
+        effect = self.candidate.effect
+        return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
 
     @property
     def significant(self) -> bool:
@@ -172,8 +173,7 @@ def _believed(state: State, item: Judged) -> bool:
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
-    What only mends a law in the model comes last, before it what has a rare sign. A load is where
-    loads are carried, rather than on another link.
+    What only mends a law in the model comes last, before it what is rare, or has a rare sign.
 
     A timing-like effect may stand for another timing-like one only.
     """
@@ -184,11 +184,9 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
         and (best.mends or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
-    carried = any(j.candidate.effect.id == "payload" for j in [best, *near])
 
-    def place(j: Judged) -> tuple[bool, bool, bool, float, float]:
-        astray = carried and j.candidate.effect.id == "link_inertia"
-        return j.mends, j.unlikely, astray, _numbers(j.candidate), -float(j.drop.sum())
+    def place(j: Judged) -> tuple[bool, bool, float, float]:
+        return j.mends, j.unlikely, _numbers(j.candidate), -float(j.drop.sum())
 
     order = sorted([best, *near], key=place)
     return next(

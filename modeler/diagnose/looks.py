@@ -5,7 +5,8 @@ nothing to do with the robot: the held-out logs take the place of the training l
 cut off at `FACTORS` times the frequency. What leads in one and not in the other is a matter of the
 look, so it is not stated as fact. Diagnoses of one machine with training and held-out logs
 exchanged, or with such another cut-off, then state two names only where the one is not among the
-nearest rivals of the other: each looks at what the other was made from.
+nearest rivals of the other: each looks at what the other was made from. And what the user ruled
+out is asked beside every effect: if it would have been named instead, the effect stands in for it.
 """
 
 import dataclasses
@@ -15,8 +16,8 @@ from typing import Any
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
-from modeler.diagnose.propose import proposals
-from modeler.diagnose.search import Search, Step
+from modeler.diagnose.propose import proposals, ruled_out
+from modeler.diagnose.search import Search, Step, survey_of
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation import Log
@@ -87,9 +88,21 @@ def looked_again(found: Search, looks: Sequence[tuple[str, Data]]) -> list[tuple
         looks: others.
     """
     return [
-        tuple(_look(what, data, found, place) for what, data in looks)
-        for place in range(len(found.steps))
+        (*(_look(what, data, found, place) for what, data in looks), *_ruled_out(found, step))
+        for place, step in enumerate(found.steps)
     ]
+
+
+def _ruled_out(found: Search, step: Step) -> list[Look]:
+    """What would have been named had the user ruled nothing out."""
+    state = step.before
+    barred = [c for c in proposals(state) if ruled_out(*c.key, found.without)]
+    if not barred:
+        return []
+    best = survey_of(state, [step.pick, *barred]).judged().best
+    if best is None or best.candidate.key == step.pick.key:
+        return []
+    return [Look("ruled out", best.candidate.key, False)]
 
 
 def _look(what: str, data: Data, found: Search, place: int) -> Look:

@@ -7,12 +7,9 @@ import numpy as np
 from modeler.compare.orders import OrderSpectrum
 from modeler.compare.orders import order_spectrum as spectrum_of
 from modeler.diagnose.state import State
-from modeler.effects import RIPPLES, effect_named
+from modeler.effects import Effect
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import all_columns
-
-MOTOR = 70.0
-"""Waves per turn from which on a ripple is taken for the motor's: teeth and rollers are fewer."""
 
 
 def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
@@ -73,18 +70,26 @@ def ripple_candidates(
 
     Args:
         state: it.
-        allowed: False for an id and a joint that the user rules out; the other name of a ripple
-            stands for it then.
+        allowed: False for an id and a joint that the user rules out.
     """
     found = []
     for j, joint in enumerate(state.data.compiled.spec.joints):
         spectrum = order_spectrum(state, j) if joint.actuated else None
         for order in spectrum.peaks if spectrum else ():
-            names = RIPPLES if order >= MOTOR else RIPPLES[::-1]
-            effect = effect_named(next((n for n in names if allowed(n, joint.name)), names[0]))
-            runout = effect_named("encoder_eccentricity")
-            assert effect is not None and runout is not None
-            for waves in dict.fromkeys((order, counted(order))):
-                found.append(Candidate(effect, effect.forms[0], joint.name, j, {"m": waves}))
-                found.append(Candidate(runout, runout.forms[0], joint.name, j, {"k": waves}))
+            for effect in _waving(state, order, joint.name, allowed):
+                (shape,) = effect.forms[0].shapes
+                found += [
+                    Candidate(effect, effect.forms[0], joint.name, j, {shape.name: waves})
+                    for waves in dict.fromkeys((order, counted(order)))
+                ]
     return found
+
+
+def _waving(
+    state: State, order: float, joint: str, allowed: Callable[[str, str | None], bool]
+) -> list[Effect]:
+    """Effects that such waves are proposed for; the other name of one that is ruled out."""
+    every = [e for e in state.data.known.catalogue if e.orders and allowed(e.id, joint)]
+    likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
+    named = {other for effect in likely for other in effect.same_as}
+    return likely + [e for e in every if e not in likely and not named & {e.id, *e.same_as}]

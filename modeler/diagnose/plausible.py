@@ -1,22 +1,20 @@
 """Do the values of an effect belong to this robot?"""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from modeler.diagnose.braking import largest_friction
 from modeler.diagnose.state import State, columns_of
-from modeler.effects import Acts
+from modeler.effects import Needs
 from modeler.hypotheses.candidates import Candidate
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
 which on it is not this joint that rings."""
 
-OFF = 0.5
-"""Relative error of a drive gain from which on it is none."""
-
-BALANCERS = ("counterbalance", "constant_force_spring")
+FARTHEST = 10.0
+"""Ratio of true and given drive gain, either way, from which on it is no gain."""
 
 MORE = 1.3
 """Of the whole friction of a joint, more than which no part of it is, however badly known."""
@@ -38,19 +36,8 @@ def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
         pick: it.
         parameters: its parameters and shapes by name, SI.
     """
-    if pick.index >= 0 and any(column.within_friction for column in pick.form.columns):
-        return _more_than_all(state, pick, parameters)
-    if pick.effect.id in BALANCERS:
-        return _nothing_to_balance(state, pick) or _no_lever(state, pick, parameters)
-    if pick.effect.id == "spring":
-        return _no_spring(state, pick)
-    if pick.effect.acts is Acts.LINK:
-        return _no_body(parameters)
-    if pick.effect.id == "drive_gain":
-        return _no_gain(parameters[pick.parameter_names()[0]])
-    if pick.effect.id == "elasticity":
-        return _other_oscillator(state, pick, parameters)
-    return ""
+    doubts = (_CHECKS[need](state, pick, parameters) for need in pick.effect.needs)
+    return next((doubt for doubt in doubts if doubt), "")
 
 
 def _more_than_all(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
@@ -66,8 +53,9 @@ def _turns(state: State, pick: Candidate) -> bool:
     return state.data.compiled.spec.joints[pick.index].unit == "rad"
 
 
-def _no_spring(state: State, pick: Candidate) -> str:
+def _no_rest(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Far from its rest a spring is a constant torque, unless the model has one already."""
+    del parameters
     having = {(p.effect, p.joint) for p in state.data.compiled.spec.standard}
     scale = state.scales[pick.index]
     if ("offset", pick.joint) in having or abs(
@@ -77,21 +65,25 @@ def _no_spring(state: State, pick: Candidate) -> str:
     return f"its rest lies outside of all that joint {pick.joint} moves over: a constant torque"
 
 
-def _no_body(parameters: Mapping[str, float]) -> str:
+def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    del state, pick
     mass = parameters.get("mass", 0.0)
     return f"no body has a mass of {mass:.3g} kg" if mass < 0.0 else ""
 
 
-def _no_gain(eps: float) -> str:
-    """A torque constant that is off by that much is a matter of sign or unit."""
-    if abs(eps) < OFF:
+def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """The true gain is 1 / (1 - eps) times the given one: no torque constant is off so far."""
+    del state
+    eps = parameters[pick.parameter_names()[0]]
+    if 1.0 / FARTHEST < 1.0 - eps < FARTHEST:
         return ""
     true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
     return f"the true gain would be {true} the given one: check sign and unit of that torque"
 
 
-def _nothing_to_balance(state: State, pick: Candidate) -> str:
+def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """A lever with a spring is built where gravity turns a joint."""
+    del parameters
     weight = np.concatenate([s.static[::20, pick.index] for s in state.rows.signals])
     torque = state.rows.y[pick.index]
     if np.mean(weight**2) > WEIGHTLESS**2 * np.mean(torque**2):
@@ -125,3 +117,15 @@ def _other_oscillator(state: State, pick: Candidate, parameters: Mapping[str, fl
         f"what rings has {rings:.3g} {unit} on this axis, and the links have {own:.3g} {unit}: "
         "something else rings"
     )
+
+
+_CHECKS: Mapping[Needs, Callable[[State, Candidate, Mapping[str, float]], str]] = {
+    Needs.GRAVITY: _nothing_to_balance,
+    Needs.CURVE: _no_lever,
+    Needs.REST: _no_rest,
+    Needs.MASS: _no_body,
+    Needs.INERTIA: _other_oscillator,
+    Needs.GAIN: _no_gain,
+    Needs.FRICTION: _more_than_all,
+}
+"""A sentence where the robot is not so; empty where it is."""

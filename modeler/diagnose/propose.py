@@ -7,10 +7,8 @@ import numpy as np
 
 from modeler.diagnose.orders import ripple_candidates
 from modeler.diagnose.state import State
-from modeler.effects import RIPPLES, effect_named
+from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate, candidates
-
-_WAVES = (*RIPPLES, "encoder_eccentricity")
 
 
 def proposals(
@@ -37,12 +35,11 @@ def proposals(
 
     found = candidates(spec, state.scales, temperature, present, known, allowed)
     found = [c for c in found if _lasts(state, c)]
-    if only is None or only in _WAVES:
-        found += ripple_candidates(state, allowed)
+    found += ripple_candidates(state, allowed)
     if changed:
         found += load_candidates(state)
     taken = {
-        (same, pick.joint) for pick in state.picks if pick.effect.id not in RIPPLES
+        (same, pick.joint) for pick in state.picks if not pick.effect.several
         for same in (pick.effect.id, *pick.effect.same_as)
     }  # fmt: skip
     return [
@@ -57,11 +54,10 @@ def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
 
 
 def _lasts(state: State, candidate: Candidate) -> bool:
-    """False for a warm-up much faster or slower than the logs can show."""
-    if candidate.effect.id != "temperature_friction" or "tau" not in candidate.shapes:
-        return True
+    """False for what fades much faster or slower than the logs can show."""
+    times = [candidate.shapes[s.name] for s in candidate.form.shapes if s.scale == "seconds"]
     span = float(np.ptp(state.data.observation.time))
-    return 0.1 * span <= candidate.shapes["tau"] <= 3.0 * span
+    return all(0.1 * span <= time <= 3.0 * span for time in times)
 
 
 def load_candidates(state: State) -> list[Candidate]:
@@ -70,10 +66,8 @@ def load_candidates(state: State) -> list[Candidate]:
     links = list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
     carrier = spec.closure.carrier if spec.closure is not None else ""
     last = carrier or links[-1]
-    found = []
-    for place, link in enumerate(links):
-        effect = effect_named("payload" if link == last else "link_inertia")
-        assert effect is not None
-        joint = None if link == last else link
-        found.append(Candidate(effect, effect.forms[0], joint, place, {}))
-    return found
+    return [
+        Candidate(effect, effect.forms[0], None if effect.last_link else link, place, {})
+        for effect in state.data.known.catalogue if effect.acts is Acts.LINK
+        for place, link in enumerate(links) if effect.last_link is (link == last)
+    ]  # fmt: skip

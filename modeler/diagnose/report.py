@@ -10,7 +10,6 @@ import numpy as np
 from modeler.compare.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
 from modeler.compare.report import figure_html, page_assets
 from modeler.core.files import write_atomically
-from modeler.diagnose.detected import CONTACT, PLAY
 from modeler.diagnose.event_pictures import play_picture, push_picture
 from modeler.diagnose.evidence import evidence_picture, rivals_picture
 from modeler.diagnose.result import Diagnosis, Finding
@@ -177,12 +176,12 @@ def _events(diagnosis: Diagnosis) -> list[str]:
     names = [joint.name for joint in end.data.compiled.spec.joints]
     found = []
     for finding in diagnosis.effects:
-        if finding.effect == PLAY and finding.joint is not None:
+        if finding.pick is None and finding.joint is not None:
             picture = play_picture(end, names.index(finding.joint))
             found.append(_section(_name(finding.effect, finding.joint), figure_html(picture)))
     if diagnosis.window is not None:
         picture = push_picture(end, diagnosis.window)
-        found.append(_section(CONTACT, figure_html(picture)))
+        found += [_section(f.effect, figure_html(picture)) for f in diagnosis.effects if f.event]
     return found
 
 

@@ -59,6 +59,7 @@ class Finding:
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
         looks: what other logs and other cut-offs say of it; empty for contacts and play.
         pick: what `modeler add` puts in; None for contacts and play.
+        event: True if it came once.
     """
 
     effect: str
@@ -76,6 +77,7 @@ class Finding:
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     looks: tuple[Look, ...] = ()
     pick: Pick | None = field(default=None, repr=False, compare=False)
+    event: bool = False
 
     @property
     def stands(self) -> bool:

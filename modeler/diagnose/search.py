@@ -21,7 +21,7 @@ from modeler.diagnose.orders import counted
 from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
-from modeler.effects import RIPPLES, effect_named
+from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
 
@@ -167,18 +167,16 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
 def _counted(state: State, best: Judged) -> list[Judged]:
     """A ripple of which the order is no whole number, with the one next to it."""
     candidate = best.candidate
-    if not _ripples(candidate) or candidate.shapes["m"] == counted(candidate.shapes["m"]):
+    if not _ripples(candidate) or candidate.order == counted(candidate.order):
         return []
-    whole = dataclasses.replace(candidate, shapes={"m": counted(candidate.shapes["m"])})
+    whole = candidate.of_order(counted(candidate.order))
     found = judge(state, [whole], [columns_of(state.rows, whole, state.cache)]).best
     return [] if found is None else [found]
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
     """The best effect, or its twin of another law where that explains the same with less."""
-    if best.candidate.effect.id != "counterbalance":
-        return best
-    other = effect_named("constant_force_spring", state.data.known.catalogue)
+    other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
     joint = best.candidate.joint
     if other is None or ruled_out(other.id, joint, without):
         return best
@@ -300,13 +298,13 @@ def _among(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
     others = [judged.candidate for judged in vetoed]
     if not _ripples(candidate):
         return any(c.key == candidate.key for c in others if not _ripples(c))
-    order = candidate.shapes["m"]
-    orders = [c.shapes["m"] for c in others if _ripples(c)]
+    order = candidate.order
+    orders = [c.order for c in others if _ripples(c)]
     return any(abs(order - m) < 0.1 * m for m in orders)
 
 
 def _ripples(candidate: Candidate) -> bool:
-    return candidate.effect.id in RIPPLES
+    return candidate.effect.several
 
 
 def extended(state: State, pick: Candidate) -> State:

@@ -1,6 +1,6 @@
 """Springs, loads, gravity: what acts on the links."""
 
-from modeler.effects.effect import Acts, Effect, Shape
+from modeler.effects.effect import Acts, Effect, Needs, Shape
 from modeler.effects.writing import column, form
 
 _LEVER = Shape("b", "number", (0.2, 0.4, 0.6, 0.8), (0.1, 0.9), "lever over distance of the anchor")
@@ -12,7 +12,7 @@ _MOUNT = Shape(
     "where it is in line",
 )
 _MOMENT = Shape(
-    "m", "number", (1.0,), (0.0, 0.0), "0 where the link's first moment has the part without lever"
+    "m", "moment", (1.0,), (0.0, 0.0), "0 where the link's first moment has the part without lever"
 )
 _REST = Shape("q0", "place", (-1.0, -0.4, 0.0, 0.4, 1.0), (-2.0, 2.0), "rest position")
 _HARDENING = Shape("h", "bend", (0.0, 0.1, 0.4), (0.0, 3.0), "how much stiffer, per square travel")
@@ -38,6 +38,7 @@ BODIES: tuple[Effect, ...] = (
         "harden, and what softens like a sine hangs on a lever",
         source="Wang et al. 2019 (da Vinci arms)",
         rarely_negative=True,
+        needs=(Needs.REST,),
     ),
     Effect(
         id="counterbalance",
@@ -54,6 +55,8 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="load",
         same_as=("constant_force_spring",),
+        twin="constant_force_spring",
+        needs=(Needs.GRAVITY, Needs.CURVE),
         turns=True,
         signature="residual against position: smooth, usually on the second joint, at every speed",
         look_alikes="first moment of the link: the part sin(q-q0) is its column; gas springs; use "
@@ -70,6 +73,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="load",
         same_as=("counterbalance",),
+        needs=(Needs.GRAVITY, Needs.CURVE),
         turns=True,
         signature="residual against position: smooth, at every speed; drifts with temperature",
         look_alikes="a helical counterbalance, whose other part is the link's first moment; "
@@ -90,6 +94,8 @@ BODIES: tuple[Effect, ...] = (
         "logs; fit the model without load first",
         range="M > 0, inertia of a real body",
         source="Khalil, Gautier and Lemoine 2007",
+        needs=(Needs.MASS,),
+        last_link=True,
     ),
     Effect(
         id="link_inertia",
@@ -103,6 +109,8 @@ BODIES: tuple[Effect, ...] = (
         look_alikes="the link's own parameters, while these are fitted to the same logs",
         range="M > 0, inertia of a real body",
         source="Wensing, Kim and Slotine 2018",
+        needs=(Needs.MASS,),
+        rare=True,
     ),
     Effect(
         id="base_tilt",
@@ -129,5 +137,6 @@ BODIES: tuple[Effect, ...] = (
         look_alikes="none that repeats: play the motion again without contact",
         range="an event, no parameter",
         source="De Luca and Mattone 2005",
+        hindrance="a contact is an event, not a parameter: leave its window out of the logs",
     ),
 )

@@ -11,11 +11,8 @@ from modeler.effects.transmission import TRANSMISSION
 CATALOGUE: tuple[Effect, ...] = (*STANDARD, *FRICTION, *BODIES, *TRANSMISSION)
 
 
-ENCODERS = ("encoder_offset", "encoder_eccentricity")
+ENCODERS = tuple(effect.id for effect in CATALOGUE if effect.whole_axis)
 """What moves the position of the whole axis, motor and links: the encoder shows it wrongly."""
-
-RIPPLES = ("motor_ripple", "joint_ripple")
-"""Ids of effects that a joint may have several times: their orders come from the spectrum."""
 
 PASSIVE_FRICTION = "passive_friction"
 PASSIVE_FRICTION_IS = ("viscous", "coulomb")

@@ -36,6 +36,18 @@ class Acts(enum.Enum):
     WINDOW = "pushes on the last link for a while"
 
 
+class Needs(enum.Enum):
+    """What must be true of the robot for the values of an effect to be believed."""
+
+    GRAVITY = "gravity turns its joint"
+    CURVE = "its torque bends over the stroke by more than is left unexplained"
+    REST = "its rest position q0 lies in the motion, unless the model has an offset"
+    MASS = "the body has no negative mass"
+    INERTIA = "what rings has about the inertia that the model has on the joint"
+    GAIN = "the gain of a drive is positive, and within ten times of the one given"
+    FRICTION = "it is a part of the friction of its joint, never larger than all of it"
+
+
 Scale = Literal[
     "speed",
     "travel",
@@ -48,13 +60,15 @@ Scale = Literal[
     "seconds",
     "hertz",
     "waves",
+    "moment",
     "own",
 ]
 """Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
 travel (for a prismatic joint, thirds of its range of motion), the same from the middle of the
 motion, or one over their square; one per rad (for a prismatic joint, a turn per stroke); plain
 numbers, radians, seconds, hertz; waves per turn, found in the order spectrum where the grid has
-none; what a robot file gives for an effect of its own, SI."""
+none; 1, or 0 where the first moment of the link has that part; what a robot file gives for an
+effect of its own, SI."""
 
 
 _SHAPE_UNITS: Mapping[Scale, tuple[str, str]] = {
@@ -128,7 +142,6 @@ class EffectColumn:
         block: its energy function, for grouping.
         nonnegative: physics allows no negative value.
         largest: magnitude beyond which it is another effect, SI.
-        within_friction: it is a part of the joint's friction, so never larger than all of it.
     """
 
     prefix: str
@@ -139,7 +152,6 @@ class EffectColumn:
     block: EnergyBlock
     nonnegative: bool
     largest: float = math.inf
-    within_friction: bool = False
 
 
 VARIABLES = {
@@ -205,6 +217,15 @@ class Effect:
         signature: how it shows itself in the residual.
         look_alikes: what it is mistaken for, and which motion tells them apart.
         same_as: ids of effects that no data tell from it.
+        twin: id of that of them whose last column is the same with the other sign.
+        needs: what must be true of the robot for its values to be believed.
+        rare: True if a rival that explains as much is likelier.
+        several: True if a joint may have it several times, with other shapes.
+        orders: of waves that are proposed for it, least and largest; None: those of its grid only.
+        whole_axis: True if it moves motor and links: the encoder shows both wrongly.
+        last_link: True if it is carried by the last link.
+        knocks: True if it shows by outbursts after the load changes sign.
+        hindrance: why it cannot be put into a model, and what to do; empty if it can.
         range: sign and range that physics allows.
         source: where it is described.
     """
@@ -221,6 +242,15 @@ class Effect:
     range: str
     source: str
     same_as: tuple[str, ...] = ()
+    twin: str = ""
+    needs: tuple[Needs, ...] = ()
+    rare: bool = False
+    several: bool = False
+    orders: tuple[float, float] | None = None
+    whole_axis: bool = False
+    last_link: bool = False
+    knocks: bool = False
+    hindrance: str = ""
     turns: bool = False
     rarely_negative: bool = False
     timing: bool = False
@@ -234,6 +264,11 @@ class Effect:
     def mends(self, value: float) -> bool:
         """True if that value of its first parameter mends the form of a law in the model."""
         return self.negative != "" and value < 0.0
+
+    @property
+    def rings(self) -> bool:
+        """True if it is an oscillator."""
+        return any(form.memory and form.memory.kind == "resonance" for form in self.forms)
 
     @property
     def written(self) -> bool:

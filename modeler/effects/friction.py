@@ -1,6 +1,6 @@
 """Friction beyond viscous and Coulomb."""
 
-from modeler.effects.effect import Acts, Effect, Memory, Shape
+from modeler.effects.effect import Acts, Effect, Memory, Needs, Shape
 from modeler.effects.writing import column, form
 
 _STRIBECK_SPEED = Shape(
@@ -123,7 +123,7 @@ FRICTION: tuple[Effect, ...] = (
         equation="Fz * (z - sign(qd)), z' = (qd/d)(1 - z sign(qd))",
         forms=(
             form(
-                column("Fz", "z - sign(v)", "torque", nonnegative=True, within_friction=True),
+                column("Fz", "z - sign(v)", "torque", nonnegative=True),
                 shapes=(_SLIP,),
                 memory=Memory("slip", "d"),
             ),
@@ -132,6 +132,7 @@ FRICTION: tuple[Effect, ...] = (
         family="friction",
         signature="residual against the travel since the last reversal: fades exponentially",
         look_alikes="Stribeck, backlash; make many small reversals, slowly",
+        needs=(Needs.FRICTION,),
         range="0 < Fz <= Fs; d 1e-4 to 2e-2 rad",
         source="Dahl 1968; Canudas de Wit, Olsson, Astrom and Lischinsky 1995 (LuGre)",
     ),

@@ -1,6 +1,8 @@
 """Gears, motors and sensors."""
 
-from modeler.effects.effect import Acts, Effect, Memory, Shape
+import math
+
+from modeler.effects.effect import Acts, Effect, Memory, Needs, Shape
 from modeler.effects.writing import column, form
 
 _FREQUENCY = Shape(
@@ -16,6 +18,7 @@ _GAP = Shape("t0", "load", (0.03, 0.1), (0.0, 0.0), "load over which the gap clo
 _ORDER = Shape(
     "m", "waves", (), (0.0, 0.0), "waves per turn of the joint (rad), or waves per 2 pi m"
 )
+_MOTOR = 70.0  # waves per turn from which on it is the motor: teeth and rollers are fewer
 _RIPPLE = (("c", "cos(m*q)"), ("s", "sin(m*q)"))
 
 TRANSMISSION: tuple[Effect, ...] = (
@@ -36,6 +39,9 @@ TRANSMISSION: tuple[Effect, ...] = (
         timing=True,
         signature="residual spectrum: an anti-resonance and a resonance; residual against jerk",
         look_alikes="delay, rotor inertia; move fast, or sweep the frequency",
+        needs=(Needs.INERTIA,),
+        hindrance="the joint needs a second mass: identify its stiffness by simulation, or move "
+        "slower than its resonance",
         range="K = 1/C 1e3 to 1e6 N m/rad, and about inertia times (2 pi f)^2",
         source="Spong 1987; Jubien, Gautier and Janot 2014",
     ),
@@ -50,6 +56,8 @@ TRANSMISSION: tuple[Effect, ...] = (
         signature="bursts of the residual within 0.1 s after the load (not the speed) changes sign",
         look_alikes="presliding, which bursts where the speed changes sign; pass the pose of zero "
         "load slowly and fast",
+        knocks=True,
+        hindrance="play has no smooth torque: mend the gear, or keep the load from changing sign",
         range="gap 0.1 to 5 mrad",
         source="Nordin and Gutman 2002",
     ),
@@ -67,6 +75,8 @@ TRANSMISSION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="transmission",
         same_as=("joint_ripple",),
+        several=True,
+        orders=(_MOTOR, math.inf),
         signature="order spectrum: a line at n times the gear ratio per turn",
         look_alikes="gear mesh at the joint, unless the gear ratio is known; move slowly, far",
         range="0.5 to 5 % of rated torque",
@@ -86,6 +96,8 @@ TRANSMISSION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="transmission",
         same_as=("motor_ripple",),
+        several=True,
+        orders=(0.0, _MOTOR),
         signature="order spectrum: a line at m per turn",
         look_alikes="ripple of the motor, unless the gear ratio is known; gravity, for low m",
         range="0.2 to 3 % of rated torque",
@@ -110,6 +122,8 @@ TRANSMISSION: tuple[Effect, ...] = (
         signature="waves per turn that grow with the square of the speed, and with gravity",
         look_alikes="first moment of the link; move fast at many poses",
         turns=True,
+        whole_axis=True,
+        orders=(0.0, math.inf),
         range="below 1 mrad to some mrad",
         source="Hanselman 1990",
     ),
@@ -124,6 +138,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         signature="residuals shaped like the derivative of gravity, on joints beyond it too",
         look_alikes="last link's first moment on the last joint; a vertical first joint never "
         "shows it",
+        whole_axis=True,
         range="below 5 degrees",
         source="Khalil and Dombre 2002, section 11.2",
     ),
@@ -152,6 +167,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         signature="residual against the predicted torque: a line",
         look_alikes="the joint's own parameters all scaled; needs other joints that share them, or "
         "a known load",
+        needs=(Needs.GAIN,),
         range="below 30 %",
         source="Gautier and Briot 2011, 2014",
     ),

@@ -21,13 +21,13 @@ _PER = {
 
 def column(
     prefix: str, equation: str, per: str, kind: str = "friction", nonnegative: bool = False,
-    largest: float = math.inf, within_friction: bool = False,
+    largest: float = math.inf,
 ) -> EffectColumn:  # fmt: skip
     """A column that never groups with another; `per` says what its parameter multiplies."""
     revolute, prismatic = _PER[per]
     return EffectColumn(
         prefix, parse(equation), revolute, prismatic, kind, EnergyBlock.OWN, nonnegative,
-        largest, within_friction,
+        largest,
     )  # fmt: skip
 
 

@@ -1,5 +1,6 @@
 """What could be missing: every effect on every joint, over its grid of shapes."""
 
+import dataclasses
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
@@ -7,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.contract import JointSpec, ModuleSpec
-from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, RIPPLES, Acts, Effect, Form, Shape
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, Shape
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,17 @@ class Candidate:
         return self.effect.id, self.joint
 
     @property
+    def order(self) -> float:
+        """Waves per turn, or per 2 pi m; 0 if it has none."""
+        waves = [self.shapes[shape.name] for shape in self.form.shapes if shape.scale == "waves"]
+        return waves[0] if waves else 0.0
+
+    def of_order(self, waves: float) -> "Candidate":
+        """The same with another order."""
+        names = [shape.name for shape in self.form.shapes if shape.scale == "waves"]
+        return dataclasses.replace(self, shapes={**self.shapes, **dict.fromkeys(names, waves)})
+
+    @property
     def local(self) -> bool:
         """True if it enters the torque of its own joint only."""
         return self.effect.acts is Acts.JOINT
@@ -131,7 +143,7 @@ def candidates(
     """
     found: list[Candidate] = []
     for effect in known.catalogue:
-        if effect.id in RIPPLES:
+        if effect.several:
             continue
         if effect.acts in (Acts.JOINT, Acts.POSITION):
             for j, joint in enumerate(spec.joints):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.core.contract import ModuleSpec, ParameterSpec
-from modeler.effects import ENCODERS, Acts, Memory
+from modeler.effects import Acts, Memory
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.signals import Signals
 from modeler.hypotheses.tilt import tilt_columns
@@ -63,7 +63,7 @@ def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
         return _passive(candidate, signals)
     own = own_columns(candidate, signals)
     if acts is Acts.POSITION:
-        whole = candidate.effect.id in ENCODERS
+        whole = candidate.effect.whole_axis
         return np.stack([signals.moved(candidate.index, dq, whole) for dq in own.T], axis=2)
     result = np.zeros((n, joints, own.shape[1]))
     result[:, candidate.index] = own

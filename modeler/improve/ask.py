@@ -3,18 +3,10 @@
 from collections.abc import Sequence
 
 from modeler.core.errors import DataError
-from modeler.effects import RIPPLES, Acts, Effect, effect_named
+from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
 from modeler.improve.passive import passive_joints, plain
 from modeler.robot.place import listed, near
-
-CANNOT = {
-    "elasticity": "the joint needs a second mass: identify its stiffness by simulation, or move "
-    "slower than its resonance",
-    "backlash": "play has no smooth torque: mend the gear, or keep the load from changing sign",
-    "external_force": "a contact is an event, not a parameter: leave its window out of the logs",
-}
-"""Effects that can be found and not added, and what to do."""
 
 _JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
 
@@ -40,8 +32,8 @@ def asked(
             f"{name}: no such effect{near(name, [known.id for known in catalogue])}; `modeler "
             "effects` lists them, with --robot FILE those of a robot file too"
         )
-    if effect.id in CANNOT:
-        raise DataError(f"{effect.id}: cannot be added ({CANNOT[effect.id]})")
+    if effect.hindrance:
+        raise DataError(f"{effect.id}: cannot be added ({effect.hindrance})")
     _check_loops(model, effect)
     if joint is not None:
         _check_joint(model, effect, joint)
@@ -50,7 +42,7 @@ def asked(
 
 
 def _check_joint(model: IdentifiedModel, effect: Effect, joint: str) -> None:
-    if effect.acts not in _JOINTED and effect.id != "link_inertia":
+    if effect.acts not in _JOINTED and (effect.acts is not Acts.LINK or effect.last_link):
         raise DataError(
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
             "--joint out"
@@ -78,7 +70,7 @@ def _check_loops(model: IdentifiedModel, effect: Effect) -> None:
 
 def _check_absent(model: IdentifiedModel, effect: Effect, joint: str | None) -> None:
     """An effect stands in a model once, but for ripples: there may be several orders."""
-    if effect.id in RIPPLES or effect.acts not in _JOINTED:
+    if effect.several or effect.acts not in _JOINTED:
         return
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
     if joint in present:

@@ -51,8 +51,9 @@ def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
     shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
     fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
     shapes = {name: value for name, value in shapes.items() if fixed.get(name) != value}
-    if pick.effect.id == "counterbalance" and _is_first_moment(pick, reference):
-        shapes["m"] = 0.0
+    moments = [shape.name for shape in pick.form.shapes if shape.scale == "moment"]
+    if moments and _is_first_moment(pick, reference):
+        shapes |= dict.fromkeys(moments, 0.0)
     if "T" in pick.form.names and pick.joint is not None:
         shapes["T0"] = reference.temperature[pick.joint]
     if "t" in pick.form.names:

@@ -112,7 +112,8 @@ def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named:
 def test_a_push_is_no_fact_while_something_acts_all_the_time(
     effect: str, left: bool, said: str
 ) -> None:
-    first = SimpleNamespace(effect=effect, closure=None, objection="", stands=True)
+    event = effect == "external_force"
+    first = SimpleNamespace(effect=effect, closure=None, objection="", stands=True, event=event)
     joints = {"1": SimpleNamespace(error_after=0.1, unexplained=left)}
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
 

@@ -6,11 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from modeler.diagnose import Known, diagnose, diagnosis
 from modeler.diagnose import detected as module
-from modeler.diagnose import diagnose, diagnosis
 from modeler.diagnose.detected import detected
 from modeler.diagnose.event_pictures import play_picture
 from modeler.diagnose.report import write_diagnosis
+from modeler.effects import effect_named
 from tests.diagnose.conftest import Case, motion, on_joint
 
 ERRORS = np.full(3, 0.05)
@@ -23,11 +24,13 @@ class Found(SimpleNamespace):
 def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
     """Args: by joint; columns: (gain, share, ratio to its standard error) of play, by joint."""
     joints = [SimpleNamespace(name=str(j), actuated=True) for j in (1, 2, 3)]
-    data = SimpleNamespace(compiled=SimpleNamespace(spec=SimpleNamespace(joints=joints)))
+    data = SimpleNamespace(
+        compiled=SimpleNamespace(spec=SimpleNamespace(joints=joints)), known=Known()
+    )
     states = [SimpleNamespace(data=data, ratios=ratios) for ratios in (start, end)]
     monkeypatch.setattr(module, "burst_ratio", lambda state, j: state.ratios[j])
     monkeypatch.setattr(module, "knocking", lambda state, j: knocks[j])
-    effect = SimpleNamespace(id="backlash")
+    effect = effect_named("backlash")
     ranked = [
         SimpleNamespace(
             candidate=SimpleNamespace(effect=effect, index=j), gain=gain, share=share, sure=sure
@@ -40,7 +43,8 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
 
 def column(effect, joint, gain, refines=False):
     left = 0.1 * (1.0 - gain) ** 0.5
-    return module.Finding(effect, joint, 0.1, left, {}, {}, {}, (), "", 1.0, refines)
+    pick = SimpleNamespace(candidate=SimpleNamespace(effect=effect_named(effect)))
+    return module.Finding(effect, joint, 0.1, left, {}, {}, {}, (), "", 1.0, refines, pick=pick)
 
 
 def said(found, findings=()):
