@@ -11,10 +11,12 @@ from modeler.effects import Acts, effect_named
 
 def blind_spots(found: Search) -> tuple[Key, ...]:
     """Effects that these data cannot show: hidden by the model, or on joints that do not move."""
-    judged = [*found.last.ranked]
+    ranked = found.steps[0].rivals if found.steps else found.last.ranked
+    spec = found.start.data.compiled.spec
+    has = {(p.effect, p.joint) for p in spec.standard}
+    judged = [j for j in ranked if j.candidate.key not in has]
     seen = {j.candidate.key for j in judged}
     hidden: list[Key] = [j.candidate.key for j in judged if j.visible < 2.0 * VISIBLE]
-    spec = found.start.data.compiled.spec
 
     def ruled(effect: str, joint: str | None) -> bool:
         return ruled_out(effect, joint, found.without)

@@ -14,6 +14,9 @@ import numpy as np
 from modeler.diagnose.state import State
 from modeler.hypotheses.candidates import Candidate
 
+DRIVES = "with it the friction of its joint would drive instead of brake"
+"""Why such an effect is refused."""
+
 FADES = frozenset({"t", "load", "static"})
 """What may be absent while a joint moves: time since the start, load."""
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.diagnose.gram import VISIBLE, Pool
-from modeler.diagnose.plausible import objection
 from modeler.diagnose.rank import Ranking
 from modeler.diagnose.state import State
 from modeler.diagnose.timing import confirmed
@@ -19,9 +18,6 @@ GATE = 0.03
 
 FELT = 0.002
 """Least fall of the error, as a share of the rms torque of its joints: filters distort as much."""
-
-DOUBTFUL = 0.006
-"""The same for timing-like effects whose values physics doubts."""
 
 SURE = 4.5
 """Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
@@ -62,6 +58,7 @@ class Judged:
         visible: share that the model does not hide.
         possible: False for a sign or a size that physics forbids.
         confirmed: False if only errors of timing speak for it.
+        why: physics forbids it on this robot, if it does.
     """
 
     candidate: Candidate
@@ -75,6 +72,7 @@ class Judged:
     visible: float
     possible: bool
     confirmed: bool = True
+    why: str = ""
 
     @property
     def alone(self) -> bool:
@@ -150,24 +148,11 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
     for place, item in enumerate(judged):
         if not item.significant:
             continue
-        if item.candidate.effect.timing and not _believed(state, item):
+        if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
             judged[place] = dataclasses.replace(item, confirmed=False)
             continue
         return Judgement(tuple(judged), _simplest(state, item, judged))
     return Judgement(tuple(judged), None)
-
-
-def _believed(state: State, item: Judged) -> bool:
-    """False for what is small with values that are not the joint's, or is not in smooth motion.
-
-    A tenth of a sample between torque and motion looks like a spring that swings a hundred times
-    the joint's inertia.
-    """
-    candidate = item.candidate
-    values = dict(zip(candidate.parameter_names(), map(float, item.values), strict=False))
-    if item.felt < DOUBTFUL and objection(state, candidate, values | dict(candidate.shapes)):
-        return False
-    return confirmed(state, candidate, item.values)
 
 
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:

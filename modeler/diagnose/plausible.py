@@ -7,7 +7,9 @@ import numpy as np
 from modeler.diagnose.braking import largest_friction
 from modeler.diagnose.state import State, columns_of
 from modeler.effects import Needs
+from modeler.fit.possible import body, nearest_possible
 from modeler.hypotheses.candidates import Candidate
+from modeler.hypotheses.columns import body_parameters
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
@@ -15,6 +17,9 @@ which on it is not this joint that rings."""
 
 FARTHEST = 10.0
 """Ratio of true and given drive gain, either way, from which on it is no gain."""
+
+LOST = 0.3
+"""Share, of the rms that a body on a link explains, that one that can be built may miss."""
 
 MORE = 1.3
 """Of the whole friction of a joint, more than which no part of it is, however badly known."""
@@ -66,9 +71,33 @@ def _no_rest(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
 
 
 def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
-    del state, pick
+    """What a body that can be built explains, over what these parameters do."""
     mass = parameters.get("mass", 0.0)
-    return f"no body has a mass of {mass:.3g} kg" if mass < 0.0 else ""
+    if mass < 0.0:
+        return f"no body has a mass of {mass:.3g} kg"
+    root = _alone(state, pick)
+    felt = body_parameters(pick, state.rows.signals[0])
+    values = np.array([parameters[name] for name in list(parameters)[: len(felt)]])
+    nearest = nearest_possible(body(felt), values, root)
+    if nearest is None or nearest.distance < LOST * float(np.linalg.norm(root @ values)):
+        return ""
+    return "no body has these inertial parameters: its pseudo-inertia would be negative"
+
+
+def _alone(state: State, pick: Candidate) -> np.ndarray:
+    """(k, k) root of the information on the parameters of an effect, beside all else."""
+    k = next(len(v) for v, p in zip(state.values, state.picks, strict=True) if p is pick)
+    columns, sigma = columns_of(state.rows, pick, state.cache), state.base.sigma
+    own = np.vstack(
+        [
+            np.zeros((len(w), k)) if c is None else c / s
+            for c, w, s in zip(columns, state.rows.W, sigma, strict=True)
+        ]
+    )
+    others = np.vstack([w[:, state.data.free] / s
+                        for w, s in zip(state.rows.W, sigma, strict=True)])  # fmt: skip
+    left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
+    return np.asarray(np.linalg.qr(left, mode="r"))
 
 
 def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:

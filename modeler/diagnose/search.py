@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from modeler.diagnose.braking import drives
+from modeler.diagnose.braking import DRIVES, drives
 from modeler.diagnose.judge import (
     Judged,
     Judgement,
@@ -18,9 +18,11 @@ from modeler.diagnose.judge import (
 )
 from modeler.diagnose.levers import constant_force
 from modeler.diagnose.orders import counted
+from modeler.diagnose.plausible import objection
 from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
@@ -138,8 +140,19 @@ def search(
         steps.append(_step(state, best, judgement.others(leading), after))
         state, judgement = later, after
         progress(len(steps) / (most + 1))
+    if not steps and (described := _description(start, refused, judgement)):
+        steps, state = [described], extended(start, described.pick)
     kept, state = _backward(state, steps)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
+
+
+def _description(start: State, refused: Sequence[Judged], last: Judgement) -> Step | None:
+    """Where nothing was named, what describes the logs best though it cannot be the cause."""
+    doubted = [judged for judged in refused if judged.why not in ("", DRIVES)]
+    if not doubted:
+        return None
+    best = max(doubted, key=lambda judged: judged.share)
+    return Step(best, last.others(best), start)
 
 
 def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
@@ -148,7 +161,7 @@ def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgeme
 
 @dataclass(frozen=True, eq=False)
 class Refused:
-    """An effect that was not put in; `judged.possible` is False if physics refused it."""
+    """An effect that was not put in; `judged.why` says why if physics refused it."""
 
     judged: Judged
 
@@ -158,10 +171,19 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
     for judged in (best, *_counted(state, best)):
         later = extended(state, judged.candidate)
         if drives(state, later, judged.candidate):
-            return Refused(dataclasses.replace(judged, possible=False))
+            return Refused(dataclasses.replace(judged, possible=False, why=DRIVES))
+        if why := _objection(later):
+            return Refused(dataclasses.replace(judged, possible=False, why=why))
         if veto is None or not veto(state, later, judged):
             return judged, later
     return Refused(best)
+
+
+def _objection(later: State) -> str:
+    """Why the values of the last effect cannot be those of this robot; empty if they can."""
+    pick, values = later.picks[-1], later.values[-1]
+    named = values_of(later, pick, values, np.zeros(len(values)))
+    return objection(later, pick, named.value | dict(pick.shapes))
 
 
 def _counted(state: State, best: Judged) -> list[Judged]:

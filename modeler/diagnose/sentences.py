@@ -16,10 +16,9 @@ MOST_REFUSED = 3
 _ONLY_HERE = "of these logs' error, but the error of the held-out motion does not fall with it"
 _PART = "it explains only part of what is systematic"
 
-_DRIVES = "of the error, but with it the friction of its joint would drive instead of brake"
 _ONLY_TIMING = (
     "of the error, but so do errors of timing: it is not seen once encoder noise is smoothed out "
-    "of the motion, or its values are not those of this joint"
+    "of the motion"
 )
 
 
@@ -103,7 +102,7 @@ def refused_lines(diagnosis: Diagnosis) -> list[str]:
     lines: dict[Key, tuple[float, str]] = {}
     for refused, why in ((found.vetoed, ""), (timing, _ONLY_TIMING)):
         for judged in refused:
-            because = why or (_ONLY_HERE if judged.possible else _DRIVES)
+            because = why or (f"of the error, but {judged.why}" if judged.why else _ONLY_HERE)
             key = judged.candidate.key
             if key not in named and judged.gain > lines.get(key, (TOLD, ""))[0]:
                 text = f"not named: {judged.candidate.effect.title} ({key[0]}), {where(key[1])}, "

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
-from modeler.core.contract import ModuleSpec
+from modeler.core.contract import ModuleSpec, ParameterSpec
 
 _PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 _CORNER = {  # upper triangle of P, column after column: {prefix: factor}
@@ -88,6 +88,14 @@ def machine_of(spec: ModuleSpec) -> Machine:
         p.name: place[p.name] for p in spec.standard if p.nonnegative and p.effect != "rigid_body"
     }
     return Machine(K, links, positive)
+
+
+def body(felt: Sequence[ParameterSpec]) -> Machine:
+    """The unknowns of one body; beta are those of its parameters that are felt."""
+    place = {p.name.removesuffix(p.joint): i for i, p in enumerate(felt)}
+    unfelt = [prefix for prefix in _PREFIXES if prefix not in place]
+    place |= {prefix: len(felt) + i for i, prefix in enumerate(unfelt)}
+    return Machine(np.eye(len(felt), len(place)), {"body": place}, {})
 
 
 def nearest_possible(

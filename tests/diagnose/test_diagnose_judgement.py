@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known, judge, search
+from modeler.diagnose import Known, search
 from modeler.diagnose.assemble import verdict
+from modeler.diagnose.braking import DRIVES
 from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
@@ -145,6 +146,7 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     monkeypatch.setattr(search, "judge", judged)
     state = SimpleNamespace(rows=None, cache={})
     monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
+    monkeypatch.setattr(search, "_objection", lambda later: "")
     found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
     named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
     assert named == order
@@ -156,7 +158,7 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
 
     def refused(state: object, best: object, veto: object) -> search.Refused:
         asked.append(best)
-        return search.Refused(best)  # type: ignore[arg-type]
+        return search.Refused(SimpleNamespace(why=""))  # type: ignore[arg-type]
 
     class Endless:
         def judged(self, vetoed: object = ()) -> SimpleNamespace:
@@ -170,28 +172,50 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     assert len(found.vetoed) == len(asked) == search.ASKED
 
 
-@pytest.mark.parametrize(
-    ("felt", "doubt", "named"),
-    [(0.003, "too heavy", False), (0.01, "too heavy", True), (0.003, "", True)],
-)
-def test_a_small_elasticity_that_swings_what_the_joint_has_not_is_an_error_of_timing(
-    monkeypatch: pytest.MonkeyPatch, felt: float, doubt: str, named: bool
-) -> None:
-    effect = effect_named("elasticity")
+def at_its_best(effect_id: str, share: float) -> Judged:
+    effect = effect_named(effect_id)
     assert effect is not None
-    candidate = Candidate(effect, effect.forms[0], "1", 0, {"f": 6.5, "zeta": 0.2})
     one = np.ones(1)
-    item = Judged(candidate, 0.15, 0.1, np.ones(40), one, one, 11.0, felt, 0.5, possible=True)
-    monkeypatch.setattr(judge, "objection", lambda state, pick, values: doubt)
-    monkeypatch.setattr(judge, "confirmed", lambda *a: True)
-    assert (decide(None, [item]).best is not None) is named  # type: ignore[arg-type]
+    candidate = Candidate(effect, effect.forms[0], "1", 0, {})
+    return Judged(candidate, share, share, np.ones(40), one, one, 11.0, 0.1, 0.5, possible=True)
+
+
+@pytest.mark.parametrize("doubt", ["", "too heavy"])
+def test_what_belongs_to_no_such_robot_is_not_put_in(
+    monkeypatch: pytest.MonkeyPatch, doubt: str
+) -> None:
+    item = at_its_best("elasticity", 0.5)
+    monkeypatch.setattr(search, "extended", lambda state, candidate: "later")
+    monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
+    monkeypatch.setattr(search, "_objection", lambda later: doubt)
+    found = search.put_in(None, item, None)  # type: ignore[arg-type]
+    assert isinstance(found, search.Refused) is bool(doubt)
+    if isinstance(found, search.Refused):
+        assert found.judged.why == doubt and not found.judged.possible
+
+
+def test_where_nothing_is_named_the_best_of_what_was_doubted_describes() -> None:
+    refused = [
+        dataclasses.replace(at_its_best(name, share), why=why)
+        for name, share, why in (
+            ("elasticity", 0.5, "too heavy"), ("drift", 0.9, DRIVES), ("spring", 0.8, ""),
+            ("payload", 0.6, "no mass"),
+        )
+    ]  # fmt: skip
+    last = search.Judgement((), None)
+    described = search._description(None, refused, last)  # type: ignore[arg-type]
+    assert described is not None and described.pick.effect.id == "payload"
+    assert search._description(None, refused[1:3], last) is None  # type: ignore[arg-type]
 
 
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
         candidate = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
         return SimpleNamespace(
-            candidate=candidate, gain=gain, confirmed=confirmed, possible=effect_id != "drift"
+            candidate=candidate,
+            gain=gain,
+            confirmed=confirmed,
+            why=DRIVES if effect_id == "drift" else "",
         )
 
     vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.4)]

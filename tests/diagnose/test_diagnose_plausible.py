@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from modeler.diagnose import plausible
 from modeler.diagnose.plausible import objection
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, JointScale
@@ -104,8 +105,29 @@ def test_a_spring_that_is_never_near_its_rest_is_a_constant_torque(rest, having,
     assert ("a constant torque" in objection(made, spring, {"Ks1": 1.0})) is doubted
 
 
+def felt_of(state, felt, values):
+    """A state with a body of these parameters on link 1, each felt alike and alone."""
+    state.picks, state.values = (pick("payload"),), [np.array(values)]
+    state.rows.signals, state.rows.W = [None], [np.zeros((100, 0))]
+    state.base = SimpleNamespace(sigma=np.ones(1))
+    state.data.free, state.cache = [], {}
+    return state, state.picks[0], dict(zip(felt, values, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("inertia", "built"), [((0.2, 0.3, 0.4), True), ((0.2, 0.3, 2.5), False), ((-2, 3, 4), False)]
+)
+def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
+    names = ["XX", "YY", "ZZ", "MX", "M"]
+    columns = np.random.default_rng(1).normal(size=(100, 5))
+    felt = [SimpleNamespace(name=f"{name}1", joint="1") for name in names]
+    monkeypatch.setattr(plausible, "body_parameters", lambda candidate, signals: felt)
+    monkeypatch.setattr(plausible, "columns_of", lambda rows, candidate, cache: (columns,))
+    made = felt_of(state(), [*names[:4], "mass"], [*inertia, 0.1, 1.0])
+    assert (objection(*made) == "") is built
+
+
 def test_no_body_has_a_negative_mass():
-    assert objection(state(), pick("payload"), {"mass": 1.2}) == ""
     assert "no body has a mass of -4 kg" in objection(state(), pick("payload"), {"mass": -4.0})
 
 
