@@ -11,6 +11,7 @@ from typing import Any
 from modeler import api
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
+from modeler.core.contract import Emitted
 from modeler.diagnose import Diagnosis, Known, diagnose
 from modeler.fit import IdentifiedModel
 from modeler.improve import Logs, add_findings
@@ -31,12 +32,14 @@ class Fitted:
 
     Attributes:
         derivation: of its robot.
+        emitted: its C.
         model: with the cut-offs that the fit chose.
         compiled: its robot.
         logs: fitted and held out.
     """
 
     derivation: api.Derivation
+    emitted: Emitted
     model: IdentifiedModel
     compiled: CompiledModel
     logs: Logs
@@ -92,39 +95,36 @@ def _clock(seconds: dict[str, float], name: str) -> Iterator[None]:
 
 
 @lru_cache(maxsize=1)
-def _robot(name: str) -> tuple[api.Derivation, CompiledModel]:
+def _robot(name: str) -> tuple[api.Derivation, Emitted, CompiledModel]:
     derivation = api.derive(robot_from_text(SETS[name].robot(), name))
-    return derivation, api.compile_model(api.generate(derivation))
+    emitted = api.generate(derivation)
+    return derivation, emitted, api.compile_model(emitted)
 
 
 @lru_cache(maxsize=1)
 def _fitted(name: str, direction: str, data: Path) -> Fitted:
     """With the default processing; the cases of one direction come one after the other."""
-    derivation, compiled = _robot(name)
+    derivation, emitted, compiled = _robot(name)
     training, held_out = SETS[name].logs(data, direction)
     logs = Logs(api.read_logs(compiled, training), api.read_logs(compiled, held_out))
-    return _fit(derivation, compiled, logs, None)
-
-
-def _fit(
-    derivation: api.Derivation, compiled: CompiledModel, logs: Logs, processing: Processing | None
-) -> Fitted:
-    observation = api.observe(compiled, logs.fitted, processing)
-    model = api.fit(derivation, api.generate(derivation), observation)
-    return Fitted(derivation, model, compiled, logs)
+    model = api.fit(derivation, emitted, api.observe(compiled, logs.fitted))
+    return Fitted(derivation, emitted, model, compiled, logs)
 
 
 def _at(fitted: Fitted, factor: float) -> Fitted:
     """Fitted anew with both cut-offs given: those that were chosen, times a factor."""
     processing = scaled(fitted.model.processing, factor, fitted.logs.fitted)
-    return _fit(fitted.derivation, fitted.compiled, fitted.logs, processing)
+    observation = api.observe(fitted.compiled, fitted.logs.fitted, processing)
+    model = api.fit(fitted.derivation, fitted.emitted, observation)
+    return dataclasses.replace(fitted, model=model)
 
 
 def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing:
     """The defaults with both cut-offs given, as far as the sampling rate goes."""
     highest = HIGHEST / max(log.step for log in logs)
     pair = (chosen.position_cutoff, chosen.parallel_cutoff)
-    position, parallel = (min(factor * (cutoff or 0.0), highest) for cutoff in pair)
+    wanted = (min(factor * (cutoff or 0.0), highest) for cutoff in pair)
+    position, parallel = (float(f"{cutoff:.6g}") for cutoff in wanted)
     return Processing(position_cutoff=position, parallel_cutoff=parallel)
 
 

@@ -77,7 +77,7 @@ def _diagnosis(answer: Answer) -> list[str]:
     return [
         "; ".join(map(_effect, effects)),
         ", ".join(str(len(finding["ties"])) for finding in effects),
-        ", ".join(named(key(finding)) for finding in answer.said["refinements"]),
+        ", ".join(map(_label, answer.said["refinements"])),
         _seconds(answer),
     ]
 
@@ -85,7 +85,14 @@ def _diagnosis(answer: Answer) -> list[str]:
 def _effect(finding: Mapping[str, Any]) -> str:
     doubt = finding["objection"] or not all(look["agrees"] for look in finding["looks"])
     change = " -> ".join(percent(finding[name]) for name in ("error_before", "error_after"))
-    return f"{named(key(finding))}{'?' if doubt else ''} {change}"
+    return f"{_label(finding)}{'?' if doubt else ''} {change}"
+
+
+def _label(finding: Mapping[str, Any]) -> str:
+    """Effect and joint, and the waves per turn that tell one ripple from another."""
+    waves = (finding.get("parameters") or finding.get("shapes") or {}).get("m")
+    ripple = finding["effect"].endswith("ripple") and waves is not None
+    return named(key(finding)) + (f" m={waves:.3g}" if ripple else "")
 
 
 def _seconds(answer: Answer) -> str:
@@ -106,7 +113,7 @@ def _change(answer: Answer) -> list[str]:
 
 def _steps(answer: Answer) -> str:
     """What `add auto` kept and left out, as a list."""
-    kept = [named(key(step)) for step in answer.said.get("kept", ())]
+    kept = [_label(step) for step in answer.said.get("kept", ())]
     left = [f"  - left out: {text}" for text in answer.said.get("left_out", ())]
     title = f"- {answer.case.set}, {answer.case.direction}: kept {', '.join(kept) or 'nothing'}"
     return "\n".join([title, *left])

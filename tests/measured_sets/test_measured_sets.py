@@ -66,11 +66,13 @@ def test_the_table_of_diagnoses():
 
 def test_the_table_of_additions():
     said = {"joints": {"1": [0.05, 0.03], "2": [0.02, 0.021]}, "whole": 0.63, "scatter": 4.25,
-            "rises": ["2"], "spoilt": False, "kept": [{"effect": "spring", "joint": "1"}],
-            "left_out": ["drift, joint 2 (no)"]}  # fmt: skip
+            "rises": ["2"], "spoilt": False, "left_out": ["drift, joint 2 (no)"]}  # fmt: skip
+    steps = [("spring", {"q0": 0.2}), ("motor_ripple", {"m": 84.0})]
+    said["kept"] = [{"effect": name, "joint": "1", "shapes": shapes} for name, shapes in steps]
     text = improvement([Answer(Case("ur10e", "forward"), said, {"add": 2.0}), FAILED])
     assert "| ur10e | forward | 1: 5 -> 3; 2: 2 -> 2.1! | 0.630 | 4.2 | 2.0 add |" in text
-    assert "ur10e, forward: kept spring@1\n  - left out: drift, joint 2 (no)" in text
+    assert "ur10e, forward: kept spring@1, motor_ripple@1 m=84\n" in text
+    assert "  - left out: drift, joint 2 (no)" in text
     assert "emps, exchanged: kept nothing" in text and "DataError: no rows" in text
 
 
