@@ -36,7 +36,13 @@ class Answer:
     @property
     def stated(self) -> Key | None:
         """What is stated as the cause; None if nothing is."""
-        return key(self.said["effects"][0]) if self.verdict == "missing" else None
+        return self.first if self.verdict == "missing" else None
+
+    @property
+    def first(self) -> Key | None:
+        """What is named first, with a doubt or without; None if nothing is."""
+        effects = self.said.get("effects")
+        return key(effects[0]) if effects else None
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from modeler.diagnose.sentences import percent
-from tests.measured_sets.answer import Answer, key, named
+from tests.measured_sets.answer import Answer, Key, key, named
 
 
 def stability(answers: Sequence[Answer]) -> str:
@@ -16,13 +16,20 @@ def stability(answers: Sequence[Answer]) -> str:
 
 
 def stays(answers: Sequence[Answer]) -> str:
-    """Whether what is stated as the cause is the same wherever anything is."""
+    """Whether what is stated as the cause is the same wherever anything is.
+
+    And what is named first, stated or not.
+    """
     failed = sum(bool(answer.error) for answer in answers)
     stated = [answer.stated for answer in answers if answer.stated is not None]
-    firsts = [f"{named(first)} in {stated.count(first)}" for first in dict.fromkeys(stated)]
-    text = "MOVES" if len(firsts) > 1 else "stays"
-    text += f" ({', '.join(firsts) or 'nothing'} stated of {len(answers)})"
+    first = [answer.first for answer in answers if answer.first is not None]
+    text = "MOVES" if len(set(stated)) > 1 else "stays"
+    text += f" (of {len(answers)} stated: {_tally(stated)}; named first: {_tally(first)})"
     return f"FAILS in {failed}; {text}" if failed else text
+
+
+def _tally(keys: Sequence[Key]) -> str:
+    return ", ".join(f"{named(one)} {keys.count(one)}" for one in dict.fromkeys(keys)) or "nothing"
 
 
 def improvement(answers: Sequence[Answer]) -> str:
