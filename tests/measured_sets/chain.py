@@ -1,0 +1,139 @@
+"""The chain that is asked: a case fitted, diagnosed, and mended by what the diagnosis names."""
+
+import dataclasses
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from modeler import api
+from modeler.compiled import CompiledModel
+from modeler.compiled import load as load_compiled
+from modeler.core.contract import Emitted
+from modeler.diagnose import Diagnosis, Known, diagnose
+from modeler.fit import IdentifiedModel
+from modeler.improve import Logs, add_findings
+from modeler.improve.rows import rows_of
+from modeler.improve.score import Score, scored
+from modeler.improve.unseen import Unseen, left_of
+from modeler.observation import Log, Processing
+from modeler.observation.motion import HIGHEST
+from modeler.robot import robot_from_text
+from tests.measured_sets.answer import Answer
+from tests.measured_sets.sanity import faults
+from tests.measured_sets.sets import SETS, Case
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Fitted:
+    """A set fitted in one direction.
+
+    Attributes:
+        derivation: of its robot.
+        emitted: its C.
+        model: with the cut-offs that the fit chose.
+        compiled: its robot.
+        logs: fitted and held out.
+    """
+
+    derivation: api.Derivation
+    emitted: Emitted
+    model: IdentifiedModel
+    compiled: CompiledModel
+    logs: Logs
+
+
+def diagnosed(case: Case, data: Path) -> Answer:
+    """What `modeler diagnose` says, and what is wrong with its values."""
+    seconds: dict[str, float] = {}
+    with _clock(seconds, "robot"):
+        _robot(case.set)
+    with _clock(seconds, "fit"):
+        fitted = _fitted(case.set, case.direction, data)
+        if case.factor != 1.0:
+            fitted = _at(fitted, case.factor)
+    with _clock(seconds, "diagnosis"):
+        found = _found(fitted)
+    return Answer(case, found.to_json(), seconds, faults(found))
+
+
+def improved(case: Case, data: Path) -> Answer:
+    """What `modeler add auto` makes of the model, and the error of the held-out motion."""
+    seconds: dict[str, float] = {}
+    with _clock(seconds, "fit"):
+        fitted = _fitted(case.set, case.direction, data)
+    with _clock(seconds, "diagnosis"):
+        found = _found(fitted)
+    with _clock(seconds, "add"):
+        findings = [*found.effects, *found.refinements]
+        better, left_out = add_findings(fitted.model, fitted.compiled, findings, fitted.logs)
+    score = scored(_unseen(fitted, fitted.model, fitted.compiled),
+                   _unseen(fitted, better, load_compiled(better.spec, better.sources)))  # fmt: skip
+    return Answer(case, _told(better, left_out, score), seconds)
+
+
+def _told(better: IdentifiedModel, left_out: tuple[str, ...], score: Score) -> dict[str, Any]:
+    """Plain data of a model with effects added."""
+    return {
+        "joints": {name: list(pair) for name, pair in score.errors.items()},
+        "whole": score.whole.after,
+        "scatter": score.whole.scatter,
+        "rises": [change.joint for change in score.joints if change.rises],
+        "spoilt": score.spoilt,
+        "kept": [step.to_json() for step in better.history[1:]],
+        "left_out": [line.removeprefix("left out: ") for line in left_out],
+    }
+
+
+@contextmanager
+def _clock(seconds: dict[str, float], name: str) -> Iterator[None]:
+    start = time.perf_counter()
+    yield
+    seconds[name] = time.perf_counter() - start
+
+
+@lru_cache(maxsize=1)
+def _robot(name: str) -> tuple[api.Derivation, Emitted, CompiledModel]:
+    derivation = api.derive(robot_from_text(SETS[name].robot(), name))
+    emitted = api.generate(derivation)
+    return derivation, emitted, api.compile_model(emitted)
+
+
+@lru_cache(maxsize=1)
+def _fitted(name: str, direction: str, data: Path) -> Fitted:
+    """With the default processing; the cases of one direction come one after the other."""
+    derivation, emitted, compiled = _robot(name)
+    training, held_out = SETS[name].logs(data, direction)
+    logs = Logs(api.read_logs(compiled, training), api.read_logs(compiled, held_out))
+    model = api.fit(derivation, emitted, api.observe(compiled, logs.fitted))
+    return Fitted(derivation, emitted, model, compiled, logs)
+
+
+def _at(fitted: Fitted, factor: float) -> Fitted:
+    """Fitted anew with both cut-offs given: those that were chosen, times a factor."""
+    processing = scaled(fitted.model.processing, factor, fitted.logs.fitted)
+    observation = api.observe(fitted.compiled, fitted.logs.fitted, processing)
+    model = api.fit(fitted.derivation, fitted.emitted, observation)
+    return dataclasses.replace(fitted, model=model)
+
+
+def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing:
+    """The defaults with both cut-offs given, as far as the sampling rate goes."""
+    highest = HIGHEST / max(log.step for log in logs)
+    pair = (chosen.position_cutoff, chosen.parallel_cutoff)
+    wanted = (min(factor * (cutoff or 0.0), highest) for cutoff in pair)
+    position, parallel = (float(f"{cutoff:.6g}") for cutoff in wanted)
+    return Processing(position_cutoff=position, parallel_cutoff=parallel)
+
+
+def _found(fitted: Fitted) -> Diagnosis:
+    robot, logs = fitted.derivation.robot, fitted.logs
+    known = Known(robot.catalogue, robot.coupling)
+    return diagnose(fitted.model, fitted.compiled, logs.fitted, logs.held_out, known=known)
+
+
+def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> Unseen:
+    rows = rows_of(compiled, fitted.logs, model.processing)
+    return left_of(model, compiled, rows.seen[-1])
