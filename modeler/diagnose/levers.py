@@ -61,8 +61,7 @@ def _signed(
     """Those whose last parameter has that sign, and the fall of each, best first."""
     if not candidates:
         return []
-    _, ranking = state.ranked([columns_of(state.rows, c, state.cache) for c in candidates])
-    last = ranking.value.reshape(len(candidates), -1)[:, -1]
-    fall = ranking.drop.sum(axis=0)
+    seen = state.sifted([columns_of(state.rows, c, state.cache) for c in candidates])
+    last, fall = [value[-1] for value in seen.value], seen.total
     order = [k for k in np.argsort(-fall) if sign * last[k] > 0.0 and fall[k] > 0.0]
     return [(candidates[k], float(fall[k])) for k in order]

@@ -11,7 +11,9 @@ import numpy as np
 from modeler.diagnose.blocks import Blocks, blocks_of
 from modeler.diagnose.candidates import Candidate, JointScale, Known, scales_of
 from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
-from modeler.diagnose.rank import Ranking, rank
+from modeler.diagnose.orthonormal import turn_of
+from modeler.diagnose.rank import Ranking, Sifted, rank, sifted
+from modeler.diagnose.reduced import Reduced, Reduction, reduction
 from modeler.diagnose.rows import Columns, Rows, rows_of
 from modeler.diagnose.signals import Reference
 from modeler.diagnose.tilt import frame_slopes, tilt_weights
@@ -65,6 +67,26 @@ class Data:
             [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE], dtype=int
         )
 
+    @cached_property
+    def y(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        if self.kept is None:
+            return self.rows.y
+        kept = self.kept.copy()
+        kept[self.free] = 0.0
+        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+
+    @cached_property
+    def reduction(self) -> Reduction:
+        """Of the base columns that are fitted, and y."""
+        return reduction([w[:, self.free] for w in self.rows.W], self.y)
+
+    @cached_property
+    def numbers(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, number of the block of time."""
+        used = self.observation.used
+        return tuple(self.blocks.number[used[:, j]] for j in range(self.rows.joints))
+
 
 _FREE = ("friction", "offset")
 
@@ -101,32 +123,43 @@ class State:
             found.append(np.hstack(parts))
         return tuple(found)
 
-    @cached_property
+    @property
     def y(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint: torques, less those of base parameters that are kept."""
-        if self.data.kept is None:
-            return self.rows.y
-        kept = self.data.kept.copy()
-        kept[self.data.free] = 0.0
-        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+        return self.data.y
 
     @cached_property
     def base(self) -> Base:
         """Of the model so far."""
-        fitted = dataclasses.replace(self.rows, W=self.W, y=self.y)
-        sigma = sigma_of(fitted)
-        numbers = [
-            self.data.blocks.number[self.data.observation.used[:, j]]
-            for j in range(self.rows.joints)
-        ]
-        return base_of(self.W, self.y, sigma, numbers, self.data.blocks.fold)
+        numbers, fold = self.data.numbers, self.data.blocks.fold
+        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
+
+    @cached_property
+    def reduced(self) -> Reduced:
+        """The rows of the model so far, reduced to few."""
+        return self.data.reduction.beside(self.extra)
+
+    @cached_property
+    def sigma(self) -> np.ndarray:
+        """(J,) rms residual of each joint."""
+        return sigma_of(self.reduced)
+
+    @cached_property
+    def turn(self) -> np.ndarray:
+        """(f + extra, r) to orthonormal weighted columns."""
+        return turn_of(self.reduced.W, self.sigma)
 
     @cached_property
     def solution(self) -> np.ndarray:
         """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        base = self.base
-        G, u = base.G.sum(axis=0), base.u.sum(axis=0)
-        return base.turn @ np.linalg.solve(G + 1e-12 * np.eye(len(G)), u) if len(G) else np.zeros(0)
+        few = self.reduced
+        if not self.turn.shape[1]:
+            return np.zeros(len(self.turn))
+        G, u = 1e-12 * np.eye(self.turn.shape[1]), np.zeros(self.turn.shape[1])
+        for w, y, s in zip(few.W, few.y, self.sigma, strict=True):
+            columns = w @ (self.turn / s)
+            G, u = G + columns.T @ columns, u + columns.T @ (y / s)
+        return np.asarray(self.turn @ np.linalg.solve(G, u))
 
     @cached_property
     def beta(self) -> np.ndarray:
@@ -162,6 +195,10 @@ class State:
             [s.v[w] for s, w in zip(signals, whole, strict=True)],
             [s.load[w] for s, w in zip(signals, whole, strict=True)],
         )
+
+    def sifted(self, every: Sequence[Columns]) -> Sifted:
+        """Falls and values of candidates by their columns, in sums."""
+        return sifted(self.base.folded, pool_of(self.base.folded, every))
 
     def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
         """Candidates by their columns."""
