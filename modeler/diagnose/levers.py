@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.diagnose.candidates import Candidate, over_grid
 from modeler.diagnose.polish import polished
-from modeler.diagnose.state import State, columns_of
+from modeler.diagnose.state import State, all_columns_of, columns_of
 from modeler.effects import Effect
 
 CLEAR = 1.01
@@ -61,7 +61,7 @@ def _signed(
     """Those whose last parameter has that sign, and the fall of each, best first."""
     if not candidates:
         return []
-    seen = state.sifted([columns_of(state.rows, c, state.cache) for c in candidates])
+    seen = state.sifted(all_columns_of(state.rows, candidates, state.cache))
     last, fall = [value[-1] for value in seen.value], seen.total
     order = [k for k in np.argsort(-fall) if sign * last[k] > 0.0 and fall[k] > 0.0]
     return [(candidates[k], float(fall[k])) for k in order]

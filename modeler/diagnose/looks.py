@@ -18,7 +18,7 @@ from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
 from modeler.diagnose.propose import proposals
 from modeler.diagnose.search import Search, Step
-from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.diagnose.state import Data, State, all_columns_of, state_of, visible
 from modeler.observation import Log
 from modeler.observation.motion import HIGHEST
 
@@ -124,8 +124,8 @@ def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     rivals = [j.candidate for j in step.rivals if j.candidate.key not in refused][:RIVALS]
     first = [step.pick, *rivals]
     keys = {c.key for c in first}
-    again = [c for c in proposals(state, None, found.without) if c.key in keys]
+    again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
     every = [c for c in (*first, *again) if _logged(state.data, c)]
-    columns = [columns_of(state.rows, c, state.cache) for c in every]
+    columns = all_columns_of(state.rows, every, state.cache)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])

@@ -25,7 +25,7 @@ from modeler.diagnose.orders import counted
 from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.rows import Columns
-from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.diagnose.state import Data, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import RIPPLES, effect_named
 
 _T = TypeVar("_T")
@@ -302,7 +302,7 @@ def surveyed(
 
 def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     """Some candidates in a state; those that show."""
-    columns = [columns_of(state.rows, c, state.cache) for c in found]
+    columns = all_columns_of(state.rows, found, state.cache)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
     order = sift(state, found, columns)

@@ -1,10 +1,11 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
 import dataclasses
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -56,8 +57,25 @@ class Data:
 
     def rows_about(self, beta: np.ndarray) -> Rows:
         """The rows with effects linearised about beta (c,)."""
-        blank = self.rows.signals[0].reference
-        return self.rows.about(dataclasses.replace(blank, beta=beta))
+        return self.about(dataclasses.replace(self.rows.signals[0].reference, beta=beta))
+
+    def about(self, reference: Reference) -> Rows:
+        """The same about a reference; the last few are remembered."""
+        key = reference.beta.tobytes(), _clock(reference)
+        found = self._about.pop(key, None) or self.rows.about(reference)
+        self._about[key] = found
+        if len(self._about) > _REMEMBERED:
+            del self._about[next(iter(self._about))]
+        return found
+
+    @cached_property
+    def _about(self) -> dict[Any, Rows]:
+        return {}
+
+    @cached_property
+    def cache(self) -> dict[Any, Any]:
+        """Columns that do not depend on the model."""
+        return {}
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -89,6 +107,13 @@ class Data:
 
 
 _FREE = ("friction", "offset")
+
+_REMEMBERED = 3  # references: that of a state, and those of the next
+
+
+def _clock(reference: Reference) -> tuple[Any, ...]:
+    """What the time and the temperature of effects are counted from."""
+    return reference.time, *sorted(reference.temperature.items())
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,24 +243,61 @@ def state_of(
         cache: of columns that do not depend on beta, kept between states.
     """
     rows = data.rows_about(beta)
-    kept = {} if cache is None else cache
-    extra = tuple(columns_of(rows, pick, kept) for pick in picks)
+    kept = data.cache if cache is None else cache
+    extra = picked_columns(rows, picks, kept)
     return State(data, tuple(picks), rows.signals[0].reference, rows, extra, kept)
+
+
+def picked_columns(rows: Rows, picks: Sequence[Candidate], cache: dict) -> tuple[Columns, ...]:
+    """The columns of what was put in: remembered for every reference."""
+    for pick in picks:
+        if column_key(rows, pick) not in rows.known:
+            rows.known[column_key(rows, pick)] = columns_of(rows, pick, cache)
+    return tuple(rows.known[column_key(rows, pick)] for pick in picks)
 
 
 def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
     """The candidate's columns; those that do not depend on the model are computed once."""
     if candidate.effect.acts is Acts.GRAVITY:
         return _tilt(rows, cache)
-    fixed = candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
-    memory = candidate.form.memory
-    fixed = fixed and candidate.effect.acts in _FIXED and (memory is None or memory.kind == "slip")
-    key = (candidate.effect.id, candidate.joint, tuple(sorted(candidate.shapes.items())))
-    if not fixed:
+    if not _fixed(candidate):
         return rows.columns(candidate)
+    key = column_key(rows, candidate)
     if key not in cache:
         cache[key] = rows.columns(candidate)
     return cache[key]
+
+
+def all_columns_of(rows: Rows, candidates: Sequence[Candidate], cache: dict) -> list[Columns]:
+    """The columns of many candidates: the shapes of one effect at once."""
+    found: list[Columns] = []
+    for _, group in itertools.groupby(candidates, key=lambda c: (c.key, c.form)):
+        every = list(group)
+        new = [c for c in every if not (_fixed(c) and column_key(rows, c) in cache)]
+        if len(new) > 1 and every[0].effect.acts is not Acts.GRAVITY:
+            made = dict(zip(map(id, new), rows.many(new), strict=True))
+            cache.update({column_key(rows, c): made[id(c)] for c in new if _fixed(c)})
+            found += [made[id(c)] if id(c) in made else cache[column_key(rows, c)] for c in every]
+        else:
+            found += [columns_of(rows, c, cache) for c in every]
+    return found
+
+
+def _fixed(candidate: Candidate) -> bool:
+    """True if its columns do not depend on the model."""
+    memory = candidate.form.memory
+    return (
+        candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
+        and candidate.effect.acts in _FIXED
+        and (memory is None or memory.kind == "slip")
+    )
+
+
+def column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
+    """What columns that do not depend on the model depend on."""
+    shapes = tuple(sorted(candidate.shapes.items()))
+    clock = () if candidate.form.names.isdisjoint({"t", "T"}) else _clock(rows.signals[0].reference)
+    return candidate.effect.id, candidate.joint, shapes, clock
 
 
 _FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)

@@ -1,13 +1,15 @@
 """Effects that errors of timing imitate: does the smooth motion speak for them too?"""
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.gram import pieces
 from modeler.diagnose.rows import Columns, Rows
 from modeler.diagnose.signals import Signals
-from modeler.diagnose.state import State
+from modeler.diagnose.state import State, picked_columns
 from modeler.effects import Acts
 from modeler.observation.motion import low_pass
 
@@ -66,19 +68,17 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
     theta = (Z^T X)^-1 Z^T y; errors from sums over blocks, so that coloured residuals count.
     """
     smooth = _smoothed(state)
-    X, Z, y, block = [], [], [], []
     own, other = state.rows.columns(candidate), smooth.columns(candidate)
-    extra = [smooth.columns(pick) for pick in state.picks]
-    for j in range(state.rows.joints):
-        sigma = state.base.sigma[j]
-        base = smooth.W[j][:, state.data.free]
-        picks = [_dense(e, j, len(base)) for e in extra]
-        X.append(np.hstack([state.W[j], _dense(own, j, len(base))]) / sigma)
-        Z.append(np.hstack([base, *picks, _dense(other, j, len(base))]) / sigma)
-        y.append(state.y[j] / sigma)
-        block.append(state.base.block[j])
+    extra = picked_columns(smooth, state.picks, {})
     k = next(c.shape[1] for c in own if c is not None)
-    return _solve(np.vstack(X), np.vstack(Z), np.concatenate(y), np.concatenate(block), k)
+    X, Z = [], []
+    for j in range(state.rows.joints):
+        sigma, rows = state.base.sigma[j], len(state.y[j])
+        base = smooth.W[j][:, state.data.free]
+        picks = [_dense(e, j, rows) for e in extra]
+        X.append(np.hstack([state.W[j], _dense(own, j, rows)]) / sigma)
+        Z.append(np.hstack([base, *picks, _dense(other, j, rows)]) / sigma)
+    return _solve(X, Z, state.base.y, state.base.block, k)
 
 
 def _dense(columns: Columns, j: int, rows: int) -> np.ndarray:
@@ -88,19 +88,25 @@ def _dense(columns: Columns, j: int, rows: int) -> np.ndarray:
 
 
 def _solve(
-    X: np.ndarray, Z: np.ndarray, y: np.ndarray, block: np.ndarray, k: int
-) -> tuple[np.ndarray, np.ndarray]:
-    length = np.linalg.norm(X, axis=0)
-    size = np.linalg.norm(Z, axis=0)
+    X: Sequence[np.ndarray], Z: Sequence[np.ndarray], y: Sequence[np.ndarray],
+    block: Sequence[np.ndarray], k: int,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Of the last k columns; everything is given by joint."""
+    length, size = (np.sqrt(sum(np.einsum("ij,ij->j", m, m) for m in own)) for own in (X, Z))
     kept = (length > 0.0) & (size > 0.0)
     if not kept[-k:].all():
         return np.zeros(k), np.ones(k)
-    X, Z, length = X[:, kept] / length[kept], Z[:, kept] / size[kept], length[kept]
-    inverse = np.linalg.pinv(Z.T @ X, rcond=1e-9)
-    theta = inverse @ (Z.T @ y)
-    scores = Z * (y - X @ theta)[:, None]
-    sums = np.zeros((int(block.max()) + 1, Z.shape[1]))
-    np.add.at(sums, block, scores)
+    length, size = np.where(kept, length, 1.0), np.where(kept, size, 1.0)
+    products = sum(z.T @ x for z, x in zip(Z, X, strict=True)) / np.outer(size, length)
+    inverse = np.zeros(products.shape)
+    inverse[np.ix_(kept, kept)] = np.linalg.pinv(products[np.ix_(kept, kept)], rcond=1e-9)
+    theta = inverse @ (sum(z.T @ t for z, t in zip(Z, y, strict=True)) / size)
+    sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, len(size)))
+    for x, z, t, own in zip(X, Z, y, block, strict=True):
+        left = t - x @ (theta / length)
+        for b, rows in pieces(own):
+            sums[b] += left[rows] @ z[rows]
+    sums /= size
     covariance = inverse @ (sums.T @ sums) @ inverse.T
     error = np.sqrt(np.diag(covariance))
     return theta[-k:] / length[-k:], error[-k:] / length[-k:]
@@ -108,20 +114,29 @@ def _solve(
 
 def _smoothed(state: State) -> Rows:
     """The same rows with the motion smoothed."""
-    key = "smooth rows"
+    if "smooth" in state.rows.known:
+        return state.rows.known["smooth"]
+    signals, W = _smooth_motion(state)
+    signals = tuple(dataclasses.replace(s, reference=state.reference) for s in signals)
+    smooth = dataclasses.replace(state.rows, W=W, signals=signals, known={})
+    state.rows.known["smooth"] = smooth
+    return smooth
+
+
+def _smooth_motion(state: State) -> tuple[tuple[Signals, ...], tuple[np.ndarray, ...]]:
+    """The motion smoothed, and its base columns: the same for all states."""
+    key = "smooth motion"
     if key not in state.cache:
-        state.cache[key] = [_smooth(s, _cutoff(state)) for s in state.rows.signals]
-    motion = state.cache[key]
-    signals = tuple(
-        dataclasses.replace(s, q=q, v=v, a=a, reference=state.reference)
-        for s, (q, v, a) in zip(state.rows.signals, motion, strict=True)
-    )
-    model = state.data.compiled
-    base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
-    W = tuple(
-        state.rows.filtered(j, [value[:, j] for value in base]) for j in range(state.rows.joints)
-    )
-    return dataclasses.replace(state.rows, W=W, signals=signals)
+        signals = []
+        for s in state.rows.signals:
+            q, v, a = _smooth(s, _cutoff(state))
+            signals.append(dataclasses.replace(s, q=q, v=v, a=a))
+        model = state.data.compiled
+        base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
+        joints = range(state.rows.joints)
+        W = tuple(state.rows.filtered(j, [value[:, j] for value in base]) for j in joints)
+        state.cache[key] = tuple(signals), W
+    return state.cache[key]
 
 
 def _cutoff(state: State) -> float:
