@@ -21,6 +21,9 @@ _FEW = 4
 _MANY = 20
 """Blocks from which on that is faster."""
 
+_AT_ONCE = 48
+"""Candidates whose columns are multiplied at once: they stay in the cache."""
+
 VISIBLE = 0.005
 """A direction of candidate columns that the base hides beyond this share is not seen."""
 
@@ -212,9 +215,12 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
     D = np.zeros((base.blocks, len(pairs)))
     for j in range(len(base.sigma)):
         own = [i for i, columns in enumerate(every) if columns[j] is not None]
-        if own and base.y[j].size:
-            places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in own])
-            stacked = np.concatenate([np.asarray(every[i][j]).T for i in own]) / base.sigma[j]
+        for some in (own[k : k + _AT_ONCE] for k in range(0, len(own), _AT_ONCE)):
+            if not base.y[j].size:
+                continue
+            places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
+            stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
+            stacked /= base.sigma[j]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
             _add_joint(base, j, places, stacked, (T, w, D), pairs)
     scale = np.sqrt(np.where(square > 0.0, square, 1.0))

@@ -1,7 +1,6 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
 import dataclasses
-import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -270,17 +269,24 @@ def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
 
 def all_columns_of(rows: Rows, candidates: Sequence[Candidate], cache: dict) -> list[Columns]:
     """The columns of many candidates: the shapes of one effect at once."""
-    found: list[Columns] = []
-    for _, group in itertools.groupby(candidates, key=lambda c: (c.key, c.form)):
-        every = list(group)
-        new = [c for c in every if not (_fixed(c) and column_key(rows, c) in cache)]
-        if len(new) > 1 and every[0].effect.acts is not Acts.GRAVITY:
-            made = dict(zip(map(id, new), rows.many(new), strict=True))
-            cache.update({column_key(rows, c): made[id(c)] for c in new if _fixed(c)})
-            found += [made[id(c)] if id(c) in made else cache[column_key(rows, c)] for c in every]
+    found: list[Columns | None] = [None] * len(candidates)
+    groups: dict[Any, list[int]] = {}
+    for i, candidate in enumerate(candidates):
+        if _fixed(candidate) and column_key(rows, candidate) in cache:
+            found[i] = cache[column_key(rows, candidate)]
         else:
-            found += [columns_of(rows, c, cache) for c in every]
-    return found
+            groups.setdefault((candidate.key, id(candidate.form)), []).append(i)
+    for places in groups.values():
+        every = [candidates[i] for i in places]
+        if len(every) == 1 or every[0].effect.acts is Acts.GRAVITY:
+            made = [columns_of(rows, candidate, cache) for candidate in every]
+        else:
+            made = rows.many(every)
+            new = zip(every, made, strict=True)
+            cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
+        for i, own in zip(places, made, strict=True):
+            found[i] = own
+    return [own for own in found if own is not None]
 
 
 def _fixed(candidate: Candidate) -> bool:

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -70,42 +71,84 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
     smooth = _smoothed(state)
     own, other = state.rows.columns(candidate), smooth.columns(candidate)
     extra = picked_columns(smooth, state.picks, {})
-    k = next(c.shape[1] for c in own if c is not None)
+    sizes = [next(c.shape[1] for c in e if c is not None) for e in (*extra, own)]
+    ends = np.cumsum([len(state.data.free), *sizes])
     X, Z = [], []
-    for j in range(state.rows.joints):
-        sigma, rows = state.base.sigma[j], len(state.y[j])
+    for j, sigma in enumerate(state.base.sigma):
         base = smooth.W[j][:, state.data.free]
-        picks = [_dense(e, j, rows) for e in extra]
-        X.append(np.hstack([state.W[j], _dense(own, j, rows)]) / sigma)
-        Z.append(np.hstack([base, *picks, _dense(other, j, rows)]) / sigma)
-    return _solve(X, Z, state.base.y, state.base.block, k)
+        further = zip(ends[:-1], ends[1:], (*extra, other), strict=True)
+        X.append(_Parts([(slice(0, ends[-2]), state.W[j]), *_shown(own, j, ends[-2:])], sigma))
+        shown = [part for first, last, e in further for part in _shown(e, j, (first, last))]
+        Z.append(_Parts([(slice(0, ends[0]), base), *shown], sigma))
+    return _solve(X, Z, (int(ends[-1]), sizes[-1]), state.base.y, state.base.block)
 
 
-def _dense(columns: Columns, j: int, rows: int) -> np.ndarray:
-    k = next(c.shape[1] for c in columns if c is not None)
+def _shown(
+    columns: Columns, j: int, ends: Sequence[int] | np.ndarray
+) -> list[tuple[slice, np.ndarray]]:
     here = columns[j]
-    return np.zeros((rows, k)) if here is None else here
+    return [] if here is None else [(slice(int(ends[0]), int(ends[1])), here)]
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Columns of one joint, (rows, k) each, with their places among all; divided by sigma."""
+
+    parts: list[tuple[slice, np.ndarray]]
+    sigma: float
+
+    def squares(self, count: int) -> np.ndarray:
+        """(count,) of all columns."""
+        found = np.zeros(count)
+        for at, own in self.parts:
+            found[at] = np.einsum("ij,ij->j", own, own)
+        return found / self.sigma**2
+
+    def times(self, other: "_Parts", count: int) -> np.ndarray:
+        """(count, count) products with other columns."""
+        found = np.zeros((count, count))
+        for at, own in self.parts:
+            for place, columns in other.parts:
+                found[at, place] = own.T @ columns
+        return found / self.sigma**2
+
+    def on(self, values: np.ndarray, rows: slice = slice(None)) -> np.ndarray:
+        """(count,) products with values of some rows."""
+        found = np.zeros(max(at.stop for at, _ in self.parts))
+        for at, own in self.parts:
+            found[at] = values @ own[rows]
+        return found / self.sigma
+
+    def of(self, theta: np.ndarray) -> np.ndarray:
+        """(rows,) with parameters."""
+        return np.asarray(sum(own @ theta[at] for at, own in self.parts)) / self.sigma
 
 
 def _solve(
-    X: Sequence[np.ndarray], Z: Sequence[np.ndarray], y: Sequence[np.ndarray],
-    block: Sequence[np.ndarray], k: int,
+    X: Sequence[_Parts], Z: Sequence[_Parts], count: tuple[int, int], y: Sequence[np.ndarray],
+    block: Sequence[np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Of the last k columns; everything is given by joint."""
-    length, size = (np.sqrt(sum(np.einsum("ij,ij->j", m, m) for m in own)) for own in (X, Z))
+    """Of the last k of c columns, count = (c, k); all else by joint."""
+    c, k = count
+    length, size = (np.sqrt(sum(part.squares(c) for part in own)) for own in (X, Z))
     kept = (length > 0.0) & (size > 0.0)
     if not kept[-k:].all():
         return np.zeros(k), np.ones(k)
     length, size = np.where(kept, length, 1.0), np.where(kept, size, 1.0)
-    products = sum(z.T @ x for z, x in zip(Z, X, strict=True)) / np.outer(size, length)
-    inverse = np.zeros(products.shape)
+    products = sum(z.times(x, c) for z, x in zip(Z, X, strict=True)) / np.outer(size, length)
+    inverse = np.zeros((c, c))
     inverse[np.ix_(kept, kept)] = np.linalg.pinv(products[np.ix_(kept, kept)], rcond=1e-9)
-    theta = inverse @ (sum(z.T @ t for z, t in zip(Z, y, strict=True)) / size)
-    sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, len(size)))
+    sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, c))
+    right = np.zeros(c)
+    for z, t in zip(Z, y, strict=True):
+        side = z.on(t)
+        right[: len(side)] += side
+    theta = inverse @ (right / size)
     for x, z, t, own in zip(X, Z, y, block, strict=True):
-        left = t - x @ (theta / length)
+        left = t - x.of(theta / length)
         for b, rows in pieces(own):
-            sums[b] += left[rows] @ z[rows]
+            score = z.on(left[rows], rows)
+            sums[b, : len(score)] += score
     sums /= size
     covariance = inverse @ (sums.T @ sums) @ inverse.T
     error = np.sqrt(np.diag(covariance))
