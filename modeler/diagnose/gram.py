@@ -40,6 +40,7 @@ class Base:
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
         finer: the same with more blocks, whose sums are taken; None: from the rows.
+        order: (rows_j,) by joint, of the rows among those of `finer`, block after block.
     """
 
     W: tuple[np.ndarray, ...]
@@ -49,6 +50,7 @@ class Base:
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
     finer: "Base | None" = None
+    order: tuple[np.ndarray, ...] = ()
 
     @property
     def blocks(self) -> int:
@@ -59,7 +61,8 @@ class Base:
     def columns(self) -> tuple[np.ndarray, ...]:
         """(rows_j, r) by joint, weighted."""
         if self.finer is not None:
-            return self.finer.columns
+            every = zip(self.finer.columns, self.order, strict=True)
+            return tuple(columns[order] for columns, order in every)
         return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
 
     @cached_property
@@ -94,8 +97,18 @@ class Base:
     def folded(self) -> "Base":
         """The same with whole folds as blocks: enough where only sums over all blocks count."""
         place, count = self.crossed.place, len(self.crossed.beta)
-        block = tuple(place[own] for own in self.block)
-        return dataclasses.replace(self, block=block, fold=np.arange(count), finer=self)
+        block = [place[own] for own in self.block]
+        order = tuple(np.argsort(own, kind="stable") for own in block)
+        return Base(
+            self.W, tuple(y[o] for y, o in zip(self.y, order, strict=True)), self.turn, self.sigma,
+            tuple(own[o] for own, o in zip(block, order, strict=True)), np.arange(count),
+            finer=self, order=order,
+        )  # fmt: skip
+
+    @cached_property
+    def pieces(self) -> list[list[tuple[int, slice]]]:
+        """Blocks and their rows, by joint."""
+        return [pieces(own) for own in self.block]
 
     @cached_property
     def crossed(self) -> "Crossed":
@@ -131,8 +144,9 @@ class Crossed:
 
 def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
     """(F, ...) sums of values (blocks, ...) over all folds but one."""
-    own = np.stack([values[place == f].sum(axis=0) for f in range(count)])
-    return own.sum(axis=0) - own
+    whole = len(place) == count and bool((np.diff(place) == 1).all())
+    own = values if whole else np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    return np.asarray(own.sum(axis=0) - own)
 
 
 def solved(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -221,6 +235,8 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
             places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
             stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
             stacked /= base.sigma[j]
+            if base.order:
+                stacked = stacked[:, base.order[j]]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
             _add_joint(base, j, places, stacked, (T, w, D), pairs)
     scale = np.sqrt(np.where(square > 0.0, square, 1.0))
@@ -253,7 +269,7 @@ def _add_joint(
         D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start)
         return
     own = np.zeros((len(T), T.shape[1], len(places)))
-    for b, rows in pieces(base.block[j]):
+    for b, rows in base.pieces[j]:
         part = columns[:, rows]
         own[b] += base.columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
