@@ -9,7 +9,7 @@ nearest rivals of the other: each looks at what the other was made from.
 """
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -79,17 +79,24 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
         yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
 
 
-def looked_again(found: Search, looks: Sequence[tuple[str, Data]]) -> list[tuple[Look, ...]]:
+def looked_again(
+    found: Search, looks: Sequence[tuple[str, Data]], tick: Callable[[], None] = lambda: None
+) -> list[tuple[Look, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
         found: the search in the first look.
         looks: others.
+        tick: called after each.
     """
-    return [
-        tuple(_look(what, data, found, place) for what, data in looks)
-        for place in range(len(found.steps))
-    ]
+    every = []
+    for place in range(len(found.steps)):
+        said = []
+        for what, data in looks:
+            said.append(_look(what, data, found, place))
+            tick()
+        every.append(tuple(said))
+    return every
 
 
 def _look(what: str, data: Data, found: Search, place: int) -> Look:

@@ -109,7 +109,7 @@ def search(
     without: Sequence[str] = (),
     most: int = MOST,
     veto: Veto | None = None,
-    progress: Callable[[float], None] = lambda share: None,
+    tick: Callable[[], None] = lambda: None,
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -119,29 +119,30 @@ def search(
         without: ids of effects, or id@joint, that the user rules out.
         most: effects to name at most; with 0 nothing is judged.
         veto: looks at held-out logs.
-        progress: called with a share between 0 and 1.
+        tick: called whenever something is done.
     """
     start = state = _started(data, beta)
     steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
     survey = surveyed(state, without) if most else None
-    judgement = survey.judged() if survey else Judgement((), None)
+    judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
         first = judgement.best
         accepted = put_in(state, _named(state, first, refused, without), veto)
+        tick()
         if isinstance(accepted, Refused):
             refused.append(accepted.judged)
             if len(vetoed) + len(refused) == ASKED:
                 break
-            judgement = survey.judged(refused)
+            judgement = survey.judged(refused, tick)
             continue
         best, later = accepted
         survey = surveyed(later, without)
+        tick()
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
-        after = survey.judged(refused)
+        after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
-        progress(len(steps) / (most + 1))
-    kept, state = _backward(state, steps)
+    kept, state = _backward(state, steps, tick)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
 
 
@@ -239,15 +240,21 @@ class Survey:
         best.sort(key=lambda j: -float(j.drop.sum()))
         return Survey(self.state, found, columns, order, best, self.refined)
 
-    def judged(self, vetoed: Sequence[Judged] = ()) -> Judgement:
-        """All but what was vetoed; the leading ones refined."""
+    def judged(
+        self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
+    ) -> Judgement:
+        """All but what was vetoed; the leading ones refined, with a tick after each."""
         left = self.but(vetoed)
         close = [
             j for j in left.best[:MANY]
             if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
         ]  # fmt: skip
         # Of effects that were not refined, only the best shapes may win still.
-        best = [left.at_best(j) if any(j is k for k in close) else j for j in left.best]
+        refined = {}
+        for item in close:
+            refined[item.candidate.key] = left.at_best(item)
+            tick()
+        best = [refined.get(j.candidate.key, j) for j in left.best]
         return decide(self.state, sorted(best, key=lambda j: -float(j.drop.sum())))
 
     def at_best(self, judged: Judged) -> Judged:
@@ -335,14 +342,19 @@ def extended(state: State, pick: Candidate) -> State:
     return state_of(state.data, picks, once.beta, state.cache)
 
 
-def _backward(state: State, steps: Sequence[Step]) -> tuple[list[Step], State]:
+def _backward(
+    state: State, steps: Sequence[Step], tick: Callable[[], None]
+) -> tuple[list[Step], State]:
     """Drops effects that the others made unnecessary, the weakest first.
 
     What the others gain is judged again then, beside those that are left.
     """
     kept = list(steps)
     while len(kept) > 1:
-        judged = [_beside(state, kept, step) for step in kept]
+        judged = []
+        for step in kept:
+            judged.append(_beside(state, kept, step))
+            tick()
         weakest = int(np.argmin([j.gain for j in judged]))
         if judged[weakest].significant:
             break

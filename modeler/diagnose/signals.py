@@ -152,6 +152,12 @@ class Signals:
 
     def _slope(self, j: int, kind: int) -> np.ndarray:
         model, beta = self.reference.compiled, self.reference.links
+        if kind == 2:
+            unit = np.zeros(self.q.shape[1])
+            unit[j] = 1.0
+            return (
+                model.inverse_dynamics(self.q, self.v, self.a + unit, beta, self.read) - self.load
+            )
         size = (_STEP, 1.0, 1.0)[kind]
         ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         step = np.zeros(self.q.shape[1])
@@ -199,7 +205,7 @@ def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -
     return first + lfilter(numerator, denominator, load - first)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=1024)
 def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points."""
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
