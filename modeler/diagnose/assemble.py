@@ -1,7 +1,7 @@
 """From a search to a diagnosis: errors on other motion, ties, closure, verdict."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -45,6 +45,7 @@ SAME_WAVES = 0.1
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
     looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (),
+    tick: Callable[[], None] = lambda: None,
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -55,12 +56,19 @@ def assembled(
         window: of a contact that was masked.
         looks: what other looks say of every effect, in order.
         faults: channels that contradict the model; if one is certain, nothing is named.
+        tick: called whenever something is done.
     """
     chain = _chain(found)
     seen, errors = _errors(chain, other)
-    shares = [systematic_share(found.end, j) for j in range(len(errors[0]))]
+    tick()
+    shares = []
+    for j in range(len(errors[0])):
+        shares.append(systematic_share(found.end, j))
+        tick()
     contradicted = any(fault.certain for fault in faults)
-    every = () if contradicted else _findings(found, chain, window, errors, shares, seen, looks)
+    every = (
+        () if contradicted else _findings(found, chain, window, errors, shares, seen, looks, tick)
+    )
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     joints = _joints(found, errors, shares)
     diagnosis = Diagnosis(
@@ -107,6 +115,7 @@ def _findings(
     systematic: Sequence[float],
     seen: Sequence[tuple[np.ndarray, np.ndarray]] | None,
     looks: Sequence[tuple[Look, ...]],
+    tick: Callable[[], None],
 ) -> list[Finding]:
     """Effects that were put in, and those that are no columns."""
     findings = []
@@ -116,6 +125,7 @@ def _findings(
         closed = closure(chain[k:], touched, systematic, squares)
         finding = _finding(found, step, touched, errors[k : k + 2], closed)
         findings.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
+        tick()
     return detected(found, window, errors[-1], findings)
 
 

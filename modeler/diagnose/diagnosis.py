@@ -14,6 +14,7 @@ from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.looks import looked_again, other_looks
+from modeler.diagnose.meter import Meter
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.search import MOST, Search, search
 from modeler.diagnose.state import Data, State, state_of
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 CHANGED = 1.3
 """Ratio of the residual variances with kept and with refitted parameters from which on the robot
 has changed since the fit."""
+
+_READ, _SEARCHED, _LOOKED = 0.05, 0.7, 0.9  # shares of the work when these are done
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
@@ -56,11 +59,15 @@ def diagnose(
     Raises:
         DataError: no usable row.
     """
+    meter = Meter(progress or (lambda share: None))
+    meter.stage(_READ)
     seen = analysed(compiled, logs, model.processing)
+    meter.tick()
     data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = _faults(model, compiled, seen, other)
-    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, progress
+    meter.stage(_SEARCHED)
+    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter.tick
     found = _searched(data, other, *options)
     aligned = _aligned(data, found, model, logs)
     if aligned is not None:
@@ -69,8 +76,12 @@ def diagnose(
     window = _push(data, found) if _may_push(data, without) else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
-    looks = looked_again(found, _looks(data, logs, other, window) if found.steps else [])
-    diagnosis = assembled(model, found, other, window, looks, doubted)
+    meter.stage(_LOOKED)
+    every = _looks(data, logs, other, window) if found.steps else []
+    looks = looked_again(found, every, meter.tick)
+    meter.stage(1.0)
+    diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
+    meter.stage(1.0)
     return _told(diagnosis, model, data)
 
 
@@ -92,12 +103,10 @@ def _told(diagnosis: Diagnosis, model: IdentifiedModel, data: Data) -> Diagnosis
 
 def _searched(
     data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
-    progress: Callable[[float], None] | None,
+    tick: Callable[[], None],
 ) -> Search:  # fmt: skip
-    told = progress or (lambda share: None)
-    found = search(data, beta, without, most, vetoing(other) if other is not None else None, told)
-    told(1.0)
-    return found
+    veto = vetoing(other) if other is not None else None
+    return search(data, beta, without, most, veto, tick)
 
 
 def _aligned(data: Data, found: Search, model: IdentifiedModel, logs: Sequence[Log]) -> Data | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from modeler.diagnose.judge import Judged
-from modeler.diagnose.state import Data, State, columns_of
+from modeler.diagnose.state import Data, State, picked_columns
 
 
 def relative(left: np.ndarray, size: np.ndarray) -> np.ndarray:
@@ -31,9 +31,8 @@ def held_out_squares(state: State, data: Data) -> tuple[np.ndarray, np.ndarray]:
 def _held_out_residuals(state: State, data: Data, later: float = 0.0) -> list[np.ndarray]:
     """(rows_j,) by joint, N m or N; with so many s added to the clock."""
     reference = dataclasses.replace(state.reference, time=state.reference.time - later)
-    rows = data.rows.about(reference)
-    cache: dict = {}
-    extra = [columns_of(rows, pick, cache) for pick in state.picks]
+    rows = data.about(reference)
+    extra = picked_columns(rows, state.picks, data.cache)
     found = []
     for j in range(rows.joints):
         left = rows.y[j] - rows.W[j] @ state.beta

@@ -8,7 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from modeler.hypotheses.orthonormal import orthonormal
+from modeler.diagnose.reduced import Reduced
+from modeler.hypotheses.orthonormal import turn_of
 from modeler.hypotheses.rows import Columns, Rows
 
 RIDGE = 1e-10
@@ -20,6 +21,9 @@ _FEW = 4
 _MANY = 20
 """Blocks from which on that is faster."""
 
+_AT_ONCE = 48
+"""Candidates whose columns are multiplied at once: they stay in the cache."""
+
 VISIBLE = 0.005
 """A direction of candidate columns that the base hides beyond this share is not seen."""
 
@@ -29,23 +33,24 @@ class Base:
     """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
 
     Attributes:
-        columns: (rows_j, r) by joint, weighted.
+        W: (rows_j, c) by joint.
         y: (rows_j,) by joint, weighted.
-        turn: (c, r): columns = W turn / sigma.
+        turn: (c, r): the orthonormal columns are W turn / sigma.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
-        G, u: (blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y.
+        finer: the same with more blocks, whose sums are taken; None: from the rows.
+        order: (rows_j,) by joint, of the rows among those of `finer`, block after block.
     """
 
-    columns: tuple[np.ndarray, ...]
+    W: tuple[np.ndarray, ...]
     y: tuple[np.ndarray, ...]
     turn: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
-    G: np.ndarray
-    u: np.ndarray
+    finer: "Base | None" = None
+    order: tuple[np.ndarray, ...] = ()
 
     @property
     def blocks(self) -> int:
@@ -53,25 +58,70 @@ class Base:
         return len(self.fold)
 
     @cached_property
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """(rows_j, r) by joint, weighted."""
+        if self.finer is not None:
+            every = zip(self.finer.columns, self.order, strict=True)
+            return tuple(columns[order] for columns, order in every)
+        return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
+
+    @cached_property
+    def grams(self) -> tuple[np.ndarray, np.ndarray]:
+        """(blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y."""
+        if self.finer is not None:
+            place, count = self.finer.crossed.place, self.blocks
+            G, u = (
+                np.stack([x[place == f].sum(axis=0) for f in range(count)])
+                for x in self.finer.grams
+            )
+            return G, u
+        r = self.turn.shape[1]
+        G, u = np.zeros((self.blocks, r, r)), np.zeros((self.blocks, r))
+        for w, t, own in zip(self.columns, self.y, self.block, strict=True):
+            for b, rows in pieces(own):
+                G[b] += w[rows].T @ w[rows]
+                u[b] += w[rows].T @ t[rows]
+        return G, u
+
+    @property
+    def G(self) -> np.ndarray:
+        """(blocks, r, r) Gram matrices of the columns."""
+        return self.grams[0]
+
+    @property
+    def u(self) -> np.ndarray:
+        """(blocks, r) their products with y."""
+        return self.grams[1]
+
+    @cached_property
     def folded(self) -> "Base":
         """The same with whole folds as blocks: enough where only sums over all blocks count."""
         place, count = self.crossed.place, len(self.crossed.beta)
-        G, u = (
-            np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (self.G, self.u)
-        )
-        block = tuple(place[own] for own in self.block)
-        return dataclasses.replace(self, block=block, fold=np.arange(count), G=G, u=u)
+        block = [place[own] for own in self.block]
+        order = tuple(np.argsort(own, kind="stable") for own in block)
+        return Base(
+            self.W, tuple(y[o] for y, o in zip(self.y, order, strict=True)), self.turn, self.sigma,
+            tuple(own[o] for own, o in zip(block, order, strict=True)), np.arange(count),
+            finer=self, order=order,
+        )  # fmt: skip
+
+    @cached_property
+    def pieces(self) -> list[list[tuple[int, slice]]]:
+        """Blocks and their rows, by joint."""
+        return [pieces(own) for own in self.block]
 
     @cached_property
     def crossed(self) -> "Crossed":
         """Fits of the base to all folds but one."""
+        if self.finer is not None:
+            return dataclasses.replace(self.finer.crossed, place=np.arange(self.blocks))
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
         left = np.zeros(len(self.y))
         for j, (columns, y, block) in enumerate(zip(self.columns, self.y, self.block, strict=True)):
-            for b, rows in pieces(block):
-                left[j] += float(np.sum((y[rows] - columns[rows] @ beta[place[b]]) ** 2))
+            predicted = np.take_along_axis(columns @ beta.T, place[block][:, None], axis=1)
+            left[j] = float(np.sum((y - predicted[:, 0]) ** 2))
         return Crossed(place, inverse, beta, left)
 
 
@@ -94,8 +144,9 @@ class Crossed:
 
 def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
     """(F, ...) sums of values (blocks, ...) over all folds but one."""
-    own = np.stack([values[place == f].sum(axis=0) for f in range(count)])
-    return own.sum(axis=0) - own
+    whole = len(place) == count and bool((np.diff(place) == 1).all())
+    own = values if whole else np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    return np.asarray(own.sum(axis=0) - own)
 
 
 def solved(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -110,6 +161,7 @@ def base_of(
     sigma: np.ndarray,
     block: Sequence[np.ndarray],
     fold: np.ndarray,
+    turn: np.ndarray | None = None,
 ) -> Base:
     """The weighted base.
 
@@ -119,16 +171,11 @@ def base_of(
         sigma: (J,) of each joint.
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
+        turn: (c, r) of the columns, where it is known.
     """
-    columns, turn = orthonormal(W, sigma)
+    turn = turn_of(W, sigma) if turn is None else turn
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
-    r = turn.shape[1]
-    G, u = np.zeros((len(fold), r, r)), np.zeros((len(fold), r))
-    for w, t, own in zip(columns, target, block, strict=True):
-        for b, rows in pieces(own):
-            G[b] += w[rows].T @ w[rows]
-            u[b] += w[rows].T @ t[rows]
-    return Base(columns, target, turn, sigma, tuple(block), fold, G, u)
+    return Base(tuple(W), target, turn, sigma, tuple(block), fold)
 
 
 def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
@@ -182,9 +229,14 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
     D = np.zeros((base.blocks, len(pairs)))
     for j in range(len(base.sigma)):
         own = [i for i, columns in enumerate(every) if columns[j] is not None]
-        if own and base.y[j].size:
-            places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in own])
-            stacked = np.concatenate([np.asarray(every[i][j]).T for i in own]) / base.sigma[j]
+        for some in (own[k : k + _AT_ONCE] for k in range(0, len(own), _AT_ONCE)):
+            if not base.y[j].size:
+                continue
+            places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
+            stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
+            stacked /= base.sigma[j]
+            if base.order:
+                stacked = stacked[:, base.order[j]]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
             _add_joint(base, j, places, stacked, (T, w, D), pairs)
     scale = np.sqrt(np.where(square > 0.0, square, 1.0))
@@ -216,11 +268,16 @@ def _add_joint(
         w[np.ix_(number, places)] += _sums(columns * base.y[j], start)
         D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start)
         return
-    for b, rows in pieces(base.block[j]):
+    own = np.zeros((len(T), T.shape[1], len(places)))
+    for b, rows in base.pieces[j]:
         part = columns[:, rows]
-        T[b][:, places] += base.columns[j][rows].T @ part.T
+        own[b] += base.columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
         D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
+    if len(places) == T.shape[2]:
+        T += own
+    else:
+        T[:, :, places] += own
 
 
 def _sums(values: np.ndarray, start: np.ndarray) -> np.ndarray:
@@ -228,7 +285,7 @@ def _sums(values: np.ndarray, start: np.ndarray) -> np.ndarray:
     return np.moveaxis(np.add.reduceat(values, start, axis=-1), -1, 0)
 
 
-def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:
+def sigma_of(rows: Rows | Reduced, beta: np.ndarray | None = None) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
@@ -239,18 +296,23 @@ def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:
         rows: of the analysis.
         beta: (c,) parameters that are kept; None: fitted.
     """
-    size = np.array([_rms(y) if y.size else 1.0 for y in rows.y])
+    count = rows.count if isinstance(rows, Reduced) else np.array([len(y) for y in rows.y])
+    size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
     floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
     free = size == 0.0
     sigma = np.maximum(np.where(free, size.max(), size), floor)
+    grams = [w.T @ w for w in rows.W]
+    sides = [w.T @ y for w, y in zip(rows.W, rows.y, strict=True)]
     for _ in range(50):
-        found = beta if beta is not None else _solve(rows, sigma)
-        pairs = zip(rows.y, rows.W, strict=True)
-        updated = np.array([_rms(y - w @ found) if y.size else 1.0 for y, w in pairs])
+        found = beta if beta is not None else _solve(grams, sides, sigma)
+        every = zip(rows.y, rows.W, count, strict=True)
+        updated = np.array([_rms(y - w @ found, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
-            error = _rms(updated[~free] / size[~free])
-            terms = np.array([_rms(w * found) * np.sqrt(len(found)) for w in rows.W])
-            updated = np.where(free, np.maximum(updated, error * terms), updated)
+            error = float(np.sqrt(np.mean((updated[~free] / size[~free]) ** 2)))
+            parts = [
+                np.diag(gram) @ found**2 / max(n, 1) for gram, n in zip(grams, count, strict=True)
+            ]
+            updated = np.where(free, np.maximum(updated, error * np.sqrt(parts)), updated)
         updated = np.maximum(updated, floor)
         settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
         sigma = updated
@@ -259,17 +321,20 @@ def sigma_of(rows: Rows, beta: np.ndarray | None = None) -> np.ndarray:
     return sigma
 
 
-def _rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
+def _rms(values: np.ndarray, count: int) -> float:
+    return float(np.sqrt(values @ values / count)) if count else 0.0
 
 
-def _solve(rows: Rows, sigma: np.ndarray) -> np.ndarray:
-    if not rows.W[0].shape[1]:
+def _solve(
+    grams: Sequence[np.ndarray], sides: Sequence[np.ndarray], sigma: np.ndarray
+) -> np.ndarray:
+    """Weighted least squares from the Gram matrices of the joints."""
+    if not len(sides[0]):
         return np.zeros(0)
-    gram = sum((w.T @ w) / s**2 for w, s in zip(rows.W, sigma, strict=True))
-    right = sum((w.T @ y) / s**2 for w, y, s in zip(rows.W, rows.y, sigma, strict=True))
+    gram = sum(g / s**2 for g, s in zip(grams, sigma, strict=True))
+    right = sum(u / s**2 for u, s in zip(sides, sigma, strict=True))
     length = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     values, vectors = np.linalg.eigh(gram / np.outer(length, length))
     kept = values > 1e-11 * values[-1]
     inverse = (vectors[:, kept] / values[kept]) @ vectors[:, kept].T
-    return inverse @ (right / length) / length
+    return np.asarray(inverse @ (right / length) / length)

@@ -124,18 +124,44 @@ def best_shapes(
     state: State, found: Sequence[Candidate], columns: Sequence[Columns]
 ) -> list[Judged]:
     """Every effect on every joint at the best of the given shapes, best first."""
-    pool, ranking = state.ranked(columns)
-    best: dict[tuple[str, str | None], int] = {}
-    total = ranking.drop.sum(axis=0)
-    order = [
-        (possible(candidate, ranking, pool, i), float(total[i]))
-        for i, candidate in enumerate(found)
+    order = sift(state, found, columns)
+    return judged_at(state, found, columns, leading(found, order))
+
+
+Order = tuple[bool, float]
+"""What chooses among the shapes of an effect: whether it is possible, and what it explains."""
+
+
+def sift(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> list[Order]:
+    """Of every candidate."""
+    seen = state.sifted(columns)
+    return [
+        (possible(candidate, value), float(total))
+        for candidate, value, total in zip(found, seen.value, seen.total, strict=True)
     ]
+
+
+def leading(found: Sequence[Candidate], order: Sequence[Order]) -> list[int]:
+    """Places of the best shapes of every effect on every joint."""
+    best: dict[tuple[str, str | None], int] = {}
     for i, candidate in enumerate(found):
         at = best.get(candidate.key)
         if at is None or order[i] > order[at]:
             best[candidate.key] = i
-    judged = [_judged(state, found[i], ranking, pool, i) for i in best.values()]
+    return list(best.values())
+
+
+def judged_at(
+    state: State,
+    found: Sequence[Candidate],
+    columns: Sequence[Columns],
+    places: Sequence[int],
+) -> list[Judged]:
+    """Some of the candidates judged, best first."""
+    if not places:
+        return []
+    pool, ranking = state.ranked([columns[i] for i in places])
+    judged = [_judged(state, found[i], ranking, pool, k) for k, i in enumerate(places)]
     judged.sort(key=lambda j: -float(j.drop.sum()))
     return judged
 
@@ -193,11 +219,9 @@ def _own(pool: Pool, i: int) -> np.ndarray:
     return np.flatnonzero(pool.owner == i)
 
 
-def possible(candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> bool:
-    """False for a sign or a size of the i-th candidate's parameters that physics forbids."""
-    own = _own(pool, i)
-    for place, column in zip(own, candidate.form.columns, strict=False):
-        value = float(ranking.value[place])
+def possible(candidate: Candidate, values: np.ndarray) -> bool:
+    """False for a sign or a size of the candidate's parameters that physics forbids."""
+    for value, column in zip(map(float, values), candidate.form.columns, strict=False):
         if (column.nonnegative and value < 0.0) or abs(value) > column.largest:
             return False
     return True
@@ -216,7 +240,7 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i:
         float(ranking.sure[i]),
         float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
         float(ranking.visible[i]),
-        possible(candidate, ranking, pool, i),
+        possible(candidate, ranking.value[own]),
     )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.diagnose.polish import polished
-from modeler.diagnose.state import State, columns_of
+from modeler.diagnose.state import State, all_columns_of, columns_of
 from modeler.effects import Effect
 from modeler.hypotheses.candidates import Candidate, over_grid
 
@@ -61,8 +61,7 @@ def _signed(
     """Those whose last parameter has that sign, and the fall of each, best first."""
     if not candidates:
         return []
-    _, ranking = state.ranked([columns_of(state.rows, c, state.cache) for c in candidates])
-    last = ranking.value.reshape(len(candidates), -1)[:, -1]
-    fall = ranking.drop.sum(axis=0)
+    seen = state.sifted(all_columns_of(state.rows, candidates, state.cache))
+    last, fall = [value[-1] for value in seen.value], seen.total
     order = [k for k in np.argsort(-fall) if sign * last[k] > 0.0 and fall[k] > 0.0]
     return [(candidates[k], float(fall[k])) for k in order]

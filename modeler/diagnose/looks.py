@@ -10,7 +10,7 @@ out is asked beside every effect: if it would have been named instead, the effec
 """
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
 from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.search import Search, Step, survey_of
-from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.diagnose.state import Data, State, all_columns_of, state_of, visible
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation import Log
 from modeler.observation.motion import HIGHEST
@@ -80,17 +80,24 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
         yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
 
 
-def looked_again(found: Search, looks: Sequence[tuple[str, Data]]) -> list[tuple[Look, ...]]:
+def looked_again(
+    found: Search, looks: Sequence[tuple[str, Data]], tick: Callable[[], None] = lambda: None
+) -> list[tuple[Look, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
         found: the search in the first look.
         looks: others.
+        tick: called after each.
     """
-    return [
-        (*(_look(what, data, found, place) for what, data in looks), *_ruled_out(found, step))
-        for place, step in enumerate(found.steps)
-    ]
+    every = []
+    for place, step in enumerate(found.steps):
+        said = []
+        for what, data in looks:
+            said.append(_look(what, data, found, place))
+            tick()
+        every.append((*said, *_ruled_out(found, step)))
+    return every
 
 
 def _ruled_out(found: Search, step: Step) -> list[Look]:
@@ -137,8 +144,8 @@ def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     rivals = [j.candidate for j in step.rivals if j.candidate.key not in refused][:RIVALS]
     first = [step.pick, *rivals]
     keys = {c.key for c in first}
-    again = [c for c in proposals(state, None, found.without) if c.key in keys]
+    again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
     every = [c for c in (*first, *again) if _logged(state.data, c)]
-    columns = [columns_of(state.rows, c, state.cache) for c in every]
+    columns = all_columns_of(state.rows, every, state.cache)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])

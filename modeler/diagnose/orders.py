@@ -1,15 +1,15 @@
 """The order spectrum of a state, and the ripples that it proposes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Set
 
 import numpy as np
 
 from modeler.compare.orders import OrderSpectrum
 from modeler.compare.orders import order_spectrum as spectrum_of
-from modeler.diagnose.state import State
+from modeler.diagnose.state import State, column_key
 from modeler.effects import Effect
 from modeler.hypotheses.candidates import Candidate
-from modeler.hypotheses.columns import all_columns
+from modeler.hypotheses.columns import all_columns, own_columns
 
 
 def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
@@ -54,8 +54,19 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
     for pick, values in zip(state.picks, state.values, strict=True):
         if pick.local and pick.index != j:
             continue
-        total = total + all_columns(pick, signals)[:, j] @ values
+        if pick.local:
+            total = total + own_columns(pick, signals) @ values
+        else:
+            total = total + _torques(state, number, pick)[:, j] @ values
     return total
+
+
+def _torques(state: State, number: int, pick: Candidate) -> np.ndarray:
+    """(n, J, k) torques of the columns of a pick over one stretch, remembered for all joints."""
+    key = "torques", number, column_key(state.rows, pick)
+    if key not in state.rows.known:
+        state.rows.known[key] = all_columns(pick, state.rows.signals[number])
+    return np.asarray(state.rows.known[key])
 
 
 def counted(order: float) -> float:
@@ -64,17 +75,21 @@ def counted(order: float) -> float:
 
 
 def ripple_candidates(
-    state: State, allowed: Callable[[str, str | None], bool]
-) -> list[Candidate]:  # fmt: skip
+    state: State,
+    allowed: Callable[[str, str | None], bool],
+    joints: Set[str | None] | None = None,
+) -> list[Candidate]:
     """Waves at the orders that stand out on each joint, and at the whole numbers next to them.
 
     Args:
         state: it.
         allowed: False for an id and a joint that the user rules out.
+        joints: names of those that count; None: all.
     """
     found = []
     for j, joint in enumerate(state.data.compiled.spec.joints):
-        spectrum = order_spectrum(state, j) if joint.actuated else None
+        asked = joint.actuated and (joints is None or joint.name in joints)
+        spectrum = order_spectrum(state, j) if asked else None
         for order in spectrum.peaks if spectrum else ():
             for effect in _waving(state, order, joint.name, allowed):
                 (shape,) = effect.forms[0].shapes

@@ -1,7 +1,7 @@
 """All candidates of a state: those of the effects' grids, and those that the data suggest."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 import numpy as np
 
@@ -12,7 +12,10 @@ from modeler.hypotheses.candidates import Candidate, candidates
 
 
 def proposals(
-    state: State, only: str | None = None, without: Sequence[str] = ()
+    state: State,
+    only: str | None = None,
+    without: Sequence[str] = (),
+    keys: Set[tuple[str, str | None]] | None = None,
 ) -> list[Candidate]:
     """What could be missing in this state, without what was put in already.
 
@@ -20,6 +23,7 @@ def proposals(
         state: it.
         only: id of the one effect that is asked for.
         without: ids of effects, or id@joint, that the user rules out.
+        keys: effects and joints that count; None: all.
     """
     spec = state.data.compiled.spec
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
@@ -35,7 +39,9 @@ def proposals(
 
     found = candidates(spec, state.scales, temperature, present, known, allowed)
     found = [c for c in found if _lasts(state, c)]
-    found += ripple_candidates(state, allowed)
+    if waving := {effect.id for effect in known.catalogue if effect.orders}:
+        waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
+        found += ripple_candidates(state, allowed, waves)
     if changed:
         found += load_candidates(state)
     taken = {

@@ -64,6 +64,25 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     return 2.0 * cross - square
 
 
+@dataclass(frozen=True, eq=False)
+class Sifted:
+    """Of N candidates with K columns: what chooses among their shapes.
+
+    Attributes:
+        total: (N,) fall of the squared residual in folds that were held out.
+        value: by candidate, its parameters on all rows, SI.
+    """
+
+    total: np.ndarray
+    value: tuple[np.ndarray, ...]
+
+
+def sifted(base: Base, pool: Pool) -> Sifted:
+    """`rank` in sums: the same falls, if base and pool are those of whole folds."""
+    value = _whole(base, pool).gamma[0] / pool.scale
+    return Sifted(fall(base, pool).sum(axis=0), tuple(np.split(value, pool.first[1:])))
+
+
 def _whole(base: Base, pool: Pool) -> "_Solved":
     """Fitted to all rows."""
     G, u, T, w, D = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
@@ -125,19 +144,31 @@ def _in_blocks(
         at: parameters of F fits.
         place: (blocks,) which fit counts in each block.
     """
+    count = len(at.beta)
+    if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
+        return _by_fit(base, pool, at, slice(None), slice(None))
     cross, square = np.zeros((2, base.blocks, pool.count))
-    i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    starts = _pair_starts(pool)
-    for f, (beta, gamma) in enumerate(zip(at.beta, at.gamma, strict=True)):
+    for f in range(count):
         here = place == f
-        G, T = base.G[here], pool.T[here]
-        a = _by_owner(pool, at.A[f] * gamma)
-        products = _sums(pool.D[here] * (gamma[i] * gamma[k]), starts)
-        left = base.u[here] - G @ beta
-        cross[here] = _by_owner(pool, (pool.w[here] - beta @ T) * gamma) - left @ a
-        own = _by_owner(pool, np.einsum("rk,brk->bk", a[:, pool.owner], T) * gamma)
-        square[here] = products + np.einsum("rn,brn->bn", a, G @ a) - 2.0 * own
+        cross[here], square[here] = _by_fit(base, pool, at, here, slice(f, f + 1))
     return cross, square
+
+
+def _by_fit(
+    base: Base, pool: Pool, at: _Solved, here: np.ndarray | slice, fit: slice
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same in some blocks, with one fit for each of them or for all."""
+    beta, gamma = at.beta[fit], at.gamma[fit]
+    G, T = base.G[here], pool.T[here]
+    i, k = pool.pairs[:, 0], pool.pairs[:, 1]
+    a = _by_owner(pool, at.A[fit] * gamma[:, None])
+    products = _sums(pool.D[here] * (gamma[:, i] * gamma[:, k]), _pair_starts(pool))
+    left = base.u[here] - (G @ beta[:, :, None])[:, :, 0]
+    known = (beta[:, None] @ T)[:, 0]
+    cross = _by_owner(pool, (pool.w[here] - known) * gamma) - (left[:, None] @ a)[:, 0]
+    own = np.einsum("...rk,...rk->...k", a[:, :, pool.owner], T)
+    square = products + np.einsum("...rn,...rn->...n", a, G @ a)
+    return cross, square - 2.0 * _by_owner(pool, own * gamma)
 
 
 def _by_owner(pool: Pool, values: np.ndarray) -> np.ndarray:

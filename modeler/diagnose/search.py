@@ -2,8 +2,8 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TypeVar
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -11,17 +11,20 @@ from modeler.diagnose.braking import DRIVES, drives
 from modeler.diagnose.judge import (
     Judged,
     Judgement,
+    Order,
     alternatives,
-    best_shapes,
     decide,
     judge,
+    judged_at,
+    leading,
+    sift,
 )
 from modeler.diagnose.levers import constant_force
 from modeler.diagnose.orders import counted
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.polish import best_polished
 from modeler.diagnose.propose import proposals, ruled_out
-from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.diagnose.state import Data, State, all_columns_of, columns_of, state_of, visible
 from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
@@ -108,7 +111,7 @@ def search(
     without: Sequence[str] = (),
     most: int = MOST,
     veto: Veto | None = None,
-    progress: Callable[[float], None] = lambda share: None,
+    tick: Callable[[], None] = lambda: None,
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -118,31 +121,32 @@ def search(
         without: ids of effects, or id@joint, that the user rules out.
         most: effects to name at most; with 0 nothing is judged.
         veto: looks at held-out logs.
-        progress: called with a share between 0 and 1.
+        tick: called whenever something is done.
     """
     start = state = _started(data, beta)
     steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
     survey = surveyed(state, without) if most else None
-    judgement = survey.judged() if survey else Judgement((), None)
+    judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
-        leading = judgement.best
-        accepted = put_in(state, _named(state, leading, refused, without), veto)
+        first = judgement.best
+        accepted = put_in(state, _named(state, first, refused, without), veto)
+        tick()
         if isinstance(accepted, Refused):
             refused.append(accepted.judged)
             if len(vetoed) + len(refused) == ASKED:
                 break
-            judgement = survey.judged(refused)
+            judgement = survey.judged(refused, tick)
             continue
         best, later = accepted
         survey = surveyed(later, without)
+        tick()
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
-        after = survey.judged(refused)
-        steps.append(_step(state, best, judgement.others(leading), after))
+        after = survey.judged(refused, tick)
+        steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
-        progress(len(steps) / (most + 1))
     if not steps and (described := _description(start, refused, judgement)):
         steps, state = [described], extended(start, described.pick)
-    kept, state = _backward(state, steps)
+    kept, state = _backward(state, steps, tick)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
 
 
@@ -222,13 +226,17 @@ class Survey:
         state: it.
         found: candidates that show.
         columns: theirs.
+        order: what chooses among their shapes.
         best: every effect on every joint at the best of its shapes, none refined, best first.
+        refined: effects that were refined, by the shapes that this began with.
     """
 
     state: State
     found: Sequence[Candidate]
     columns: Sequence[Columns]
+    order: Sequence[Order]
     best: Sequence[Judged]
+    refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
 
     def still(self, refused: Sequence[Judged]) -> list[Judged]:
         """Vetoed effects that have not become far better by the effect put in since."""
@@ -243,34 +251,50 @@ class Survey:
         left = [i for i, c in enumerate(self.found) if not _among(c, vetoed)]
         if len(left) == len(self.found):
             return self
-        kept = _picked(self.found, left), _picked(self.columns, left)
+        found, columns = _picked(self.found, left), _picked(self.columns, left)
+        order = _picked(self.order, left)
         touched = {c.key for c in self.found if _among(c, vetoed)}
-        again = [i for i in left if self.found[i].key in touched]
+        again = [i for i in leading(found, order) if found[i].key in touched]
         best = [j for j in self.best if j.candidate.key not in touched]
-        if again:
-            columns = _picked(self.columns, again)
-            best += best_shapes(self.state, _picked(self.found, again), columns)
-        return Survey(self.state, *kept, sorted(best, key=lambda j: -float(j.drop.sum())))
+        best += judged_at(self.state, found, columns, again)
+        best.sort(key=lambda j: -float(j.drop.sum()))
+        return Survey(self.state, found, columns, order, best, self.refined)
 
-    def judged(self, vetoed: Sequence[Judged] = ()) -> Judgement:
-        """All but what was vetoed; the leading ones refined."""
+    def judged(
+        self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
+    ) -> Judgement:
+        """All but what was vetoed; the leading ones refined, with a tick after each."""
         left = self.but(vetoed)
-        state, found, columns = self.state, list(left.found), list(left.columns)
-        leading = [
+        close = [
             j for j in left.best[:MANY]
             if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
         ]  # fmt: skip
-        if not leading:
-            return decide(state, list(left.best))
-        for item in leading:
-            better = best_polished(state, left.starts(item.candidate))
-            if better is not item.candidate:
-                place = next(i for i, c in enumerate(found) if c is item.candidate)
-                found[place], columns[place] = better, columns_of(state.rows, better, {})
         # Of effects that were not refined, only the best shapes may win still.
-        keys, best = {j.candidate.key for j in leading}, {id(j.candidate) for j in left.best}
-        again = [i for i, c in enumerate(found) if c.key in keys or id(c) in best]
-        return judge(state, _picked(found, again), _picked(columns, again))
+        refined = {}
+        for item in close:
+            refined[item.candidate.key] = left.at_best(item)
+            tick()
+        best = [refined.get(j.candidate.key, j) for j in left.best]
+        return decide(self.state, sorted(best, key=lambda j: -float(j.drop.sum())))
+
+    def at_best(self, judged: Judged) -> Judged:
+        """An effect with its best shapes refined, or with the next best if these do better."""
+        starts = self.starts(judged.candidate)
+        key = tuple((*c.key, *c.shapes.items()) for c in starts)
+        if key not in self.refined:
+            self.refined[key] = self._refined(judged, starts)
+        return self.refined[key]
+
+    def _refined(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
+        better = best_polished(self.state, starts)
+        if better is judged.candidate:
+            return judged
+        first = judged.candidate
+        others = [i for i, c in enumerate(self.found) if c.key == first.key and c is not first]
+        found = [better, *_picked(self.found, others)]
+        columns = [columns_of(self.state.rows, better, {}), *_picked(self.columns, others)]
+        order = [*sift(self.state, found[:1], columns[:1]), *_picked(self.order, others)]
+        return judged_at(self.state, found, columns, leading(found, order))[0]
 
     def starts(self, first: Candidate) -> list[Candidate]:
         """Shapes of one effect from which refining starts, the best first.
@@ -282,7 +306,7 @@ class Survey:
         if len(first.form.shapes) < 2 or not refined:
             return [first]
         own = [i for i, c in enumerate(self.found) if c.key == first.key]
-        total = self.state.ranked(_picked(self.columns, own))[1].drop.sum(axis=0)
+        total = np.array([self.order[i][1] for i in own])
         least = NEAR * float(total.max()) if len(refined) == 1 else -np.inf
         places = [own[k] for k in np.argsort(-total) if total[k] >= least]
         order = [first, *(c for c in (self.found[i] for i in places) if c is not first)]
@@ -305,10 +329,12 @@ def surveyed(
 
 def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     """Some candidates in a state; those that show."""
-    columns = [columns_of(state.rows, c, state.cache) for c in found]
+    columns = all_columns_of(state.rows, found, state.cache)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
-    return Survey(state, found, columns, best_shapes(state, found, columns))
+    order = sift(state, found, columns)
+    best = judged_at(state, found, columns, leading(found, order))
+    return Survey(state, found, columns, order, best)
 
 
 def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
@@ -336,14 +362,19 @@ def extended(state: State, pick: Candidate) -> State:
     return state_of(state.data, picks, once.beta, state.cache)
 
 
-def _backward(state: State, steps: Sequence[Step]) -> tuple[list[Step], State]:
+def _backward(
+    state: State, steps: Sequence[Step], tick: Callable[[], None]
+) -> tuple[list[Step], State]:
     """Drops effects that the others made unnecessary, the weakest first.
 
     What the others gain is judged again then, beside those that are left.
     """
     kept = list(steps)
     while len(kept) > 1:
-        judged = [_beside(state, kept, step) for step in kept]
+        judged = []
+        for step in kept:
+            judged.append(_beside(state, kept, step))
+            tick()
         weakest = int(np.argmin([j.gain for j in judged]))
         if judged[weakest].significant:
             break

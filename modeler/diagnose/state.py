@@ -4,15 +4,17 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
-from modeler.diagnose.rank import Ranking, rank
+from modeler.diagnose.rank import Ranking, Sifted, rank, sifted
+from modeler.diagnose.reduced import Reduced, Reduction, reduction
 from modeler.effects import Acts
 from modeler.hypotheses.blocks import Blocks, blocks_of
 from modeler.hypotheses.candidates import Candidate, JointScale, Known, scales_of
+from modeler.hypotheses.orthonormal import turn_of
 from modeler.hypotheses.rows import Columns, Rows, rows_of
 from modeler.hypotheses.signals import Reference
 from modeler.hypotheses.tilt import frame_slopes, tilt_weights
@@ -54,8 +56,25 @@ class Data:
 
     def rows_about(self, beta: np.ndarray) -> Rows:
         """The rows with effects linearised about beta (c,)."""
-        blank = self.rows.signals[0].reference
-        return self.rows.about(dataclasses.replace(blank, beta=beta))
+        return self.about(dataclasses.replace(self.rows.signals[0].reference, beta=beta))
+
+    def about(self, reference: Reference) -> Rows:
+        """The same about a reference; the last few are remembered."""
+        key = reference.beta.tobytes(), _clock(reference)
+        found = self._about.pop(key, None) or self.rows.about(reference)
+        self._about[key] = found
+        if len(self._about) > _REMEMBERED:
+            del self._about[next(iter(self._about))]
+        return found
+
+    @cached_property
+    def _about(self) -> dict[Any, Rows]:
+        return {}
+
+    @cached_property
+    def cache(self) -> dict[Any, Any]:
+        """Columns that do not depend on the model."""
+        return {}
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -65,8 +84,35 @@ class Data:
             [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE], dtype=int
         )
 
+    @cached_property
+    def y(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        if self.kept is None:
+            return self.rows.y
+        kept = self.kept.copy()
+        kept[self.free] = 0.0
+        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+
+    @cached_property
+    def reduction(self) -> Reduction:
+        """Of the base columns that are fitted, and y."""
+        return reduction([w[:, self.free] for w in self.rows.W], self.y)
+
+    @cached_property
+    def numbers(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, number of the block of time."""
+        used = self.observation.used
+        return tuple(self.blocks.number[used[:, j]] for j in range(self.rows.joints))
+
 
 _FREE = ("friction", "offset")
+
+_REMEMBERED = 3  # references: that of a state, and those of the next
+
+
+def _clock(reference: Reference) -> tuple[Any, ...]:
+    """What the time and the temperature of effects are counted from."""
+    return reference.time, *sorted(reference.temperature.items())
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,32 +147,43 @@ class State:
             found.append(np.hstack(parts))
         return tuple(found)
 
-    @cached_property
+    @property
     def y(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint: torques, less those of base parameters that are kept."""
-        if self.data.kept is None:
-            return self.rows.y
-        kept = self.data.kept.copy()
-        kept[self.data.free] = 0.0
-        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+        return self.data.y
 
     @cached_property
     def base(self) -> Base:
         """Of the model so far."""
-        fitted = dataclasses.replace(self.rows, W=self.W, y=self.y)
-        sigma = sigma_of(fitted)
-        numbers = [
-            self.data.blocks.number[self.data.observation.used[:, j]]
-            for j in range(self.rows.joints)
-        ]
-        return base_of(self.W, self.y, sigma, numbers, self.data.blocks.fold)
+        numbers, fold = self.data.numbers, self.data.blocks.fold
+        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
+
+    @cached_property
+    def reduced(self) -> Reduced:
+        """The rows of the model so far, reduced to few."""
+        return self.data.reduction.beside(self.extra)
+
+    @cached_property
+    def sigma(self) -> np.ndarray:
+        """(J,) rms residual of each joint."""
+        return sigma_of(self.reduced)
+
+    @cached_property
+    def turn(self) -> np.ndarray:
+        """(f + extra, r) to orthonormal weighted columns."""
+        return turn_of(self.reduced.W, self.sigma)
 
     @cached_property
     def solution(self) -> np.ndarray:
         """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        base = self.base
-        G, u = base.G.sum(axis=0), base.u.sum(axis=0)
-        return base.turn @ np.linalg.solve(G + 1e-12 * np.eye(len(G)), u) if len(G) else np.zeros(0)
+        few = self.reduced
+        if not self.turn.shape[1]:
+            return np.zeros(len(self.turn))
+        G, u = 1e-12 * np.eye(self.turn.shape[1]), np.zeros(self.turn.shape[1])
+        for w, y, s in zip(few.W, few.y, self.sigma, strict=True):
+            columns = w @ (self.turn / s)
+            G, u = G + columns.T @ columns, u + columns.T @ (y / s)
+        return np.asarray(self.turn @ np.linalg.solve(G, u))
 
     @cached_property
     def beta(self) -> np.ndarray:
@@ -163,6 +220,10 @@ class State:
             [s.load[w] for s, w in zip(signals, whole, strict=True)],
         )
 
+    def sifted(self, every: Sequence[Columns]) -> Sifted:
+        """Falls and values of candidates by their columns, in sums."""
+        return sifted(self.base.folded, pool_of(self.base.folded, every))
+
     def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
         """Candidates by their columns."""
         pool = pool_of(self.base, every)
@@ -181,24 +242,68 @@ def state_of(
         cache: of columns that do not depend on beta, kept between states.
     """
     rows = data.rows_about(beta)
-    kept = {} if cache is None else cache
-    extra = tuple(columns_of(rows, pick, kept) for pick in picks)
+    kept = data.cache if cache is None else cache
+    extra = picked_columns(rows, picks, kept)
     return State(data, tuple(picks), rows.signals[0].reference, rows, extra, kept)
+
+
+def picked_columns(rows: Rows, picks: Sequence[Candidate], cache: dict) -> tuple[Columns, ...]:
+    """The columns of what was put in: remembered for every reference."""
+    for pick in picks:
+        if column_key(rows, pick) not in rows.known:
+            rows.known[column_key(rows, pick)] = columns_of(rows, pick, cache)
+    return tuple(rows.known[column_key(rows, pick)] for pick in picks)
 
 
 def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
     """The candidate's columns; those that do not depend on the model are computed once."""
     if candidate.effect.acts is Acts.GRAVITY:
         return _tilt(rows, cache)
-    fixed = candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
-    memory = candidate.form.memory
-    fixed = fixed and candidate.effect.acts in _FIXED and (memory is None or memory.kind == "slip")
-    key = (candidate.effect.id, candidate.joint, tuple(sorted(candidate.shapes.items())))
-    if not fixed:
+    if not _fixed(candidate):
         return rows.columns(candidate)
+    key = column_key(rows, candidate)
     if key not in cache:
         cache[key] = rows.columns(candidate)
     return cache[key]
+
+
+def all_columns_of(rows: Rows, candidates: Sequence[Candidate], cache: dict) -> list[Columns]:
+    """The columns of many candidates: the shapes of one effect at once."""
+    found: list[Columns | None] = [None] * len(candidates)
+    groups: dict[Any, list[int]] = {}
+    for i, candidate in enumerate(candidates):
+        if _fixed(candidate) and column_key(rows, candidate) in cache:
+            found[i] = cache[column_key(rows, candidate)]
+        else:
+            groups.setdefault((candidate.key, id(candidate.form)), []).append(i)
+    for places in groups.values():
+        every = [candidates[i] for i in places]
+        if len(every) == 1 or every[0].effect.acts is Acts.GRAVITY:
+            made = [columns_of(rows, candidate, cache) for candidate in every]
+        else:
+            made = rows.many(every)
+            new = zip(every, made, strict=True)
+            cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
+        for i, own in zip(places, made, strict=True):
+            found[i] = own
+    return [own for own in found if own is not None]
+
+
+def _fixed(candidate: Candidate) -> bool:
+    """True if its columns do not depend on the model."""
+    memory = candidate.form.memory
+    return (
+        candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
+        and candidate.effect.acts in _FIXED
+        and (memory is None or memory.kind == "slip")
+    )
+
+
+def column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
+    """What columns that do not depend on the model depend on."""
+    shapes = tuple(sorted(candidate.shapes.items()))
+    clock = () if candidate.form.names.isdisjoint({"t", "T"}) else _clock(rows.signals[0].reference)
+    return candidate.effect.id, candidate.joint, shapes, clock
 
 
 _FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)

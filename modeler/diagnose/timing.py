@@ -1,10 +1,13 @@
 """Effects that errors of timing imitate: does the smooth motion speak for them too?"""
 
 import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.state import State
+from modeler.diagnose.gram import pieces
+from modeler.diagnose.state import State, picked_columns
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns, Rows
@@ -66,41 +69,87 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
     theta = (Z^T X)^-1 Z^T y; errors from sums over blocks, so that coloured residuals count.
     """
     smooth = _smoothed(state)
-    X, Z, y, block = [], [], [], []
     own, other = state.rows.columns(candidate), smooth.columns(candidate)
-    extra = [smooth.columns(pick) for pick in state.picks]
-    for j in range(state.rows.joints):
-        sigma = state.base.sigma[j]
+    extra = picked_columns(smooth, state.picks, {})
+    sizes = [next(c.shape[1] for c in e if c is not None) for e in (*extra, own)]
+    ends = np.cumsum([len(state.data.free), *sizes])
+    X, Z = [], []
+    for j, sigma in enumerate(state.base.sigma):
         base = smooth.W[j][:, state.data.free]
-        picks = [_dense(e, j, len(base)) for e in extra]
-        X.append(np.hstack([state.W[j], _dense(own, j, len(base))]) / sigma)
-        Z.append(np.hstack([base, *picks, _dense(other, j, len(base))]) / sigma)
-        y.append(state.y[j] / sigma)
-        block.append(state.base.block[j])
-    k = next(c.shape[1] for c in own if c is not None)
-    return _solve(np.vstack(X), np.vstack(Z), np.concatenate(y), np.concatenate(block), k)
+        further = zip(ends[:-1], ends[1:], (*extra, other), strict=True)
+        X.append(_Parts([(slice(0, ends[-2]), state.W[j]), *_shown(own, j, ends[-2:])], sigma))
+        shown = [part for first, last, e in further for part in _shown(e, j, (first, last))]
+        Z.append(_Parts([(slice(0, ends[0]), base), *shown], sigma))
+    return _solve(X, Z, (int(ends[-1]), sizes[-1]), state.base.y, state.base.block)
 
 
-def _dense(columns: Columns, j: int, rows: int) -> np.ndarray:
-    k = next(c.shape[1] for c in columns if c is not None)
+def _shown(
+    columns: Columns, j: int, ends: Sequence[int] | np.ndarray
+) -> list[tuple[slice, np.ndarray]]:
     here = columns[j]
-    return np.zeros((rows, k)) if here is None else here
+    return [] if here is None else [(slice(int(ends[0]), int(ends[1])), here)]
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Columns of one joint, (rows, k) each, with their places among all; divided by sigma."""
+
+    parts: list[tuple[slice, np.ndarray]]
+    sigma: float
+
+    def squares(self, count: int) -> np.ndarray:
+        """(count,) of all columns."""
+        found = np.zeros(count)
+        for at, own in self.parts:
+            found[at] = np.einsum("ij,ij->j", own, own)
+        return found / self.sigma**2
+
+    def times(self, other: "_Parts", count: int) -> np.ndarray:
+        """(count, count) products with other columns."""
+        found = np.zeros((count, count))
+        for at, own in self.parts:
+            for place, columns in other.parts:
+                found[at, place] = own.T @ columns
+        return found / self.sigma**2
+
+    def on(self, values: np.ndarray, rows: slice = slice(None)) -> np.ndarray:
+        """(count,) products with values of some rows."""
+        found = np.zeros(max(at.stop for at, _ in self.parts))
+        for at, own in self.parts:
+            found[at] = values @ own[rows]
+        return found / self.sigma
+
+    def of(self, theta: np.ndarray) -> np.ndarray:
+        """(rows,) with parameters."""
+        return np.asarray(sum(own @ theta[at] for at, own in self.parts)) / self.sigma
 
 
 def _solve(
-    X: np.ndarray, Z: np.ndarray, y: np.ndarray, block: np.ndarray, k: int
-) -> tuple[np.ndarray, np.ndarray]:
-    length = np.linalg.norm(X, axis=0)
-    size = np.linalg.norm(Z, axis=0)
+    X: Sequence[_Parts], Z: Sequence[_Parts], count: tuple[int, int], y: Sequence[np.ndarray],
+    block: Sequence[np.ndarray],
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Of the last k of c columns, count = (c, k); all else by joint."""
+    c, k = count
+    length, size = (np.sqrt(sum(part.squares(c) for part in own)) for own in (X, Z))
     kept = (length > 0.0) & (size > 0.0)
     if not kept[-k:].all():
         return np.zeros(k), np.ones(k)
-    X, Z, length = X[:, kept] / length[kept], Z[:, kept] / size[kept], length[kept]
-    inverse = np.linalg.pinv(Z.T @ X, rcond=1e-9)
-    theta = inverse @ (Z.T @ y)
-    scores = Z * (y - X @ theta)[:, None]
-    sums = np.zeros((int(block.max()) + 1, Z.shape[1]))
-    np.add.at(sums, block, scores)
+    length, size = np.where(kept, length, 1.0), np.where(kept, size, 1.0)
+    products = sum(z.times(x, c) for z, x in zip(Z, X, strict=True)) / np.outer(size, length)
+    inverse = np.zeros((c, c))
+    inverse[np.ix_(kept, kept)] = np.linalg.pinv(products[np.ix_(kept, kept)], rcond=1e-9)
+    sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, c))
+    right = np.zeros(c)
+    for z, t in zip(Z, y, strict=True):
+        side = z.on(t)
+        right[: len(side)] += side
+    theta = inverse @ (right / size)
+    for x, z, t, own in zip(X, Z, y, block, strict=True):
+        left = t - x.of(theta / length)
+        for b, rows in pieces(own):
+            score = z.on(left[rows], rows)
+            sums[b, : len(score)] += score
+    sums /= size
     covariance = inverse @ (sums.T @ sums) @ inverse.T
     error = np.sqrt(np.diag(covariance))
     return theta[-k:] / length[-k:], error[-k:] / length[-k:]
@@ -108,20 +157,29 @@ def _solve(
 
 def _smoothed(state: State) -> Rows:
     """The same rows with the motion smoothed."""
-    key = "smooth rows"
+    if "smooth" in state.rows.known:
+        return state.rows.known["smooth"]
+    signals, W = _smooth_motion(state)
+    signals = tuple(dataclasses.replace(s, reference=state.reference) for s in signals)
+    smooth = dataclasses.replace(state.rows, W=W, signals=signals, known={})
+    state.rows.known["smooth"] = smooth
+    return smooth
+
+
+def _smooth_motion(state: State) -> tuple[tuple[Signals, ...], tuple[np.ndarray, ...]]:
+    """The motion smoothed, and its base columns: the same for all states."""
+    key = "smooth motion"
     if key not in state.cache:
-        state.cache[key] = [_smooth(s, _cutoff(state)) for s in state.rows.signals]
-    motion = state.cache[key]
-    signals = tuple(
-        dataclasses.replace(s, q=q, v=v, a=a, reference=state.reference)
-        for s, (q, v, a) in zip(state.rows.signals, motion, strict=True)
-    )
-    model = state.data.compiled
-    base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
-    W = tuple(
-        state.rows.filtered(j, [value[:, j] for value in base]) for j in range(state.rows.joints)
-    )
-    return dataclasses.replace(state.rows, W=W, signals=signals)
+        signals = []
+        for s in state.rows.signals:
+            q, v, a = _smooth(s, _cutoff(state))
+            signals.append(dataclasses.replace(s, q=q, v=v, a=a))
+        model = state.data.compiled
+        base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
+        joints = range(state.rows.joints)
+        W = tuple(state.rows.filtered(j, [value[:, j] for value in base]) for j in joints)
+        state.cache[key] = tuple(signals), W
+    return state.cache[key]
 
 
 def _cutoff(state: State) -> float:

@@ -4,6 +4,7 @@ import enum
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from modeler.core.expression import Expression
@@ -188,7 +189,7 @@ class Form:
         """Shapes that a robot file must state: those whose grid does not fix them."""
         return tuple(shape for shape in self.shapes if len(shape.grid) != 1)
 
-    @property
+    @cached_property
     def names(self) -> frozenset[str]:
         """Variables of `VARIABLES` that its equations use."""
         used = frozenset().union(*(column.equation.names for column in self.columns))

@@ -1,5 +1,7 @@
 """The columns of a candidate over the samples of a segment: the catalogue's equations in numpy."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from modeler.core.contract import ModuleSpec, ParameterSpec
@@ -61,13 +63,19 @@ def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
         return _motor(candidate, signals)
     if acts is Acts.PASSIVE:
         return _passive(candidate, signals)
-    own = own_columns(candidate, signals)
     if acts is Acts.POSITION:
-        whole = candidate.effect.whole_axis
-        return np.stack([signals.moved(candidate.index, dq, whole) for dq in own.T], axis=2)
+        return moved_columns([candidate], signals)
+    own = own_columns(candidate, signals)
     result = np.zeros((n, joints, own.shape[1]))
     result[:, candidate.index] = own
     return result
+
+
+def moved_columns(candidates: Sequence[Candidate], signals: Signals) -> np.ndarray:
+    """(n, J, k) of candidates of one effect that moves the position of one joint."""
+    first = candidates[0]
+    own = np.hstack([own_columns(candidate, signals) for candidate in candidates])
+    return signals.all_moved(first.index, own, first.effect.whole_axis)
 
 
 def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) -> np.ndarray:

@@ -86,11 +86,12 @@ class Problem:
             return None
         if all(c is None for c in columns):
             return None
-        own = self.weighted(columns)
         y, u, left = self.target
-        T = sum(q.T @ c for q, c in zip(self.base[0], own, strict=True))
+        felt = [j for j, c in enumerate(columns) if c is not None]
+        own = [np.asarray(columns[j]) / self.sigma[j] for j in felt]
+        T = sum(self.base[0][j].T @ c for j, c in zip(felt, own, strict=True))
         M = sum(c.T @ c for c in own) - T.T @ T
-        h = sum(c.T @ t for c, t in zip(own, y, strict=True)) - T.T @ u
+        h = sum(c.T @ y[j] for j, c in zip(felt, own, strict=True)) - T.T @ u
         length = np.sqrt(sum(np.sum(c**2, axis=0) for c in own))
         if not (length > 0.0).all():
             return None

@@ -17,11 +17,15 @@ def orthonormal(
         W: (rows_j, c) by joint.
         sigma: (J,) of each joint; the weights are its inverse.
     """
-    scaled = [w / s for w, s in zip(W, sigma, strict=True)]
-    gram = sum(w.T @ w for w in scaled)
+    turn = turn_of(W, sigma)
+    return tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True)), turn
+
+
+def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
+    """(c, r) that makes weighted columns orthonormal: see `orthonormal`."""
+    gram = sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True))
     length = np.sqrt(np.diag(gram))
     safe = np.where(length > 0.0, length, 1.0)
     values, vectors = np.linalg.eigh(gram / np.outer(safe, safe))
     kept = values > _SAME * float(values.max(initial=1e-300))
-    turn = vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None]
-    return tuple(w @ turn for w in scaled), turn
+    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None])

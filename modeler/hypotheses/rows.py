@@ -2,13 +2,15 @@
 
 import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
 
+from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
-from modeler.hypotheses.columns import all_columns, own_columns
+from modeler.hypotheses.columns import all_columns, moved_columns, own_columns
 from modeler.hypotheses.signals import Reference, Signals
 from modeler.observation import Observation
 from modeler.observation.row_filter import SPREAD, only
@@ -30,6 +32,7 @@ class Rows:
         segment: (rows_j,) by joint.
         filters: (rows_j, samples) by stretch and joint.
         signals: by stretch.
+        known: what was made of them for this reference, by name.
     """
 
     y: tuple[np.ndarray, ...]
@@ -39,6 +42,7 @@ class Rows:
     segment: tuple[np.ndarray, ...]
     filters: tuple[tuple[csr_array, ...], ...]
     signals: tuple[Signals, ...]
+    known: dict[Any, Any] = field(default_factory=dict)
 
     @property
     def joints(self) -> int:
@@ -48,7 +52,7 @@ class Rows:
     def about(self, reference: Reference) -> "Rows":
         """The same rows with effects linearised about another reference of the same robot."""
         signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
-        return dataclasses.replace(self, signals=signals)
+        return dataclasses.replace(self, signals=signals, known={})
 
     def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
@@ -65,6 +69,28 @@ class Rows:
             return tuple(found)
         return self.spread([all_columns(candidate, signals) for signals in self.signals])
 
+    def many(self, candidates: Sequence[Candidate]) -> list[Columns]:
+        """The columns of several candidates of one effect on one joint."""
+        first = candidates[0]
+        if first.local:
+            own = [
+                np.hstack([own_columns(candidate, signals) for candidate in candidates])
+                for signals in self.signals
+            ]
+            found: list[np.ndarray | None] = [None] * self.joints
+            found[first.index] = self.filtered(first.index, own)
+            whole: Columns = tuple(found)
+        elif first.effect.acts is Acts.POSITION:
+            whole = self.spread([moved_columns(candidates, signals) for signals in self.signals])
+        else:
+            return [self.columns(candidate) for candidate in candidates]
+        columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
+        size = len(first.form.columns)
+        return [
+            _or_none([None if c is None else c[k : k + size].T for c in columns])
+            for k in range(0, size * len(candidates), size)
+        ]
+
     def spread(self, values: Sequence[np.ndarray]) -> Columns:
         """Columns from values (samples, J, k) by stretch."""
         return tuple(
@@ -73,6 +99,11 @@ class Rows:
             else None
             for j in range(self.joints)
         )
+
+
+def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
+    """Of a candidate that moves other joints than its neighbours do."""
+    return tuple(None if c is None or not c.any() else c for c in columns)
 
 
 def rows_of(observation: Observation, reference: Reference) -> Rows:

@@ -137,16 +137,27 @@ class Signals:
             return bristle(self.q[:, j], shapes[memory.shape])
         return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])
 
-    @cached_property
-    def slopes(self) -> list[list[np.ndarray]]:
-        """(n, J) derivatives of the links' torque, by joint and q, v, a of it.
+    def slopes(self, j: int) -> tuple[np.ndarray, ...]:
+        """(n, J) derivatives of the links' torque by q, v and a of joint j.
 
         The torque is quadratic in v and linear in a: there differences are exact.
         """
-        return [[self._slope(j, k) for k in range(3)] for j in range(self.q.shape[1])]
+        if j not in self._slopes:
+            self._slopes[j] = tuple(self._slope(j, k) for k in range(3))
+        return self._slopes[j]
+
+    @cached_property
+    def _slopes(self) -> dict[int, tuple[np.ndarray, ...]]:
+        return {}
 
     def _slope(self, j: int, kind: int) -> np.ndarray:
         model, beta = self.reference.compiled, self.reference.links
+        if kind == 2:
+            unit = np.zeros(self.q.shape[1])
+            unit[j] = 1.0
+            return (
+                model.inverse_dynamics(self.q, self.v, self.a + unit, beta, self.read) - self.load
+            )
         size = (_STEP, 1.0, 1.0)[kind]
         ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         step = np.zeros(self.q.shape[1])
@@ -168,14 +179,19 @@ class Signals:
             dq: rad or m.
             whole: True if rotor and viscous friction are moved too.
         """
+        return self.all_moved(j, dq[:, None], whole)[:, :, 0]
+
+    def all_moved(self, j: int, dq: np.ndarray, whole: bool = False) -> np.ndarray:
+        """(n, J, k) the same for k changes dq (n, k)."""
         if not dq.any():
-            return np.zeros_like(self.q)
-        dv = np.gradient(dq, self.step)
-        da = np.gradient(dv, self.step)
-        torque = sum(
-            slope * change[:, None]
-            for slope, change in zip(self.slopes[j], (dq, dv, da), strict=True)
-        )
+            return np.zeros((*self.q.shape, dq.shape[1]))
+        dv = np.gradient(dq, self.step, axis=0)
+        da = np.gradient(dv, self.step, axis=0)
+        slopes = self.slopes(j)
+        torque = np.empty((*self.q.shape, dq.shape[1]))
+        for k in range(self.q.shape[1]):
+            place, speed, acceleration = (slope[:, k, None] for slope in slopes)
+            torque[:, k] = place * dq + speed * dv + acceleration * da
         if whole:
             viscous, rotor = self.reference.drives[:, j]
             torque[:, j] += viscous * dv + rotor * da
@@ -189,7 +205,7 @@ def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -
     return first + lfilter(numerator, denominator, load - first)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=1024)
 def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points."""
     w = 2.0 * np.pi * min(frequency, 0.4 / step)

@@ -11,15 +11,18 @@ def bristle(q: np.ndarray, distance: float) -> np.ndarray:
     step = np.diff(q)
     if not step.any():
         return np.zeros(len(q))
-    z = np.empty(len(q))
     direction = _carried(np.sign(step))
-    turns = np.flatnonzero(np.diff(direction)) + 1
-    z[0] = direction[0]
-    for begin, end in zip([0, *turns], [*turns, len(step)], strict=True):
-        s = direction[begin]
-        travel = np.abs(q[begin + 1 : end + 1] - q[begin])
-        z[begin + 1 : end + 1] = s + (z[begin] - s) * np.exp(-travel / distance)
-    return z
+    begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
+    lengths = np.diff(np.append(begins, len(step)))
+    travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
+    left = np.exp(-travel / distance)
+    way, kept = direction[begins], left[begins + lengths - 1]
+    apart = np.empty(len(begins))  # z - s at each turn
+    before = float(direction[0])
+    for k, (s, share) in enumerate(zip(way.tolist(), kept.tolist(), strict=True)):
+        apart[k] = before - s
+        before = s + (before - s) * share
+    return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
 
 
 def _carried(direction: np.ndarray) -> np.ndarray:

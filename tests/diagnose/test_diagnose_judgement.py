@@ -52,9 +52,8 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
 def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be: bool) -> None:
     found = effect_named(effect)
     assert found is not None
-    pool, ranking = SimpleNamespace(owner=np.array([0])), SimpleNamespace(value=np.array([value]))
     candidate = Candidate(found, found.forms[0], "1", 0)
-    assert possible(candidate, ranking, pool, 0) is may_be  # type: ignore[arg-type]
+    assert possible(candidate, np.array([value])) is may_be
 
 
 def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
