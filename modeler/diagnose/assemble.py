@@ -58,17 +58,12 @@ def assembled(
         faults: channels that contradict the model; if one is certain, nothing is named.
         tick: called whenever something is done.
     """
-    chain = _chain(found)
+    chain, shares = _chain(found), _shares(found.end, tick)
     seen, errors = _errors(chain, other)
-    tick()
-    shares = []
-    for j in range(len(errors[0])):
-        shares.append(systematic_share(found.end, j))
-        tick()
     contradicted = any(fault.certain for fault in faults)
-    every = (
-        () if contradicted else _findings(found, chain, window, errors, shares, seen, looks, tick)
-    )
+    every = []
+    if not contradicted:
+        every = _findings(found, chain, window, errors, shares, seen, looks, tick)
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     joints = _joints(found, errors, shares)
     diagnosis = Diagnosis(
@@ -82,13 +77,20 @@ def assembled(
         unmoved=tuple(j.name for j in model.spec.joints if j.name not in joints),
         held_out=other.observation.logs if other else (),
         sentences=(),
-        band=found.start.data.observation.report.processing.parallel_cutoff or 0.0,
         fit_band=model.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults),
-        changed=found.start.data.kept is not None,
         contradicted=contradicted, window=window, search=found,
     )  # fmt: skip
     return sentences(diagnosis)
+
+
+def _shares(state: State, tick: Callable[[], None]) -> list[float]:
+    """(J,) of the variance of what is left, systematic."""
+    shares = []
+    for j in range(state.rows.joints):
+        shares.append(systematic_share(state, j))
+        tick()
+    return shares
 
 
 def _errors(

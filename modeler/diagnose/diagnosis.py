@@ -62,7 +62,6 @@ def diagnose(
     meter = Meter(progress or (lambda share: None))
     meter.stage(_READ)
     seen = analysed(compiled, logs, model.processing)
-    meter.tick()
     data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = _faults(model, compiled, seen, other)
@@ -76,13 +75,7 @@ def diagnose(
     window = _push(data, found) if _may_push(data, without) else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
-    meter.stage(_LOOKED)
-    every = _looks(data, logs, other, window) if found.steps else []
-    looks = looked_again(found, every, meter.tick)
-    meter.stage(1.0)
-    diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
-    meter.stage(1.0)
-    return _told(diagnosis, model, data)
+    return _told(model, data, logs, other, found, window, doubted, meter)
 
 
 def _looks(
@@ -95,8 +88,17 @@ def _looks(
     ]
 
 
-def _told(diagnosis: Diagnosis, model: IdentifiedModel, data: Data) -> Diagnosis:
-    """With a sentence on the band."""
+def _told(
+    model: IdentifiedModel, data: Data, logs: Sequence[Log], other: Data | None, found: Search,
+    window: Window | None, doubted: Sequence[Fault], meter: Meter,
+) -> Diagnosis:  # fmt: skip
+    """What a search found, looked at again, with a sentence on the band."""
+    meter.stage(_LOOKED)
+    every = _looks(data, logs, other, window) if found.steps else []
+    looks = looked_again(found, every, meter.tick)
+    meter.stage(1.0)
+    diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
+    meter.stage(1.0)
     line = bands_line(model.processing, data.observation.report.processing)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 

@@ -1,11 +1,10 @@
 """Errors of a state on motion it was not fitted to."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from modeler.diagnose.judge import Judged
+from modeler.diagnose.score import Unseen, scored
 from modeler.diagnose.state import Data, State, picked_columns
 
 
@@ -28,10 +27,9 @@ def held_out_squares(state: State, data: Data) -> tuple[np.ndarray, np.ndarray]:
     return squares, size
 
 
-def _held_out_residuals(state: State, data: Data, later: float = 0.0) -> list[np.ndarray]:
-    """(rows_j,) by joint, N m or N; with so many s added to the clock."""
-    reference = dataclasses.replace(state.reference, time=state.reference.time - later)
-    rows = data.about(reference)
+def _held_out_residuals(state: State, data: Data) -> list[np.ndarray]:
+    """(rows_j,) by joint, N m or N."""
+    rows = data.about(state.reference)
     extra = picked_columns(rows, state.picks, data.cache)
     found = []
     for j in range(rows.joints):
@@ -60,47 +58,21 @@ def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:
     return float(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
 
 
-KEPT = 0.2
-"""Share of the expected gain that must come true on held-out motion, which may excite it less."""
+def vetoing(data: Data) -> Callable[[State, State], bool]:
+    """A veto by held-out logs: True if a state with an effect more is not the better one there.
 
-CONFIRMED = 0.05
-"""The same for effects that instrumental variables have confirmed already."""
-
-
-def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
-    """A veto by held-out logs: True if the errors do not fall there as an effect lets expect.
-
-    The error of its joint counts for what is felt on that joint alone, else those of all joints:
-    where the model imitates an effect on its own joint, it shows on others. Squared errors count
-    in units of each joint's residual on the training logs. The clock of a held-out log may start
-    anew: for effects that depend on time it may also go on where the training logs end, whichever
-    suits them better.
+    Args:
+        data: held-out logs.
     """
 
-    def veto(before: State, after: State, judged: Judged) -> bool:
-        candidate = judged.candidate
-        alone = judged.alone
-        own = [candidate.index] if alone else list(range(before.rows.joints))
-        gain = judged.gain if alone else judged.share
-        timed = "t" in candidate.form.names
-        later = [0.0, float(np.ptp(before.data.observation.time))] if timed else [0.0]
-        size = before.base.sigma
-        old = [_weighed(before, data, own, size, shift) for shift in later]
-        new = [_weighed(after, data, own, size, shift) for shift in later]
-        least, best = (min(found, key=_energy) for found in (old, new))
-        kept = CONFIRMED if candidate.effect.timing else KEPT
-        return _energy(best) > _energy(least) * (1.0 - kept * gain)
+    def veto(before: State, after: State) -> bool:
+        return not scored(*(_unseen(state, data) for state in (before, after))).better
 
     return veto
 
 
-def _energy(parts: Sequence[np.ndarray]) -> float:
-    return sum(float(part @ part) for part in parts)
-
-
-def _weighed(
-    state: State, data: Data, own: list[int], size: np.ndarray, later: float
-) -> list[np.ndarray]:
-    """(rows_j,) residuals of some joints on held-out logs, in units of a size (J,)."""
-    left = _held_out_residuals(state, data, later)
-    return [left[j] / size[j] for j in own]
+def _unseen(state: State, data: Data) -> Unseen:
+    rows = data.rows
+    names = tuple(joint.name for joint in data.compiled.spec.joints)
+    left = _held_out_residuals(state, data)
+    return Unseen(names, tuple(left), rows.y, rows.time, rows.run)

@@ -29,10 +29,8 @@ def proposals(
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
-    known = state.data.known
-    if only is not None:
-        asked = [e for e in known.catalogue if e.id == only]
-        known = dataclasses.replace(known, catalogue=asked)
+    asked = [e for e in state.data.known.catalogue if only in (None, e.id)]
+    known = dataclasses.replace(state.data.known, catalogue=asked)
 
     def allowed(effect: str, joint: str | None) -> bool:
         return not ruled_out(effect, joint, without)
@@ -48,10 +46,8 @@ def proposals(
         (same, pick.joint) for pick in state.picks if not pick.effect.several
         for same in (pick.effect.id, *pick.effect.same_as)
     }  # fmt: skip
-    return [
-        c for c in found
-        if c.key not in taken and only in (None, c.effect.id) and allowed(*c.key)
-    ]  # fmt: skip
+    found = [c for c in found if only in (None, c.effect.id) and allowed(*c.key)]
+    return [c for c in found if c.key not in taken]
 
 
 def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:

@@ -163,10 +163,8 @@ class Diagnosis:
         unmoved: joints of which no row can be used.
         held_out: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
-        band: Hz up to which residuals were looked at; values are those of this band too.
         fit_band: Hz up to which the model was fitted, and `modeler add` fits.
         data: doubts about the logs themselves.
-        changed: True if the base parameters were kept and the robot has changed since.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
         window: when something pushed, if anything did.
         search: everything behind it.
@@ -182,13 +180,22 @@ class Diagnosis:
     unmoved: tuple[str, ...]
     held_out: tuple[str, ...]
     sentences: tuple[str, ...]
-    band: float
     fit_band: float
     data: tuple[str, ...]
-    changed: bool
     contradicted: bool
     window: Window | None
     search: Search
+
+    @property
+    def band(self) -> float:
+        """Hz up to which residuals were looked at; values are those of this band too."""
+        observation = self.search.start.data.observation
+        return observation.report.processing.parallel_cutoff or 0.0
+
+    @property
+    def changed(self) -> bool:
+        """True if the base parameters were kept and the robot has changed since."""
+        return self.search.start.data.kept is not None
 
     def to_json(self) -> dict[str, Any]:
         """The `diagnose` object that scripts read."""

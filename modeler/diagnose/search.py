@@ -100,9 +100,8 @@ class Search:
     without: tuple[str, ...] = ()
 
 
-Veto = Callable[[State, State, Judged], bool]
-"""True if an effect does not lower the error on held-out logs: state without it, with it, the
-effect as it was judged."""
+Veto = Callable[[State, State], bool]
+"""True if an effect does not lower the error on held-out logs: state without it, and with it."""
 
 
 def search(
@@ -124,29 +123,26 @@ def search(
         tick: called whenever something is done.
     """
     start = state = _started(data, beta)
-    steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
+    steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # in this state
     survey = surveyed(state, without) if most else None
     judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
+        if len(vetoed) + len(refused) == ASKED:
+            break
         first = judgement.best
         accepted = put_in(state, _named(state, first, refused, without), veto)
-        tick()
         if isinstance(accepted, Refused):
             refused.append(accepted.judged)
-            if len(vetoed) + len(refused) == ASKED:
-                break
             judgement = survey.judged(refused, tick)
             continue
-        best, later = accepted
-        survey = surveyed(later, without)
-        tick()
+        (best, later), survey = accepted, surveyed(accepted[1], without)
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
     if not steps and (described := _description(start, refused, judgement)):
         steps, state = [described], extended(start, described.pick)
-    kept, state = _backward(state, steps, tick)
+    kept, state = _backward(state, steps, veto, tick)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
 
 
@@ -178,7 +174,7 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
             return Refused(dataclasses.replace(judged, possible=False, why=DRIVES))
         if why := _objection(later):
             return Refused(dataclasses.replace(judged, possible=False, why=why))
-        if veto is None or not veto(state, later, judged):
+        if veto is None or not veto(state, later):
             return judged, later
     return Refused(best)
 
@@ -363,7 +359,7 @@ def extended(state: State, pick: Candidate) -> State:
 
 
 def _backward(
-    state: State, steps: Sequence[Step], tick: Callable[[], None]
+    state: State, steps: Sequence[Step], veto: Veto | None, tick: Callable[[], None]
 ) -> tuple[list[Step], State]:
     """Drops effects that the others made unnecessary, the weakest first.
 
@@ -371,22 +367,24 @@ def _backward(
     """
     kept = list(steps)
     while len(kept) > 1:
-        judged = []
-        for step in kept:
-            judged.append(_beside(state, kept, step))
+        idle = {}
+        for k, step in enumerate(kept):
+            judged, less = _beside(state, kept, step)
+            if not judged.significant or (veto is not None and veto(less, state)):
+                idle[k] = judged.gain
             tick()
-        weakest = int(np.argmin([j.gain for j in judged]))
-        if judged[weakest].significant:
+        if not idle:
             break
-        del kept[weakest]
+        del kept[min(idle, key=lambda k: idle[k])]
         state = state_of(state.data, [s.pick for s in kept], state.beta, state.cache)
     if len(kept) < len(steps):
-        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
+        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)[0]) for s in kept]
     return kept, state
 
 
-def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
-    """One of the effects, judged in the model with the others."""
+def _beside(state: State, kept: Sequence[Step], step: Step) -> tuple[Judged, State]:
+    """One of the effects, judged in the model with the others, and that model."""
     others = [s.pick for s in kept if s is not step]
     less = state_of(state.data, others, state.beta, state.cache)
-    return judge(less, [step.pick], [columns_of(less.rows, step.pick, state.cache)]).ranked[0]
+    columns = columns_of(less.rows, step.pick, state.cache)
+    return judge(less, [step.pick], [columns]).ranked[0], less

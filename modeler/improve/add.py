@@ -15,6 +15,7 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Pick
+from modeler.diagnose.score import Score, Unseen, errors_of, rms_error, scored, told
 from modeler.diagnose.search import extended, survey_of, surveyed
 from modeler.diagnose.sentences import where
 from modeler.diagnose.state import Data, State, state_of
@@ -27,9 +28,8 @@ from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.improve.passive import on_passive
 from modeler.improve.rows import Logs, Rows, rows_of
-from modeler.improve.score import Score, errors_of, rms_error, scored, told
 from modeler.improve.sure import with_shapes
-from modeler.improve.unseen import Unseen, left_of, left_out
+from modeler.improve.unseen import left_of, left_out
 from modeler.robot import robot_from_text
 
 if TYPE_CHECKING:

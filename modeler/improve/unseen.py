@@ -1,34 +1,14 @@
 """What a model leaves of motion that it was not fitted to."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from modeler.compiled import CompiledModel
 from modeler.diagnose.gram import base_of, pieces
+from modeler.diagnose.score import Unseen
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.blocks import blocks_of
 from modeler.observation import Observation
 from modeler.observation.torque import model_torque
-
-
-@dataclass(frozen=True, eq=False)
-class Unseen:
-    """Rows of every joint that count; J joints.
-
-    Attributes:
-        names: of the joints.
-        residual: (rows_j,) by joint, measured minus predicted torque, N m or N.
-        torque: (rows_j,) by joint, measured.
-        time: (rows_j,) by joint, s.
-        run: (rows_j,) by joint, index of the log.
-    """
-
-    names: tuple[str, ...]
-    residual: tuple[np.ndarray, ...]
-    torque: tuple[np.ndarray, ...]
-    time: tuple[np.ndarray, ...]
-    run: tuple[np.ndarray, ...]
 
 
 def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:

@@ -65,7 +65,7 @@ def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
 def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
     before: float, now: float, again: bool
 ) -> None:
-    survey = Survey(None, (), (), (judged("spring", now),))  # type: ignore[arg-type]
+    survey = Survey(None, (), (), (), (judged("spring", now),))  # type: ignore[arg-type]
     refused = [judged("spring", before), judged("stribeck", 0.2, mends=True)]
     kept = survey.still(refused)  # type: ignore[arg-type]
     assert (refused[0] not in kept) is again
@@ -146,7 +146,7 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     state = SimpleNamespace(rows=None, cache={})
     monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
     monkeypatch.setattr(search, "_objection", lambda later: "")
-    found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
+    found = search.put_in(state, at(36.3), lambda a, later: later.shapes["m"] in refuse)
     named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
     assert named == order
 
@@ -160,7 +160,7 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
         return search.Refused(SimpleNamespace(why=""))  # type: ignore[arg-type]
 
     class Endless:
-        def judged(self, vetoed: object = ()) -> SimpleNamespace:
+        def judged(self, vetoed: object = (), tick: object = None) -> SimpleNamespace:
             return SimpleNamespace(best=object(), ranked=())
 
     monkeypatch.setattr(search, "put_in", refused)

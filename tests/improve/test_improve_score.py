@@ -5,8 +5,7 @@ import math
 
 import numpy as np
 
-from modeler.improve.score import Score, scored, told
-from modeler.improve.unseen import Unseen
+from modeler.diagnose.score import Score, Unseen, scored, told
 
 RATE, SPAN = 20.0, 30.0
 

@@ -13,11 +13,11 @@ from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.contract import Emitted
 from modeler.diagnose import Diagnosis, Known, diagnose
+from modeler.diagnose.score import Score, Unseen, scored
 from modeler.fit import IdentifiedModel
 from modeler.improve import Logs, add_findings
 from modeler.improve.rows import rows_of
-from modeler.improve.score import Score, scored
-from modeler.improve.unseen import Unseen, left_of
+from modeler.improve.unseen import left_of
 from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST
 from modeler.robot import robot_from_text

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.hypotheses.blocks import BLOCK, MOST
-from modeler.improve.unseen import Unseen
 
 SURE = 2.0
 """Standard errors beyond which a change is sure."""
@@ -20,6 +19,25 @@ LEAST = 1e-3
 
 WORSE = math.sqrt(2.0)
 """Ratio of the errors of a joint from which on more comes on top than its own noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class Unseen:
+    """Rows of every joint that count; J joints.
+
+    Attributes:
+        names: of the joints.
+        residual: (rows_j,) by joint, measured minus predicted torque, N m or N.
+        torque: (rows_j,) by joint, measured.
+        time: (rows_j,) by joint, s.
+        run: (rows_j,) by joint, index of the log.
+    """
+
+    names: tuple[str, ...]
+    residual: tuple[np.ndarray, ...]
+    torque: tuple[np.ndarray, ...]
+    time: tuple[np.ndarray, ...]
+    run: tuple[np.ndarray, ...]
 
 
 @dataclass(frozen=True)
