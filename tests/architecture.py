@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
-SOUTH = ("compiled", "observation", "fit", "compare", "diagnose")
+SOUTH = ("compiled", "observation", "fit", "compare", "diagnose", "pages")
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
 # and of the north the catalogue of effects, which imports nothing but the core: columns of an
@@ -16,7 +16,8 @@ STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
-    "diagnose": {"core", "effects", *SOUTH[:-1]},
+    "diagnose": {"core", "effects", *SOUTH[:4]},
+    "pages": {"core", "effects", *SOUTH[:5]},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
@@ -41,6 +42,7 @@ PACKAGES: dict[str, set[str]] = {
     "fit": {"numpy", "scipy", "clarabel"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "diagnose": {"numpy", "scipy", "threadpoolctl"},
+    "pages": {"numpy", "scipy"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "show": {"numpy", "matplotlib"},
     "derivation": set(),

@@ -2,7 +2,5 @@
 
 from modeler.diagnose.candidates import Known as Known
 from modeler.diagnose.diagnosis import diagnose as diagnose
-from modeler.diagnose.report import write_additions as write_additions
-from modeler.diagnose.report import write_diagnosis as write_diagnosis
 from modeler.diagnose.result import Diagnosis as Diagnosis
 from modeler.diagnose.result import Finding as Finding
