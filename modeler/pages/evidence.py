@@ -1,5 +1,6 @@
 """The picture of an effect: the residual without it, the effect's curve, and what is left."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -49,6 +50,8 @@ def picture_of(item: Shown) -> Picture:
     panels = [_without(item, view), _with(item, view)]
     if item.axis.shows == "waves":
         panels.insert(0, _orders(item))
+    elif item.own is not None:
+        panels.append(_law(item, item.own, view))
     name = f"joint {pick.joint}" if pick.joint is not None else "the whole robot"
     drawn = item.without.data.compiled.spec.joints[item.j].name
     seen = "" if drawn == pick.joint else f", seen on joint {drawn}"
@@ -65,7 +68,7 @@ def picture_of(item: Shown) -> Picture:
 
 def _without(item: Shown, view: View) -> Panel:
     axis, bins = item.axis, item.bins
-    curves = [(item.step.pick.effect.id, item.before - item.after, EFFECT)]
+    curves = [(item.step.pick.effect.id, item.adds, EFFECT)]
     if item.rival is not None:
         curves.append(("flexible rival", item.rival, RIVAL))
     lines = [
@@ -77,6 +80,15 @@ def _without(item: Shown, view: View) -> Panel:
 
 def _with(item: Shown, view: View) -> Panel:
     return _panel("with it", item, view, _cloud(item, view, item.after))
+
+
+def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
+    """Torque that is left to the effect with all else in the model, and its equation."""
+    y = item.bins.means(item.axis.turned(own))
+    curve = Curve(item.step.pick.effect.id, *_pieces(item, y), EFFECT)
+    panel = _panel("its law", item, view, (*_cloud(item, view, own + item.after), curve))
+    label = panel.y_label.replace("residual", "torque laid to it")
+    return dataclasses.replace(panel, y_label=label, y_range=view.law)
 
 
 def _panel(title: str, item: Shown, view: View, series: tuple[Series, ...]) -> Panel:
@@ -119,17 +131,25 @@ def _orders(item: Shown) -> Panel:
 
 
 def _caption(item: Shown, view: View) -> list[str]:
-    effect = item.step.pick.effect
     lines = [
-        f"Look for: {effect.signature}.",
+        f"Look for: {item.step.pick.effect.signature}. Without the effect, all other parameters "
+        "are fitted anew; with it, the scale is the same.",
         f"{ROWS.named.capitalize()}: filtered rows; {MEANS.named}: means of bins with 95 % "
         f"intervals, from blocks of time, of what scatters about the effect; {EFFECT.named}: "
         "what the effect adds, as far as the model's other parameters cannot imitate it.",
     ]
     if item.axis.shows == "waves":
         lines.append(
-            f"In the spectrum {LINES.named} is without the effect, {LINES_AFTER.named} with it."
+            f"In the spectrum {LINES.named} is without the effect, {LINES_AFTER.named} with it. "
+            "Rows of fast motion show less of the wave: the filter takes it."
         )
+    elif item.own is None:
+        lines.append(
+            "No single quantity shows this effect, so the axis is what it adds itself: where it "
+            "describes the residual, the means lie on its line."
+        )
+    else:
+        lines.append("Its law: measured torque less all else in the model, and the equation.")
     if item.rival is not None:
         lines.append(
             f"{RIVAL.named.capitalize()}: the flexible rival, any smooth law of what was "

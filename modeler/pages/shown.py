@@ -23,7 +23,8 @@ class Shown:
         axis: on which the effect shows itself.
         rival: (rows_j,) the flexible rival's prediction of the residual without the effect, on
             rows it was not fitted to; None for too few rows.
-        weight: (rows_j,) torque of the effect there, also what the model could imitate, N m or N.
+        own: (rows_j,) torque of the effect there, also what the model could imitate, N m or N; None
+            where the axis is the effect itself.
         calm: (rows_j,) False for the few wild rows that no mean counts.
         bins: of the axis.
     """
@@ -34,7 +35,7 @@ class Shown:
     j: int
     axis: Axis
     rival: np.ndarray | None
-    weight: np.ndarray
+    own: np.ndarray | None
     calm: np.ndarray
     bins: Bins
 
@@ -42,6 +43,11 @@ class Shown:
     def before(self) -> np.ndarray:
         """(rows_j,) residual without the effect, N m or N."""
         return self.without.residual[self.j]
+
+    @property
+    def adds(self) -> np.ndarray:
+        """(rows_j,) what the effect takes out of the residual."""
+        return self.before - self.after
 
     @property
     def after(self) -> np.ndarray:
@@ -77,12 +83,11 @@ def shown(found: Search, step: Step) -> Shown:
     adds = without.residual[j] - full.residual[j]
     axis = axis_of(full, step.pick, j, adds)
     calm = calm_rows(full.residual[j], full.base.block[j])
-    own = _own(found, step, j)
-    weight = adds if own is None or axis.shows == "itself" else own
+    own = None if axis.shows == "itself" else _own(found, step, j)
     return Shown(
         step=step, without=without, full=full, j=j, axis=axis,
-        rival=rival_prediction(without, j), weight=weight, calm=calm,
-        bins=bins_of(axis.x, weight, without.base.block[j], calm),
+        rival=rival_prediction(without, j), own=own, calm=calm,
+        bins=bins_of(axis.x, adds if own is None else own, without.base.block[j], calm),
     )  # fmt: skip
 
 
