@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
-SOUTH = ("compiled", "observation", "fit", "compare", "hypotheses", "diagnose")
+SOUTH = ("compiled", "observation", "fit", "compare", "hypotheses", "diagnose", "pages")
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
 # and of the north the catalogue of effects, which imports nothing but the core: columns of an
@@ -18,6 +18,7 @@ STAGES: dict[str, set[str]] = {
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
     "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
+    "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
@@ -43,6 +44,7 @@ PACKAGES: dict[str, set[str]] = {
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "hypotheses": {"numpy", "scipy"},
     "diagnose": {"numpy", "scipy", "threadpoolctl"},
+    "pages": {"numpy", "scipy"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "show": {"numpy", "matplotlib"},
     "derivation": set(),

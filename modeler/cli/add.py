@@ -9,10 +9,11 @@ from modeler.cli.console import Json, say, working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.diagnose import Known, diagnose, write_additions
+from modeler.diagnose import Known, diagnose
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
 from modeler.observation.apart import check_apart
+from modeler.pages import write_additions
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar

@@ -11,9 +11,10 @@ from modeler.cli.diagnose import lines
 from modeler.cli.fit import judged
 from modeler.compare import verdict, write_pictures, write_report
 from modeler.compiled import CompiledModel
-from modeler.diagnose import Diagnosis, diagnose, write_additions, write_diagnosis
+from modeler.diagnose import Diagnosis, diagnose
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
+from modeler.pages import write_additions, write_diagnosis
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 

@@ -7,11 +7,12 @@ from pathlib import Path
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
-from modeler.diagnose import Diagnosis, Known, diagnose, write_diagnosis
+from modeler.diagnose import Diagnosis, Known, diagnose
 from modeler.diagnose.sentences import blind_spots
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.observation.apart import check_apart
+from modeler.pages import write_diagnosis
 from modeler.robot import robot_from_text
 from modeler.robot.place import near
 

@@ -108,6 +108,10 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
         )
     for series in panel.series:
         _draw(axes, series)
+    if panel.x_range is not None:
+        axes.set_xlim(panel.x_range)
+    if panel.y_range is not None:
+        axes.set_ylim(panel.y_range)
 
 
 def _draw(axes: Any, series: Series) -> None:

@@ -80,6 +80,10 @@ def _add_panel(figure: go.Figure, panel: Panel, at: tuple[int, int], labelled: s
             **place,
         )
     figure.update_yaxes(title_text=panel.y_label, **place)
+    if panel.x_range is not None:
+        figure.update_xaxes(range=panel.x_range, **place)
+    if panel.y_range is not None:
+        figure.update_yaxes(range=panel.y_range, **place)
     if not panel.series:
         figure.update_xaxes(visible=False, **place)
         figure.update_yaxes(visible=False, **place)
@@ -136,7 +140,7 @@ def _look(series: Curve | Points | Means) -> dict[str, Any]:
     if isinstance(series, Points):
         return {"mode": "markers", "marker": {"color": style.color, "size": style.width + 1}}
     return {
-        "mode": "lines+markers",
+        "mode": "lines+markers" if style.width else "markers",
         "line": line,
         "marker": {"color": style.color, "size": 5},
         "error_y": {"array": _compact(series.error), "thickness": 1, "width": 2},

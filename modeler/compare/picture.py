@@ -7,9 +7,16 @@ import numpy as np
 
 # Okabe and Ito, "Color Universal Design" (2008): told apart by colour-blind readers.
 BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
+GREEN, PINK, SKY = "#009E73", "#CC79A7", "#56B4E9"
 GREY, SLATE = "#9A9A9A", "#6F6F6F"
-COLORS = (BLUE, VERMILLION, "#009E73", ORANGE, "#CC79A7", "#56B4E9", BLACK)
+COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, SKY, BLACK)
 """Seven that colour-blind people tell apart (Okabe and Ito), for curves of many joints."""
+
+COLOR_NAMES = {
+    BLACK: "black", ORANGE: "orange", BLUE: "blue", VERMILLION: "dark orange", GREEN: "green",
+    PINK: "pink", SKY: "light blue", GREY: "grey", SLATE: "dark grey",
+}  # fmt: skip
+"""How captions call the colours."""
 
 
 @dataclass(frozen=True)
@@ -20,6 +27,11 @@ class Style:
     width: float = 1.3  # points, of a line; diameter of a dot
     opacity: float = 1.0
     dash: bool = False
+
+    @property
+    def named(self) -> str:
+        """Its colour in a caption, and whether the line is dashed."""
+        return f"dashed {COLOR_NAMES[self.color]}" if self.dash else COLOR_NAMES[self.color]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +56,7 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Means:
-    """Dots joined by a line, with whiskers of plus and minus `error`."""
+    """Dots, joined by a line if that has a width, with whiskers of plus and minus `error`."""
 
     label: str
     x: np.ndarray
@@ -92,6 +104,8 @@ class Panel:
     marks: tuple[tuple[float, str], ...] = ()  # vertical lines: place, text
     shade: tuple[float, float] | None = None  # an interval of x to point out
     zero: bool = False  # a thin line at y = 0
+    x_range: tuple[float, float] | None = None  # of the axis; None: all that is drawn
+    y_range: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -57,18 +57,19 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
 _EMPTY = Panel("", "", "", ())
 
 _CAPTION = (
-    "Grey: samples. Blue: mean of the residual in each bin, whiskers two standard errors (from the "
-    "spread between separate passes through the bin; none where there was only one). A blue line "
-    "that leaves zero by more than its whiskers is a pattern the model does not have: a step at "
-    "zero velocity looks like Coulomb friction, a slope like viscous friction, a wave over "
-    "position like gravity or ripple, a slope over acceleration like inertia, a curve that starts "
-    "anew at every reversal (travel) like presliding. Over temperature, blue is motion in the "
-    "positive and red in the negative direction: friction that changes moves them apart or "
-    "together. The percentage is the share of the residual variance that such a curve predicts on "
-    "motion not used to draw it; of a temperature, what it adds to the direction of motion. A flat "
-    "spectrum is noise, a narrow peak over frequency an oscillation, a narrow peak over waves per "
-    "turn something that turns: teeth, magnets, rollers. Waves per turn of the motor are those per "
-    "turn of the joint over the gear ratio, which a robot file does not hold."
+    f"{_CLOUD.named.capitalize()}: samples. {_MEAN.named.capitalize()}: mean of the residual in "
+    "each bin, whiskers two standard errors (from the spread between separate passes through the "
+    f"bin; none where there was only one). A {_MEAN.named} line that leaves zero by more than its "
+    "whiskers is a pattern the model does not have: a step at zero velocity looks like Coulomb "
+    "friction, a slope like viscous friction, a wave over position like gravity or ripple, a slope "
+    "over acceleration like inertia, a curve that starts anew at every reversal (travel) like "
+    f"presliding. Over temperature, {_MEAN.named} is motion in the positive and {_BACK.named} in "
+    "the negative direction: friction that changes moves them apart or together. The percentage is "
+    "the share of the residual variance that such a curve predicts on motion not used to draw it; "
+    "of a temperature, what it adds to the direction of motion. A flat spectrum is noise, a narrow "
+    "peak over frequency an oscillation, a narrow peak over waves per turn something that turns: "
+    "teeth, magnets, rollers. Waves per turn of the motor are those per turn of the joint over the "
+    "gear ratio, which a robot file does not hold."
 )
 
 

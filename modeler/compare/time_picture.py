@@ -43,10 +43,11 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
         name=f"joint_{name}_time",
         title=f"Joint {name}: measured and predicted torque",
         caption=(
-            "Above: measured (black) and predicted (orange); where you see no black, they agree. "
-            "Below: the difference, on its own, finer scale; samples that do not count (masked "
-            "for low speed or saturation) are left out of it. Grey: the "
-            f"{WINDOW} s with the largest squared residual, enlarged on the right."
+            f"Above: measured ({_MEASURED.named}) and predicted ({_PREDICTED.named}); where you "
+            f"see no {_MEASURED.named}, they agree. Below ({_RESIDUAL.named}): the difference, on "
+            "its own, finer scale; samples that do not count (masked for low speed or saturation) "
+            f"are left out of it. Shaded: the {WINDOW} s with the largest squared residual, "
+            "enlarged on the right."
         ),
         panels=tuple(
             (replace(all_logs, marks=marks, shade=here), replace(worst, shade=close))

@@ -14,3 +14,4 @@ from modeler.effects.effect import Form as Form
 from modeler.effects.effect import Memory as Memory
 from modeler.effects.effect import Needs as Needs
 from modeler.effects.effect import Shape as Shape
+from modeler.effects.effect import Shows as Shows

@@ -33,6 +33,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="load",
         signature="residual against position: a line, the same at every speed",
+        shows="q",
         look_alikes="gravity and offset, unless the joint moves over more than 2 rad",
         range="Ks >= 0 for a spring, either sign for cables; h >= 0: springs "
         "harden, and what softens like a sine hangs on a lever",
@@ -59,6 +60,7 @@ BODIES: tuple[Effect, ...] = (
         needs=(Needs.GRAVITY, Needs.CURVE),
         turns=True,
         signature="residual against position: smooth, usually on the second joint, at every speed",
+        shows="q",
         look_alikes="first moment of the link: the part sin(q-q0) is its column; gas springs; use "
         "the whole range of the joint",
         range="pull, 20 to 80 % of gravity at the joint",
@@ -76,6 +78,7 @@ BODIES: tuple[Effect, ...] = (
         needs=(Needs.GRAVITY, Needs.CURVE),
         turns=True,
         signature="residual against position: smooth, at every speed; drifts with temperature",
+        shows="q",
         look_alikes="a helical counterbalance, whose other part is the link's first moment; "
         "compare a cold and a warm run",
         range="force > 0",
@@ -90,6 +93,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.LINK,
         family="load",
         signature="residuals of all joints, larger towards the base",
+        shows="itself",
         look_alikes="the last link's own parameters: invisible while these are fitted to the same "
         "logs; fit the model without load first",
         range="M > 0, inertia of a real body",
@@ -106,6 +110,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.LINK,
         family="load",
         signature="like a load, but joints beyond the link do not feel it",
+        shows="itself",
         look_alikes="the link's own parameters, while these are fitted to the same logs",
         range="M > 0, inertia of a real body",
         source="Wensing, Kim and Slotine 2018",
@@ -121,6 +126,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.GRAVITY,
         family="load",
         signature="residual of a vertical joint against its own position, larger with the arm out",
+        shows="itself",
         look_alikes="a spring or cable on the first joint; turn it with the arm out and in",
         range="up to 10 degrees",
         source="Khalil and Dombre 2002, section 9.3",
@@ -134,6 +140,7 @@ BODIES: tuple[Effect, ...] = (
         acts=Acts.WINDOW,
         family="load",
         signature="residuals of several joints: one burst in time",
+        shows="t",
         look_alikes="none that repeats: play the motion again without contact",
         range="an event, no parameter",
         source="De Luca and Mattone 2005",

@@ -72,6 +72,11 @@ none; 1, or 0 where the first moment of the link has that part; what a robot fil
 effect of its own, SI."""
 
 
+Shows = Literal["q", "v", "a", "load", "torque", "rate", "t", "T", "travel", "waves", "itself"]
+"""The axis against which a residual shows an effect: a variable of `VARIABLES`; the travel since
+the joint last turned back; waves per turn; or the torque of the effect itself, where it is a
+function of no single quantity."""
+
 _SHAPE_UNITS: Mapping[Scale, tuple[str, str]] = {
     "speed": ("rad/s", "m/s"),
     "travel": ("rad", "m"),
@@ -216,6 +221,7 @@ class Effect:
             likelier then.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
+        shows: the axis on which it does.
         look_alikes: what it is mistaken for, and which motion tells them apart.
         same_as: ids of effects that no data tell from it.
         twin: id of that of them whose last column is the same with the other sign.
@@ -239,6 +245,7 @@ class Effect:
     acts: Acts
     family: str
     signature: str
+    shows: Shows
     look_alikes: str
     range: str
     source: str

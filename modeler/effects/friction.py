@@ -31,6 +31,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual against velocity: a V",
+        shows="v",
         look_alikes="offset; move fast both ways, at several speeds",
         range="|Fva| <= Fv: both slopes positive",
         source="Janot, Gautier and Brunot 2019 (EMPS)",
@@ -49,6 +50,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual against velocity: a bump at low speed, odd in the speed",
+        shows="v",
         look_alikes="presliding, friction with a power below 1; move slowly at several constant "
         "speeds of 0.2 to 3 vs",
         range="Fst >= 0 and below the Coulomb friction; vs 0.005 to 0.3 rad/s; a negative Fst is "
@@ -65,6 +67,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual against velocity: an odd curve",
+        shows="v",
         look_alikes="Stribeck, for p below 1 and without slow motion; move at five speeds or more",
         range="the whole friction stays positive; p 0.3 to 3",
         source="Waiboer, Aarts and Jonker 2005",
@@ -89,6 +92,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual times sign(qd) against |load|: a straight line",
+        shows="load",
         look_alikes="friction that depends on position; pass the same poses with another load, or "
         "move other joints meanwhile",
         range="mu 0.01 to 0.15, not negative; half the load is no friction of a gear",
@@ -111,6 +115,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual times sign(qd) against position: a wave",
+        shows="q",
         look_alikes="friction that depends on the load, where gravity is a function of the same "
         "angle; make full strokes both ways under several loads",
         range="the whole Coulomb friction stays positive",
@@ -131,6 +136,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual against the travel since the last reversal: fades exponentially",
+        shows="travel",
         look_alikes="Stribeck, backlash; make many small reversals, slowly",
         needs=(Needs.FRICTION,),
         range="0 < Fz <= Fs; d 1e-4 to 2e-2 rad",
@@ -151,6 +157,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual against position: a fat loop whose width depends on the stroke",
+        shows="travel",
         look_alikes="Coulomb friction with a spring; make strokes of several lengths",
         range="Fh >= 0, 1 to 10 % of rated torque; d 0.05 to 0.5 rad",
         source="Bouc 1967, Wen 1976; Dahl 1968",
@@ -174,6 +181,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.JOINT,
         family="friction",
         signature="residual times sign(qd) against temperature, or against time since the start",
+        shows="T",
         look_alikes="drift; log a temperature, start cold and run warm",
         range="viscous friction falls with temperature in the range of greases",
         source="Bittencourt, Wernholt, Sander-Tavallaey and Brogardh 2010; Simoni et al. 2019",
@@ -192,6 +200,7 @@ FRICTION: tuple[Effect, ...] = (
         acts=Acts.PASSIVE,
         family="friction",
         signature="residuals of all motors against the speed of the passive joint",
+        shows="itself",
         look_alikes="friction of the motors; move through poses where passive joints turn much "
         "faster than motors, and slower",
         range="Fv >= 0, Fs >= 0",

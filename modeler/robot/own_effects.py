@@ -15,6 +15,7 @@ from modeler.effects import (
     Form,
     Memory,
     Shape,
+    Shows,
 )
 from modeler.robot.cells import expression_at, list_at, plain_number, table_at, text_at
 from modeler.robot.finite import check_combinations, check_finite
@@ -93,6 +94,7 @@ def _effect(name: str, table: Mapping[str, Any], known: Sequence[Effect], place:
         acts=acts,
         family=name,
         signature=f"residual against {quantities}: the curve of its equation",
+        shows=_shows(form, acts),
         look_alikes="whatever has nearly the same curve on the motion of the logs; log more of the "
         f"range of {quantities}",
         range="parameters not negative" if columns[0].nonnegative else "either sign",
@@ -105,6 +107,20 @@ _PLAIN = {
     "q": "position", "v": "speed", "a": "acceleration", "load": "load", "static": "load",
     "torque": "torque", "t": "time", "T": "temperature", "z": "travel since the last reversal",
 }  # fmt: skip
+
+
+_AXES: dict[str, Shows] = {
+    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "z": "travel",
+    "q": "q", "a": "a",
+}  # fmt: skip
+"""Variable -> axis; the first that an equation uses shows it."""
+
+
+def _shows(form: Form, acts: Acts) -> Shows:
+    """Friction that also depends on something else shows itself there, turned with the motion."""
+    if acts is Acts.POSITION:
+        return "itself"
+    return next((axis for name, axis in _AXES.items() if name in form.names), "v")
 
 
 def _acts(value: Any, place: Place) -> tuple[Acts, tuple[str, ...]]:

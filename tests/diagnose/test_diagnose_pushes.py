@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.diagnose.event_pictures import push_picture
-from modeler.diagnose.report import write_diagnosis
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import candidates, scales_of
 from modeler.observation import Log
+from modeler.pages import write_diagnosis
+from modeler.pages.event_pictures import push_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
 

@@ -1,23 +1,18 @@
-"""The pages of a diagnosis and of effects that were added: one HTML file each, no network."""
+"""The page of a diagnosis: one HTML file, no network."""
 
 import html
 from collections.abc import Sequence
 from pathlib import Path
-from string import Template
 
-import numpy as np
-
-from modeler.compare.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
-from modeler.compare.report import figure_html, page_assets
+from modeler.compare.report import figure_html
 from modeler.core.files import write_atomically
-from modeler.diagnose.event_pictures import play_picture, push_picture
-from modeler.diagnose.evidence import evidence_picture, rivals_picture
-from modeler.diagnose.result import Diagnosis, Finding
+from modeler.diagnose import Diagnosis, Finding
 from modeler.diagnose.sentences import blind_spots, percent, unit, where
 from modeler.effects import effect_named
-from modeler.fit import Addition
-
-_HERE = Path(__file__).parent
+from modeler.pages.event_pictures import play_picture, push_picture
+from modeler.pages.evidence import picture_of, rivals_picture
+from modeler.pages.sheet import page, section
+from modeler.pages.shown import figures, shown
 
 
 def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] = ()) -> Path:
@@ -31,7 +26,7 @@ def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] 
     Raises:
         ModelerError: the place cannot be written.
     """
-    text = _page(
+    text = page(
         title=f"{diagnosis.robot}: which effect is missing",
         headline=_headline(diagnosis),
         facts=_facts(diagnosis),
@@ -40,81 +35,6 @@ def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] 
     )
     write_atomically(Path(path), text)
     return Path(path)
-
-
-def write_additions(
-    path: Path, robot: str, history: Sequence[Addition], left_out: Sequence[str] = ()
-) -> Path:
-    """Write the page of a model's history: the error after every effect that was added.
-
-    Args:
-        path: of an .html file.
-        robot: name.
-        history: of the model.
-        left_out: effects that were not added, and why.
-
-    Raises:
-        ModelerError: the place cannot be written.
-    """
-    first, last = history[0].error, history[-1].error
-    held = history[-1].held_out
-    fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
-    lines = [
-        f"modeler add MODEL {s.effect}{f' --joint {s.joint}' if s.joint else ''} LOG... --out MODEL"
-        for s in history[1:]
-    ]
-    text = _page(
-        title=f"{robot}: effects added",
-        headline=(percent(last), f"error left of {percent(first)}"),
-        facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
-        sections=_section("The error falls", figure_html(waterfall_picture(history))),
-        provenance=["To do this again, in this order:", *lines, *left_out],
-    )
-    write_atomically(Path(path), text)
-    return Path(path)
-
-
-def waterfall_picture(history: Sequence[Addition]) -> Picture:
-    """Held-out and training error after every effect."""
-    names = tuple(
-        (f"+ {s.effect}" + (f" @{s.joint}" if s.joint else "")) if s.effect else "as fitted"
-        for s in history
-    )
-    held = np.array([100.0 * s.error for s in history])
-    fitted = np.array([100.0 * s.training_error for s in history])
-    label = "error on held-out logs [%]" if history[-1].held_out else "error on fitted logs [%]"
-    panels = (
-        Panel("held out", "", label,
-              (Bars("held out", names, held, tuple(f"{e:.2f}" for e in held), Style(BLUE)),)),
-        Panel("fitted", "", "error on fitted logs [%]",
-              (Bars("fitted", names, fitted, tuple(f"{e:.2f}" for e in fitted), Style(ORANGE)),)),
-    )  # fmt: skip
-    return Picture(
-        name="waterfall",
-        title="Error after every effect",
-        caption="Relative error, root mean square over the joints. Left the error that counts: "
-        "motion that was never fitted. `modeler add MODEL undo LOG... --out MODEL` takes the last "
-        "one back.",
-        panels=(panels,),
-        heights=(1.0,),
-        widths=(0.5, 0.5),
-        height=380,
-    )
-
-
-def _page(
-    title: str, headline: tuple[str, str], facts: Sequence[tuple[str, str]], sections: str,
-    provenance: Sequence[str],
-) -> str:  # fmt: skip
-    return Template((_HERE / "page.html").read_text(encoding="utf-8")).substitute(
-        title=html.escape(title),
-        figure=html.escape(headline[0]),
-        headline=html.escape(headline[1]),
-        facts="\n".join(f"<li><b>{html.escape(a)}</b>{html.escape(b)}</li>" for a, b in facts),
-        sections=sections,
-        provenance="\n".join(f"<li>{html.escape(line)}</li>" for line in provenance),
-        **page_assets(),
-    )
 
 
 def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
@@ -159,14 +79,16 @@ def _runner_up(diagnosis: Diagnosis) -> str:
 
 
 def _sections(diagnosis: Diagnosis) -> list[str]:
-    found = [_section("Effects", _table(diagnosis)), _section("Joints", _joints(diagnosis))]
+    found = [section("Effects", _table(diagnosis)), section("Joints", _joints(diagnosis))]
     for step in diagnosis.search.steps:
-        pictures = figure_html(evidence_picture(diagnosis.search, step))
+        item = shown(diagnosis.search, step)
+        pictures = f'<p class="lead">{html.escape(figures(item))}</p>\n'
+        pictures += figure_html(picture_of(item))
         if step is diagnosis.search.steps[0]:
             pictures += figure_html(rivals_picture(step))
-        found.append(_section(_name(step.pick.effect.id, step.pick.joint), pictures))
+        found.append(section(_name(step.pick.effect.id, step.pick.joint), pictures))
     found += _events(diagnosis)
-    found.append(_section("What these logs cannot show", _blind(diagnosis)))
+    found.append(section("What these logs cannot show", _blind(diagnosis)))
     return found
 
 
@@ -178,15 +100,11 @@ def _events(diagnosis: Diagnosis) -> list[str]:
     for finding in diagnosis.effects:
         if finding.pick is None and finding.joint is not None:
             picture = play_picture(end, names.index(finding.joint))
-            found.append(_section(_name(finding.effect, finding.joint), figure_html(picture)))
+            found.append(section(_name(finding.effect, finding.joint), figure_html(picture)))
     if diagnosis.window is not None:
         picture = push_picture(end, diagnosis.window)
-        found += [_section(f.effect, figure_html(picture)) for f in diagnosis.effects if f.event]
+        found += [section(f.effect, figure_html(picture)) for f in diagnosis.effects if f.event]
     return found
-
-
-def _section(title: str, body: str) -> str:
-    return f"<section>\n<h2>{html.escape(title)}</h2>\n{body}\n</section>"
 
 
 def _name(effect: str, joint: str | None) -> str:

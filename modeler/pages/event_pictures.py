@@ -5,8 +5,8 @@ import numpy as np
 from modeler.compare.picture import COLORS, Curve, Panel, Picture, Style
 from modeler.diagnose.bursts import AFTER, load_turns
 from modeler.diagnose.contact import MARGIN, Window
-from modeler.diagnose.evidence import scatter
 from modeler.diagnose.state import State
+from modeler.pages.evidence import MEANS, ROWS, scatter
 
 _AROUND = 0.5  # s before and after a change of sign that are drawn
 _BESIDE = 3.0  # s before and after a push
@@ -24,15 +24,15 @@ def play_picture(state: State, j: int) -> Picture:
     near = np.abs(since) < _AROUND
     panel = scatter(
         "", "time since the load changed its sign [s]", f"|residual| [{joint.effort_unit}]",
-        since[near], np.abs(state.residual[j][near]),
+        since[near], np.abs(state.residual[j][near]), state.base.block[j][near],
     )  # fmt: skip
     panel = Panel(panel.title, panel.x_label, panel.y_label, panel.series, shade=(0.0, AFTER))
     return _picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
-        "The teeth knock when the load pushes them to the other side. Grey: rows; black: means of "
-        "bins with two standard errors; shaded: where the knocks are looked for. Friction and "
-        "springs do not know these moments.",
+        "The teeth knock when the load pushes them to the other side. "
+        f"{ROWS.named.capitalize()}: rows; {MEANS.named}: means of bins with 95 % intervals; "
+        "shaded: where the knocks are looked for. Friction and springs do not know these moments.",
         panel,
     )
 

@@ -1,0 +1,126 @@
+"""Means of a residual along an axis, with errors that count what neighbouring rows share."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import stdtrit
+
+COUNT = 40
+"""Bins at most."""
+
+_ROWS = 8  # in a bin, at least
+_BLOCKS = 4  # of time in a bin, at least: fewer say nothing of its error
+_WILD = 8.0  # robust standard deviations from which on a row may be wild
+_FEW = 0.05  # share of the blocks that may hold wild rows: what returns everywhere is no accident
+
+
+@dataclass(frozen=True, eq=False)
+class Bins:
+    """Which rows stand in which bin; b bins, side by side in x.
+
+    Attributes:
+        place: (rows,) bin of each row; -1 for one that is in none.
+        centre: (b,) mean of x.
+        edges: indices of bins that begin a new piece, where x changes its sign.
+    """
+
+    place: np.ndarray
+    centre: np.ndarray
+    edges: tuple[int, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of bins."""
+        return len(self.centre)
+
+    def means(self, y: np.ndarray) -> np.ndarray:
+        """(b,) means of y (rows,)."""
+        held = self.place >= 0
+        total = np.bincount(self.place[held], y[held], self.count)
+        return np.asarray(total / np.bincount(self.place[held], minlength=self.count))
+
+    def errors(self, y: np.ndarray, block: np.ndarray) -> np.ndarray:
+        """(b,) half widths of the 95 % intervals of the means; NaN where one block fills a bin.
+
+        Rows of one block of time share their noise: the spread between blocks counts,
+        s^2 = G/(G-1) sum_g (sum_{i in g} (y_i - mean))^2 / n^2 with G blocks g, and Student's t.
+
+        Args:
+            y: (rows,).
+            block: (rows,) block of time of each row.
+        """
+        held = self.place >= 0
+        place, mean = self.place[held], self.means(y)
+        deviation = y[held] - mean[place]
+        cell, inverse = np.unique(
+            np.column_stack([place, block[held]]), axis=0, return_inverse=True
+        )
+        total = np.bincount(inverse.ravel(), deviation, len(cell))
+        groups = np.bincount(cell[:, 0], minlength=self.count)
+        spread = np.bincount(cell[:, 0], total**2, self.count)
+        free = np.where(groups > 1, groups - 1, np.nan)
+        error = np.sqrt(groups / free * spread) / np.bincount(place, minlength=self.count)
+        return np.asarray(error * stdtrit(free, 0.975))
+
+
+def bins_of(x: np.ndarray, weight: np.ndarray, block: np.ndarray, calm: np.ndarray) -> Bins:
+    """About 40 bins of x: half of them share the rows evenly, half the square of an effect.
+
+    So an effect that acts in a narrow place is seen there. No bin has rows of both signs, and
+    none fewer than four blocks of time: there are fewer bins then.
+
+    Args:
+        x: (rows,) the axis.
+        weight: (rows,) torque of the effect.
+        block: (rows,) block of time of each row.
+        calm: (rows,) False for rows that are left out.
+    """
+    square = weight**2
+    total = float(square[calm].sum())
+    mass = np.full(len(x), 1.0 / max(1, int(calm.sum())))
+    mass += square / total if total > 0.0 else mass
+    place = np.full(len(x), -1)
+    edges, made = [0], 0
+    for side in (x < 0.0, x >= 0.0):
+        rows = np.flatnonzero(side & calm)
+        parts = _pieces(rows[np.argsort(x[rows], kind="stable")], mass, block)
+        for part in parts:
+            place[part] = made
+            made += 1
+        edges.append(made)
+    held = place >= 0
+    centre = np.bincount(place[held], x[held], made) / np.bincount(place[held], minlength=made)
+    return Bins(place, centre, tuple(dict.fromkeys(e for e in edges if e < made)))
+
+
+def _pieces(order: np.ndarray, mass: np.ndarray, block: np.ndarray) -> list[np.ndarray]:
+    """The rows cut into bins, in this order; what is left over at the end joins the last."""
+    full = 2.0 / COUNT
+    parts: list[np.ndarray] = []
+    start, held, blocks = 0, 0.0, set[int]()
+    for at, row in enumerate(order.tolist()):
+        held += float(mass[row])
+        blocks.add(int(block[row]))
+        if held >= full and at + 1 - start >= _ROWS and len(blocks) >= _BLOCKS:
+            parts.append(order[start : at + 1])
+            start, held, blocks = at + 1, 0.0, set()
+    rest = order[start:]
+    if rest.size and parts and (held < 0.5 * full or len(blocks) < _BLOCKS or rest.size < _ROWS):
+        parts[-1] = np.concatenate([parts[-1], rest])
+    elif rest.size >= _ROWS:
+        parts.append(rest)
+    return parts
+
+
+def calm_rows(left: np.ndarray, block: np.ndarray) -> np.ndarray:
+    """(rows,) False for the wild ones: far out with everything in the model, and in few blocks.
+
+    Args:
+        left: (rows,) residual with the effect.
+        block: (rows,) block of time of each row.
+    """
+    away = np.abs(left - np.median(left))
+    wild = away > _WILD * 1.4826 * np.median(away)
+    if np.unique(block[wild]).size > max(1.0, _FEW * np.unique(block).size):
+        return np.ones(len(left), dtype=bool)
+    return np.asarray(~wild)

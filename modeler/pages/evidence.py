@@ -1,0 +1,202 @@
+"""The picture of an effect: the residual without it, the effect's curve, and what is left."""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from modeler.compare.picture import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    VERMILLION,
+    Bars,
+    Curve,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Style,
+)
+from modeler.diagnose.orders import order_spectrum
+from modeler.diagnose.search import Search, Step
+from modeler.pages.bins import bins_of
+from modeler.pages.shown import Shown, shown
+from modeler.pages.view import View, view_of
+
+ROWS = Style(GREY, 2.0, 0.35)
+MEANS = Style(BLACK, 0.0)
+EFFECT = Style(VERMILLION, 2.2)
+RIVAL = Style(BLUE, 1.4, dash=True)
+LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
+_DOTS = 1500
+
+
+def evidence_picture(found: Search, step: Step) -> Picture:
+    """Residual on the axis where the effect shows itself, without the effect and with it.
+
+    Args:
+        found: the search.
+        step: of the effect.
+    """
+    return picture_of(shown(found, step))
+
+
+def picture_of(item: Shown) -> Picture:
+    """The same of what is shown."""
+    pick, view = item.step.pick, view_of(item)
+    panels = [_without(item, view), _with(item, view)]
+    if item.axis.shows == "waves":
+        panels.insert(0, _orders(item))
+    elif item.own is not None:
+        panels.append(_law(item, item.own, view))
+    name = f"joint {pick.joint}" if pick.joint is not None else "the whole robot"
+    drawn = item.without.data.compiled.spec.joints[item.j].name
+    seen = "" if drawn == pick.joint else f", seen on joint {drawn}"
+    return Picture(
+        name=f"evidence_{pick.effect.id}_{pick.joint or 'robot'}",
+        title=f"{pick.effect.title}: {name}{seen}",
+        caption=" ".join(_caption(item, view)),
+        panels=(tuple(panels),),
+        heights=(1.0,),
+        widths=tuple(1.0 / len(panels) for _ in panels),
+        height=400,
+    )
+
+
+def _without(item: Shown, view: View) -> Panel:
+    axis, bins = item.axis, item.bins
+    curves = [(item.step.pick.effect.id, item.adds, EFFECT)]
+    if item.rival is not None:
+        curves.append(("flexible rival", item.rival, RIVAL))
+    lines = [
+        Curve(name, *_pieces(item, bins.means(axis.turned(y))), style) for name, y, style in curves
+    ]
+    series = (*_cloud(item, view, item.before), *lines)
+    return _panel("without the effect", item, view, series)
+
+
+def _with(item: Shown, view: View) -> Panel:
+    return _panel("with it", item, view, _cloud(item, view, item.after))
+
+
+def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
+    """Torque that is left to the effect with all else in the model, and its equation."""
+    y = item.bins.means(item.axis.turned(own))
+    curve = Curve(item.step.pick.effect.id, *_pieces(item, y), EFFECT)
+    panel = _panel("its law", item, view, (*_cloud(item, view, own + item.after), curve))
+    label = panel.y_label.replace("residual", "torque laid to it")
+    return dataclasses.replace(panel, y_label=label, y_range=view.law)
+
+
+def _panel(title: str, item: Shown, view: View, series: tuple[Series, ...]) -> Panel:
+    y_label = f"residual{item.axis.times} [{item.unit}]"
+    return Panel(title, item.axis.label, y_label, series, zero=True, x_range=view.x, y_range=view.y)
+
+
+def _cloud(item: Shown, view: View, y: np.ndarray) -> tuple[Series, ...]:
+    x, turned = item.axis.x, item.axis.turned(y)
+    inside = np.flatnonzero((x >= view.x[0]) & (x <= view.x[1]))
+    kept = inside[:: max(1, len(inside) // _DOTS)]
+    return (
+        Points("rows", x[kept], turned[kept], ROWS),
+        Means("mean of bin, 95 %", item.bins.centre, item.bins.means(turned), item.errors(), MEANS),
+    )
+
+
+def _pieces(item: Shown, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A curve over the centres of the bins; over velocities it may leap at 0."""
+    if item.axis.shows != "v":
+        return item.bins.centre, y
+    at = [edge for edge in item.bins.edges if edge > 0]
+    return np.insert(item.bins.centre, at, np.nan), np.insert(y, at, np.nan)
+
+
+def _orders(item: Shown) -> Panel:
+    order = item.step.pick.shapes["m"]
+    series = []
+    for label, state, style in (
+        ("without", item.without, LINES), ("with the effect", item.full, LINES_AFTER),
+    ):  # fmt: skip
+        spectrum = order_spectrum(state, item.j)
+        if spectrum is not None:
+            near = (spectrum.order > 0.5 * order) & (spectrum.order < 1.5 * order)
+            series.append(Curve(label, spectrum.order[near], spectrum.amplitude[near], style))
+    return Panel(
+        "order spectrum", "waves per turn", f"amplitude [{item.unit}]", tuple(series),
+        marks=((order, f"{order:.4g}"),),
+    )  # fmt: skip
+
+
+def _caption(item: Shown, view: View) -> list[str]:
+    lines = [
+        f"Look for: {item.step.pick.effect.signature}. Without the effect, all other parameters "
+        "are fitted anew; with it, the scale is the same.",
+        f"{ROWS.named.capitalize()}: filtered rows; {MEANS.named}: means of bins with 95 % "
+        f"intervals, from blocks of time, of what scatters about the effect; {EFFECT.named}: "
+        "what the effect adds, as far as the model's other parameters cannot imitate it.",
+    ]
+    if item.axis.shows == "waves":
+        lines.append(
+            f"In the spectrum {LINES.named} is without the effect, {LINES_AFTER.named} with it. "
+            "Rows of fast motion show less of the wave: the filter takes it."
+        )
+    elif item.own is None:
+        lines.append(
+            "No single quantity shows this effect, so the axis is what it adds itself: where it "
+            "describes the residual, the means lie on its line."
+        )
+    else:
+        lines.append("Its law: measured torque less all else in the model, and the equation.")
+    if item.rival is not None:
+        lines.append(
+            f"{RIVAL.named.capitalize()}: the flexible rival, any smooth law of what was "
+            "measured, fitted to other blocks."
+        )
+    if item.axis.way is not None:
+        lines.append(
+            "Residuals are multiplied by the sign of the velocity: friction turns with it."
+        )
+    if len(item.without.picks):
+        lines.append("The other effects found here are in the model on both sides.")
+    return [*lines, *view.outside]
+
+
+def rivals_picture(step: Step) -> Picture:
+    """What the best effects explain within the logs, side by side."""
+    items = [step.judged, *step.rivals[:7]]
+    names = tuple(
+        i.candidate.effect.id.replace("_", "<br>")
+        + (f"<br>@{i.candidate.joint}" if i.candidate.joint else "")
+        for i in items
+    )
+    gains = np.array([100.0 * max(0.0, i.gain) for i in items])
+    bars = Bars("gain", names, gains, tuple(f"{g:.0f}" for g in gains), Style(BLUE))
+    return Picture(
+        name=f"rivals_{step.pick.effect.id}_{step.pick.joint or 'robot'}",
+        title="Why not another effect",
+        caption=(
+            "Share of the error variance of its own joints that each effect explains within these "
+            "logs, cross-validated. An effect on another joint is no rival, but perhaps the next "
+            "one."
+        ),
+        panels=((Panel("", "", "explained [%]", (bars,)),),),
+        heights=(1.0,),
+        widths=(1.0,),
+        height=340,
+    )
+
+
+def scatter(
+    title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray, block: np.ndarray
+) -> Panel:
+    """Rows as dots, and the means of bins with 95 % intervals."""
+    bins = bins_of(x, np.zeros(len(x)), block, np.ones(len(x), dtype=bool))
+    every = max(1, len(x) // _DOTS)
+    series: Sequence[Series] = (
+        Points("rows", x[::every], y[::every], ROWS),
+        Means("mean of bin, 95 %", bins.centre, bins.means(y), bins.errors(y, block), MEANS),
+    )
+    return Panel(title, x_label, y_label, tuple(series), zero=True)
