@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
-SOUTH = ("compiled", "observation", "fit", "compare", "diagnose")
+SOUTH = ("compiled", "observation", "fit", "residuals", "compare", "diagnose")
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
 # and of the north the catalogue of effects, which imports nothing but the core: columns of an
@@ -39,6 +39,7 @@ PACKAGES: dict[str, set[str]] = {
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},
     "fit": {"numpy", "scipy", "clarabel"},
+    "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "diagnose": {"numpy", "scipy", "threadpoolctl"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},

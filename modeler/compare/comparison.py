@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from modeler.compare.by_log import LogError, errors_by_log
-from modeler.compare.orders import OrderSpectrum
+from modeler.compare.follows import Follows, follows
 from modeler.compare.prediction import (
     JointInfo,
     Prediction,
@@ -21,10 +21,11 @@ from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
 from modeler.compare.scale import Scale, scale
 from modeler.compare.shares import Shares, shares
-from modeler.compare.spectrum import Spectrum, spectrum
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
+from modeler.residuals.orders import OrderSpectrum
+from modeler.residuals.spectrum import Spectrum, spectrum
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,7 @@ class JointComparison:
     regions: tuple[Region, ...]
     worst: Window
     structure: Structure | None  # None: too few samples to tell
+    follows: Follows | None  # None: too few samples to tell
     spectrum: Spectrum | None  # None: no segment long enough
     shares: Shares | None  # None: too few samples to tell
     scale: Scale | None  # None: too few samples, or a constant
@@ -137,6 +139,7 @@ def _compare_joint(
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
     found = structure(prediction, index)
+    followed = follows(prediction, index, found)
     return JointComparison(
         joint=prediction.joints[index],
         index=index,
@@ -154,8 +157,9 @@ def _compare_joint(
         regions=velocity_regions(prediction.qd[rows, index], counted),
         worst=worst_window(prediction, e),
         structure=found,
-        spectrum=spectrum(prediction, e),
-        shares=shares(prediction, index, e, repeated, found),
+        follows=followed,
+        spectrum=spectrum(prediction.time, prediction.segment, e),
+        shares=shares(prediction, index, e, repeated, found, followed),
         scale=scale(measured, prediction.predicted[rows, index]),
         orders=ripple(prediction, index),
     )
@@ -186,6 +190,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
             "across": dict(found.across),
             "motors": dict(found.motors),
         },
+        "follows": None if item.follows is None else dataclasses.asdict(item.follows),
         "spectrum": None
         if colour is None
         else {

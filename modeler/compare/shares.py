@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.compare.predictable import LEAST, Moved, predictable
+from modeler.compare.follows import Follows
 from modeler.compare.prediction import Prediction, full_rate
 from modeler.compare.repetition import Repetition, met
 from modeler.compare.structure import Structure
@@ -15,9 +15,6 @@ Method = Literal["laps", "logs", "smooth"]
 _ENOUGH = 0.5  # of the rows must have been repeated
 _FEWEST = 50  # rows
 _NEIGHBOURS = 6  # rows
-_MOST = 3000  # rows of the smooth functions, beyond which every second, third, ... is taken
-_FOLDS = 8
-_SLIPS = (0.001, 0.01, 0.1)  # of the range of motion
 
 
 @dataclass(frozen=True)
@@ -46,6 +43,7 @@ def shares(
     e: np.ndarray,
     repeated: tuple[Repetition, ...],
     found: Structure | None,
+    followed: Follows | None,
 ) -> Shares | None:
     """Shares of one joint; None for a constant torque, or too few samples to tell.
 
@@ -60,6 +58,7 @@ def shares(
         e: (n,) its residual, NaN where a row does not count.
         repeated: laps, logs of one motion.
         found: structure of the residual.
+        followed: what it follows.
     """
     rows = np.flatnonzero(prediction.used[:, joint])
     y = prediction.measured[rows, joint]
@@ -75,7 +74,9 @@ def shares(
             return Shares(1.0 - left, again * left, (1.0 - again) * left, kind, error * left)
     if found is None or energy == 0.0:
         return None if energy else Shares(1.0, 0.0, 0.0, "smooth", None)
-    again = _smooth(prediction, joint, e, rows, found)
+    offset = rows.size * float(e[rows].mean()) ** 2 / energy
+    smooth = max(found.together, followed.share if followed is not None else 0.0)
+    again = offset + (1.0 - offset) * smooth
     return Shares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
 
 
@@ -119,41 +120,3 @@ def _copies(first: np.ndarray, second: np.ndarray) -> bool:
 
 def _starts(size: int) -> np.ndarray:
     return np.arange(0, size, _NEIGHBOURS)
-
-
-def _smooth(
-    prediction: Prediction, joint: int, e: np.ndarray, rows: np.ndarray, found: Structure
-) -> float:
-    """Share of the squared residual that is its mean, or predicted by the motion."""
-    own = e[rows]
-    energy, mean, share = float(own @ own), float(own.mean()), found.together
-    looked = rows[:: -(-rows.size // _MOST)]
-    size = float(e[looked].std())
-    moved = _moved(prediction, joint, looked)
-    if moved is not None and size > 0.0:
-        fold = _folds(prediction.run[looked])
-        share = max(share, predictable(moved, (e[looked] - mean) / size, fold))
-    offset = own.size * mean**2 / energy
-    return offset + (1.0 - offset) * share
-
-
-def _folds(run: np.ndarray) -> np.ndarray:
-    """(n,) each log in eight stretches."""
-    fold = np.zeros(run.size, dtype=int)
-    for log in np.unique(run):
-        own = np.flatnonzero(run == log)
-        fold[own] = (np.arange(own.size) * _FOLDS // own.size + log) % _FOLDS
-    return fold
-
-
-def _moved(prediction: Prediction, joint: int, rows: np.ndarray) -> Moved | None:
-    """Motion on the rows of one joint; None if they are few, or another joint has none there."""
-    q, v, a = (x[rows] for x in (prediction.q, prediction.qd, prediction.qdd))
-    if rows.size < LEAST or not all(np.isfinite(x).all() for x in (q, v, a)):
-        return None
-    slips = []
-    if prediction.travel is not None:
-        travel, way = prediction.travel[rows, joint], np.sign(v[:, joint])
-        stroke = max(float(np.ptp(q[:, joint])), 1e-12)
-        slips = [way * (1.0 - 2.0 * np.exp(-travel / (d * stroke))) for d in _SLIPS]
-    return Moved(joint, q, v, a, prediction.predicted[rows, joint], slips)

@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.compare.coordinates import DRIFTS, coordinate_values, coordinates_of
 from modeler.compare.prediction import Prediction
-from modeler.compare.smooth import (
+from modeler.residuals.smooth import (
     Smooth,
     direction_function,
     drift_function,
@@ -16,6 +16,8 @@ from modeler.compare.smooth import (
 )
 
 ENOUGH = 200  # samples below which nothing is said about structure
+
+NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
 
 _MOST = 50_000  # samples beyond which every second, third, ... is looked at
 
@@ -83,6 +85,16 @@ def _share(name: str, family: Smooth, e: np.ndarray, qd: np.ndarray) -> float:
     if name == "temperature":
         share -= explained_share(direction_function(np.sign(qd)), e, *_DRIFT)
     return max(0.0, share)
+
+
+def across(prediction: Prediction, other: int, rows: np.ndarray, e: np.ndarray) -> dict[str, float]:
+    """Shares of e (n,) on some rows by functions of one coordinate of another joint each."""
+    found = {
+        "position": smooth_function(prediction.q[rows, other]),
+        "velocity": _of_velocity(prediction.qd[rows, other]),
+        "acceleration": smooth_function(prediction.qdd[rows, other]),
+    }
+    return {name: explained_share(family, e, *_MOTION) for name, family in found.items()}
 
 
 def _across(qd: np.ndarray, e: np.ndarray) -> float:

@@ -4,12 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeler.compare.orders import OrderSpectrum
-from modeler.compare.orders import order_spectrum as spectrum_of
 from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.columns import all_columns
 from modeler.diagnose.state import State
 from modeler.effects import RIPPLES, effect_named
+from modeler.residuals.orders import OrderSpectrum
+from modeler.residuals.orders import order_spectrum as spectrum_of
 
 MOTOR = 70.0
 """Waves per turn from which on a ripple is taken for the motor's: teeth and rollers are fewer."""

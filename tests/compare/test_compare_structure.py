@@ -6,8 +6,8 @@ from known_defects import NOISE, PERIOD, Defect, prediction
 from scipy.signal import lfilter
 
 from modeler.compare import JointComparison, compare, headline, joint_verdict, verdict
-from modeler.compare.smooth import explained_share, smooth_function
 from modeler.compare.verdict import best_pattern, kind_of_residual, looks_like_noise, percent
+from modeler.residuals.smooth import explained_share, smooth_function
 
 
 def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) -> JointComparison:
