@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from modeler.compare.by_log import LogError, errors_by_log
-from modeler.compare.follows import Follows, follows
 from modeler.compare.prediction import (
     JointInfo,
     Prediction,
@@ -53,7 +52,6 @@ class JointComparison:
     regions: tuple[Region, ...]
     worst: Window
     structure: Structure | None  # None: too few samples to tell
-    follows: Follows | None  # None: too few samples to tell
     spectrum: Spectrum | None  # None: no segment long enough
     shares: Shares | None  # None: too few samples to tell
     scale: Scale | None  # None: too few samples, or a constant
@@ -139,7 +137,6 @@ def _compare_joint(
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
     found = structure(prediction, index)
-    followed = follows(prediction, index, found)
     return JointComparison(
         joint=prediction.joints[index],
         index=index,
@@ -157,9 +154,8 @@ def _compare_joint(
         regions=velocity_regions(prediction.qd[rows, index], counted),
         worst=worst_window(prediction, e),
         structure=found,
-        follows=followed,
         spectrum=spectrum(prediction.time, prediction.segment, e),
-        shares=shares(prediction, index, e, repeated, found, followed),
+        shares=shares(prediction, index, e, repeated, found),
         scale=scale(measured, prediction.predicted[rows, index]),
         orders=ripple(prediction, index),
     )
@@ -189,8 +185,8 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
             "together": found.together,
             "across": dict(found.across),
             "motors": dict(found.motors),
+            "follows": dataclasses.asdict(found.follows),
         },
-        "follows": None if item.follows is None else dataclasses.asdict(item.follows),
         "spectrum": None
         if colour is None
         else {

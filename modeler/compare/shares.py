@@ -5,10 +5,10 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.compare.follows import Follows
 from modeler.compare.prediction import Prediction, full_rate
-from modeler.compare.repetition import Repetition, met
+from modeler.compare.repetition import Repetition
 from modeler.compare.structure import Structure
+from modeler.residuals.memory import at
 
 Method = Literal["laps", "logs", "smooth"]
 
@@ -43,7 +43,6 @@ def shares(
     e: np.ndarray,
     repeated: tuple[Repetition, ...],
     found: Structure | None,
-    followed: Follows | None,
 ) -> Shares | None:
     """Shares of one joint; None for a constant torque, or too few samples to tell.
 
@@ -58,7 +57,6 @@ def shares(
         e: (n,) its residual, NaN where a row does not count.
         repeated: laps, logs of one motion.
         found: structure of the residual.
-        followed: what it follows.
     """
     rows = np.flatnonzero(prediction.used[:, joint])
     y = prediction.measured[rows, joint]
@@ -75,7 +73,7 @@ def shares(
     if found is None or energy == 0.0:
         return None if energy else Shares(1.0, 0.0, 0.0, "smooth", None)
     offset = rows.size * float(e[rows].mean()) ** 2 / energy
-    smooth = max(found.together, followed.share if followed is not None else 0.0)
+    smooth = max(found.together, found.follows.share)
     again = offset + (1.0 - offset) * smooth
     return Shares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
 
@@ -93,7 +91,9 @@ def _returning(
     repeated = np.zeros(e.size, dtype=bool)
     for partner in repetition.partners:
         rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
-        other = met(full, joint, partner, prediction.time[rows])
+        there = full.run == partner.other
+        then = prediction.time[rows] + partner.shift
+        other = at(full.time[there], full.filtered[there, joint], then)
         there = np.isfinite(other)
         if not there.any():
             continue
@@ -101,10 +101,11 @@ def _returning(
         if _copies(own, other[there]):
             continue
         product = own * other[there]
+        parts = np.add.reduceat(product, np.arange(0, own.size, _NEIGHBOURS))
         products += float(product.sum())
         squares += float(own @ own)
         # every pair of moments stands here twice, once from either side
-        scatter += 2.0 * float(np.sum(np.add.reduceat(product, _starts(own.size)) ** 2))
+        scatter += 2.0 * float(parts @ parts)
         repeated[rows[there]] = True
     if repeated.sum() < max(_FEWEST, _ENOUGH * np.isfinite(e).sum()):
         return None
@@ -116,7 +117,3 @@ def _returning(
 def _copies(first: np.ndarray, second: np.ndarray) -> bool:
     """True if these are the same measurements given twice: their noise is alike, too."""
     return bool(np.median(np.abs(first - second) > 1e-3 * np.abs(first)) < 0.5)
-
-
-def _starts(size: int) -> np.ndarray:
-    return np.arange(0, size, _NEIGHBOURS)

@@ -229,27 +229,17 @@ def _ripple(item: JointComparison) -> str | None:
 
 
 def _follows(item: JointComparison) -> str | None:
-    """What functions of all that was measured predict, where it is more than simpler ones do."""
-    found, structure = item.follows, item.structure
-    if found is None or structure is None or found.share < NOTICEABLE:
+    """What all that was measured predicts, where it is clearly more than single coordinates do."""
+    found = item.structure
+    if found is None or found.follows.share < NOTICEABLE:
         return None
-    told = max(structure.together, *(share for _, share in structure.shares), _by_other(item))
-    if told > NOTICEABLE and found.share < told + _MORE:
+    single = (*found.shares, *found.across, *found.motors)
+    told = max(found.together, *(share for _, share in single))
+    if told > NOTICEABLE and found.follows.share < told + _MORE:
         return None
-    text = f"{percent(found.share)} of that "
-    if found.joint is None:
-        return f"{text}follows the motion of the joints together"
-    if found.joint == item.joint.name:
-        return f"{text}is a repeatable function of the joint's own motion"
-    if found.coordinate:
-        return f"{text}is a repeatable function of the {found.coordinate} of joint {found.joint}"
-    return f"{text}is a repeatable function of the motion of joint {found.joint}"
-
-
-def _by_other(item: JointComparison) -> float:
-    """Share by the velocity of another joint or motor, where that is told."""
-    found = best_other(item)
-    return found[1] if found is not None else 0.0
+    name, coordinate = found.follows.joint, found.follows.coordinate or "motion"
+    whose = f"joint {name}" if name else "the joints together"
+    return f"{percent(found.follows.share)} of that follows the {coordinate} of {whose}"
 
 
 def _returns(item: JointComparison) -> str | None:

@@ -8,7 +8,7 @@ from modeler.diagnose.state import State
 from modeler.observation.bristle import bristle
 from modeler.residuals.features import SLIPS, Measured, functions
 from modeler.residuals.flexible import Flexible, flexible
-from modeler.residuals.memory import lasting, outbursts, repeating
+from modeler.residuals.memory import forgotten, outbursts, returning
 
 _LIGHT = 0.1  # damping ratio of what rings
 _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
@@ -20,8 +20,10 @@ def systematic_share(state: State, j: int) -> float:
     rows, residual = state.rows, state.residual[j]
     log = rows.time[j], residual, rows.run[j]
     cutoff = state.data.observation.report.processing.parallel_cutoff or 0.0
-    again = repeating(*log, state.data.blocks.period)
-    return max(rival(state, j).share, again or 0.0, lasting(*log, cutoff), knocking(state, j))
+    periods = state.data.blocks.period
+    steps = (periods, [forgotten(cutoff)] * len(periods))
+    again = [returning(*log, later) or 0.0 for later in steps]
+    return max(rival(state, j).share, knocking(state, j), *again)
 
 
 def knocking(state: State, j: int) -> float:

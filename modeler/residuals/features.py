@@ -4,14 +4,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.residuals.smooth import smooth_function
+from modeler.residuals.smooth import curve
+
+SLIPS = (0.001, 0.01, 0.1)
+"""Ways in which the friction of a joint turns round, of its range of motion."""
+
+OWN = ("own", "surface")
+"""Sets of functions of the motion of the joint itself."""
 
 _KNOTS = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
 _OTHER = {"q": 14, "v": 12, "a": 6}
 _SUM = 7  # knots
 _OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
-SLIPS = (0.001, 0.01, 0.1)
-"""Ways in which the friction of a joint turns round, of its range of motion."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +64,7 @@ def functions(measured: Measured) -> dict[str, np.ndarray]:
         if k != j:
             sets[str(k)] = _other(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
-    sets["sum"] = _sum(m)
+    sets["sum"] = np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
     sets["wide"] = np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
     sets["pairs"] = _fourier(near, _PAIRS, generator, few=2)
     return sets | m.further
@@ -69,24 +73,17 @@ def functions(measured: Measured) -> dict[str, np.ndarray]:
 def _own(m: Measured, way: np.ndarray) -> np.ndarray:
     parts = [m.slips, way]
     for name, knots in _KNOTS.items():
-        curve = smooth_function(getattr(m, name)[:, m.joint], knots).columns
-        parts += [curve] if name == "v" else [curve, curve * way]
+        hats = curve(getattr(m, name)[:, m.joint], knots)
+        parts += [hats] if name == "v" else [hats, hats * way]
     return np.hstack(parts)
 
 
 def _other(m: Measured, k: int, way: np.ndarray, generator: np.random.Generator) -> np.ndarray:
-    curves = [
-        smooth_function(getattr(m, name)[:, k], knots).columns for name, knots in _OTHER.items()
-    ]
+    curves = [curve(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])
     return np.hstack([*curves, curves[0][:, ::2] * way, plain, np.abs(plain) * way,
                       np.sign(m.v[:, [k]]), _fourier(both, _PAIR, generator)])  # fmt: skip
-
-
-def _sum(m: Measured) -> np.ndarray:
-    """One curve of every position and speed."""
-    return np.hstack([smooth_function(x, _SUM).columns for x in (*m.q.T, *m.v.T)])
 
 
 def _fourier(x: np.ndarray, count: int, generator: np.random.Generator, few: int = 0) -> np.ndarray:

@@ -15,48 +15,41 @@ EVEN = 0.3
 encoder noise, at rest and at top speed, joints without any hidden effect have 0.4 to 1."""
 
 _FEW = 100  # rows below which nothing is said
-_FEW_OF_LAPS = 20  # rows of a log
+_FEW_OF_LOG = 20
 
 
-def lasting(time: np.ndarray, r: np.ndarray, run: np.ndarray, cutoff: float) -> float:
-    """Share of a residual's variance that is still there after `LATER`: its autocorrelation.
+def forgotten(cutoff: float) -> float:
+    """s after which noise behind a parallel filter of a cut-off (Hz, 0: none) is forgotten.
 
     Torque noise and quantisation are forgotten within a tenth of a second; a brake that drags, a
     cable that pulls, a temperature are not. Rows of a narrow band remember longer by themselves.
+    """
+    return max(LATER, FORGOTTEN / cutoff) if cutoff else LATER
+
+
+def returning(
+    time: np.ndarray, r: np.ndarray, run: np.ndarray, later: Sequence[float]
+) -> float | None:
+    """Share of a residual's variance that is there some time later: it lasts, or comes back.
 
     Args:
         time: (n,) s, increasing within each log.
         r: (n,) residual.
         run: (n,) number of the log.
-        cutoff: of the parallel filter, Hz; 0 for none.
+        later: s by log: a lap, or what noise is forgotten in; 0 leaves a log out. None are left:
+            None.
     """
-    later = max(LATER, FORGOTTEN / cutoff) if cutoff else LATER
-    return _alike([(time[run == k], r[run == k], later) for k in np.unique(run)])
-
-
-def repeating(
-    time: np.ndarray, r: np.ndarray, run: np.ndarray, periods: Sequence[float]
-) -> float | None:
-    """Share of a residual's variance that returns in the next lap; None without laps.
-
-    Args:
-        time, r, run: as for `lasting`.
-        periods: s by log; 0 where the motion does not repeat.
-    """
-    logs = [(time[run == k], r[run == k], period) for k, period in enumerate(periods) if period]
-    laps = [log for log in logs if len(log[0]) >= _FEW_OF_LAPS]
-    return _alike(laps) if laps else None
-
-
-def _alike(logs: Sequence[tuple[np.ndarray, np.ndarray, float]]) -> float:
-    """Products of residuals with those some time later over the mean of their squares, 0 to 1."""
     product = square = 0.0
-    for time, r, later in logs:
-        second = at(time, r, time + later)
+    logs = [(run == k, step) for k, step in enumerate(later) if step]
+    logs = [(own, step) for own, step in logs if own.sum() >= _FEW_OF_LOG]
+    for own, step in logs:
+        second = at(time[own], r[own], time[own] + step)
         both = np.isfinite(second)
-        first, second = r[both], second[both]
+        first, second = r[own][both], second[both]
         product += float(first @ second)
         square += 0.5 * float(first @ first + second @ second)
+    if not logs:
+        return None
     return max(0.0, product / square) if square > 0.0 else 0.0
 
 

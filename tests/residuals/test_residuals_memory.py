@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.residuals.memory import lasting, outbursts, repeating
+from modeler.residuals.memory import forgotten, outbursts, returning
 
 STEP = 0.0125
 TIME = np.arange(3200) * STEP  # 40 s in two logs
@@ -14,7 +14,9 @@ BLOCK = (TIME / 0.5).astype(int)
 
 
 def lasts(residual: np.ndarray) -> float:
-    return lasting(TIME, residual, RUN, 30.0)
+    found = returning(TIME, residual, RUN, [forgotten(30.0)] * 2)
+    assert found is not None
+    return found
 
 
 def noise(seed: int = 3) -> np.ndarray:
@@ -52,15 +54,15 @@ def test_what_returns_is_a_share_of_the_variance() -> None:
     """A residual that grows, and rows far apart: between 0 and 1, and not blind."""
     assert lasts(np.exp(0.1 * TIME)) == pytest.approx(1.0, abs=0.05)
     far = TIME[::20]
-    assert lasting(far, np.ones(far.size), RUN[::20], 30.0) == pytest.approx(1.0)
+    assert returning(far, np.ones(far.size), RUN[::20], [0.2, 0.2]) == pytest.approx(1.0)
 
 
 def test_what_returns_in_the_next_lap() -> None:
     """Laps of 4 s in the first log only: half of its variance is the same in each."""
     residual = noise() + np.sqrt(2.0) * np.sin(2.0 * np.pi * 2.0 * TIME)
-    assert repeating(TIME, residual, RUN, (4.0, 0.0)) == pytest.approx(0.5, abs=0.05)
-    assert repeating(TIME, noise(), RUN, (4.0, 0.0)) == pytest.approx(0.0, abs=0.05)
-    assert repeating(TIME, residual, RUN, (0.0, 0.0)) is None
+    assert returning(TIME, residual, RUN, (4.0, 0.0)) == pytest.approx(0.5, abs=0.05)
+    assert returning(TIME, noise(), RUN, (4.0, 0.0)) == pytest.approx(0.0, abs=0.05)
+    assert returning(TIME, residual, RUN, (0.0, 0.0)) is None
 
 
 def test_too_few_rows_say_nothing() -> None:
