@@ -7,7 +7,7 @@ from modeler.diagnose.signals import resonance
 from modeler.diagnose.state import State
 from modeler.observation.bristle import bristle
 from modeler.residuals.features import SLIPS, Measured, functions
-from modeler.residuals.flexible import Flexible, flexible
+from modeler.residuals.flexible import LEAST, Flexible, flexible
 from modeler.residuals.memory import forgotten, outbursts, returning
 
 _LIGHT = 0.1  # damping ratio of what rings
@@ -34,7 +34,8 @@ def knocking(state: State, j: int) -> float:
 def rival(state: State, j: int) -> Flexible:
     """What a flexible smooth function of all that was measured says of joint j's residual."""
     fold = state.data.blocks.fold[state.base.block[j]]
-    return flexible(functions(_measured(state, j)), state.residual[j], fold)
+    sets = functions(_measured(state, j)) if fold.size >= LEAST else {}
+    return flexible(sets, state.residual[j], fold)
 
 
 def _measured(state: State, j: int) -> Measured:
