@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
-SOUTH = ("compiled", "observation", "fit", "compare", "hypotheses", "diagnose", "pages")
+SOUTH = (
+    "compiled", "observation", "fit", "residuals", "compare", "hypotheses", "diagnose", "pages",
+)  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
 # and of the north the catalogue of effects, which imports nothing but the core: columns of an
@@ -41,6 +43,7 @@ PACKAGES: dict[str, set[str]] = {
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},
     "fit": {"numpy", "scipy", "clarabel"},
+    "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "hypotheses": {"numpy", "scipy"},
     "diagnose": {"numpy", "scipy", "threadpoolctl"},

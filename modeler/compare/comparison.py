@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from modeler.compare.by_log import LogError, errors_by_log
-from modeler.compare.orders import OrderSpectrum
 from modeler.compare.prediction import (
     JointInfo,
     Prediction,
@@ -21,10 +20,11 @@ from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
 from modeler.compare.scale import Scale, scale
 from modeler.compare.shares import Shares, shares
-from modeler.compare.spectrum import Spectrum, spectrum
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
+from modeler.residuals.orders import OrderSpectrum
+from modeler.residuals.spectrum import Spectrum, spectrum
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,7 @@ def _compare_joint(
         regions=velocity_regions(prediction.qd[rows, index], counted),
         worst=worst_window(prediction, e),
         structure=found,
-        spectrum=spectrum(prediction, e),
+        spectrum=spectrum(prediction.time, prediction.segment, e),
         shares=shares(prediction, index, e, repeated, found),
         scale=scale(measured, prediction.predicted[rows, index]),
         orders=ripple(prediction, index),
@@ -185,6 +185,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
             "together": found.together,
             "across": dict(found.across),
             "motors": dict(found.motors),
+            "follows": dataclasses.asdict(found.follows),
         },
         "spectrum": None
         if colour is None

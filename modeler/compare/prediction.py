@@ -87,16 +87,6 @@ def relative_error(prediction: Prediction) -> float:
     return error / size if size else math.nan
 
 
-def spans(segment: np.ndarray) -> list[slice]:
-    """The stretches of equal segment number, in row order."""
-    if segment.size == 0:
-        return []
-    edges = np.flatnonzero(np.diff(segment)) + 1
-    starts = [0, *edges.tolist()]
-    stops = [*edges.tolist(), int(segment.size)]
-    return [slice(a, b) for a, b in zip(starts, stops, strict=True)]
-
-
 def check_prediction(prediction: Prediction) -> None:
     """Refuse a prediction that cannot be judged.
 

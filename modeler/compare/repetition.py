@@ -5,8 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.compare.laps import ALIKE, lap
-from modeler.compare.prediction import FullRate, Prediction, full_rate
+from modeler.compare.prediction import Prediction, full_rate
+from modeler.residuals.laps import ALIKE, lap
 
 _MOVES = 0.01  # of the largest stroke: joints that move less are held, and wobble as they like
 _SAME = 0.05  # of the largest stroke: logs whose strokes differ by more are of other motion
@@ -161,16 +161,3 @@ def _apart(first: _Motion, other: _Motion, shift: float, overlap: float) -> floa
 
 def _at(own: _Motion, times: np.ndarray) -> np.ndarray:
     return np.column_stack([np.interp(times, own.time, column) for column in own.q.T])
-
-
-def met(full: FullRate, joint: int, partner: Partner, times: np.ndarray) -> np.ndarray:
-    """(n,) filtered residual that the partner has at these times of its log; NaN for none."""
-    rows = full.run == partner.other
-    time, values = full.time[rows], full.filtered[rows, joint]
-    if time.size < 3:
-        return np.full(times.size, np.nan)
-    later = times + partner.shift
-    place = np.clip(np.searchsorted(time, later), 1, time.size - 1)
-    near = time[place] - time[place - 1] < 1.5 * float(np.median(np.diff(time)))
-    inside = (later >= time[0]) & (later <= time[-1]) & near
-    return np.where(inside, np.interp(later, time, values), np.nan)

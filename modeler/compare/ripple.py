@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.compare.orders import OrderSpectrum, order_spectrum
 from modeler.compare.prediction import Prediction, full_rate
+from modeler.residuals.orders import OrderSpectrum, order_spectrum
 
 
 @dataclass(frozen=True)

@@ -5,19 +5,16 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.compare.predictable import LEAST, Moved, predictable
 from modeler.compare.prediction import Prediction, full_rate
-from modeler.compare.repetition import Repetition, met
+from modeler.compare.repetition import Repetition
 from modeler.compare.structure import Structure
+from modeler.residuals.memory import at
 
 Method = Literal["laps", "logs", "smooth"]
 
 _ENOUGH = 0.5  # of the rows must have been repeated
 _FEWEST = 50  # rows
 _NEIGHBOURS = 6  # rows
-_MOST = 3000  # rows of the smooth functions, beyond which every second, third, ... is taken
-_FOLDS = 8
-_SLIPS = (0.001, 0.01, 0.1)  # of the range of motion
 
 
 @dataclass(frozen=True)
@@ -75,7 +72,9 @@ def shares(
             return Shares(1.0 - left, again * left, (1.0 - again) * left, kind, error * left)
     if found is None or energy == 0.0:
         return None if energy else Shares(1.0, 0.0, 0.0, "smooth", None)
-    again = _smooth(prediction, joint, e, rows, found)
+    offset = rows.size * float(e[rows].mean()) ** 2 / energy
+    smooth = max(found.together, found.follows.share)
+    again = offset + (1.0 - offset) * smooth
     return Shares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
 
 
@@ -92,7 +91,9 @@ def _returning(
     repeated = np.zeros(e.size, dtype=bool)
     for partner in repetition.partners:
         rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
-        other = met(full, joint, partner, prediction.time[rows])
+        there = full.run == partner.other
+        then = prediction.time[rows] + partner.shift
+        other = at(full.time[there], full.filtered[there, joint], then)
         there = np.isfinite(other)
         if not there.any():
             continue
@@ -100,10 +101,11 @@ def _returning(
         if _copies(own, other[there]):
             continue
         product = own * other[there]
+        parts = np.add.reduceat(product, np.arange(0, own.size, _NEIGHBOURS))
         products += float(product.sum())
         squares += float(own @ own)
         # every pair of moments stands here twice, once from either side
-        scatter += 2.0 * float(np.sum(np.add.reduceat(product, _starts(own.size)) ** 2))
+        scatter += 2.0 * float(parts @ parts)
         repeated[rows[there]] = True
     if repeated.sum() < max(_FEWEST, _ENOUGH * np.isfinite(e).sum()):
         return None
@@ -115,45 +117,3 @@ def _returning(
 def _copies(first: np.ndarray, second: np.ndarray) -> bool:
     """True if these are the same measurements given twice: their noise is alike, too."""
     return bool(np.median(np.abs(first - second) > 1e-3 * np.abs(first)) < 0.5)
-
-
-def _starts(size: int) -> np.ndarray:
-    return np.arange(0, size, _NEIGHBOURS)
-
-
-def _smooth(
-    prediction: Prediction, joint: int, e: np.ndarray, rows: np.ndarray, found: Structure
-) -> float:
-    """Share of the squared residual that is its mean, or predicted by the motion."""
-    own = e[rows]
-    energy, mean, share = float(own @ own), float(own.mean()), found.together
-    looked = rows[:: -(-rows.size // _MOST)]
-    size = float(e[looked].std())
-    moved = _moved(prediction, joint, looked)
-    if moved is not None and size > 0.0:
-        fold = _folds(prediction.run[looked])
-        share = max(share, predictable(moved, (e[looked] - mean) / size, fold))
-    offset = own.size * mean**2 / energy
-    return offset + (1.0 - offset) * share
-
-
-def _folds(run: np.ndarray) -> np.ndarray:
-    """(n,) each log in eight stretches."""
-    fold = np.zeros(run.size, dtype=int)
-    for log in np.unique(run):
-        own = np.flatnonzero(run == log)
-        fold[own] = (np.arange(own.size) * _FOLDS // own.size + log) % _FOLDS
-    return fold
-
-
-def _moved(prediction: Prediction, joint: int, rows: np.ndarray) -> Moved | None:
-    """Motion on the rows of one joint; None if they are few, or another joint has none there."""
-    q, v, a = (x[rows] for x in (prediction.q, prediction.qd, prediction.qdd))
-    if rows.size < LEAST or not all(np.isfinite(x).all() for x in (q, v, a)):
-        return None
-    slips = []
-    if prediction.travel is not None:
-        travel, way = prediction.travel[rows, joint], np.sign(v[:, joint])
-        stroke = max(float(np.ptp(q[:, joint])), 1e-12)
-        slips = [way * (1.0 - 2.0 * np.exp(-travel / (d * stroke))) for d in _SLIPS]
-    return Moved(joint, q, v, a, prediction.predicted[rows, joint], slips)

@@ -1,28 +1,41 @@
 """Does a residual still have structure: is it a repeatable function of something?"""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.compare.coordinates import DRIFTS, coordinate_values, coordinates_of
 from modeler.compare.prediction import Prediction
-from modeler.compare.smooth import (
-    Smooth,
-    direction_function,
-    drift_function,
-    explained_share,
-    smooth_function,
-    stack,
-)
+from modeler.residuals.features import OWN, SLIPS, Measured, functions
+from modeler.residuals.flexible import Flexible, flexible, stretches
+from modeler.residuals.smooth import curve, drift_curve, friction_curve
 
 ENOUGH = 200  # samples below which nothing is said about structure
 
-_MOST = 50_000  # samples beyond which every second, third, ... is looked at
+NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
 
-# Motion: few long blocks, so that slow noise is not mistaken for a function of position.
-_MOTION = (10, 10)  # blocks, folds
+_MOST = 3000  # samples beyond which every second, third, ... is looked at
+
 # Drift: many short blocks, because a slow function of time can only be judged between its knots.
-_DRIFT = (40, 5)
+_DRIFT = (40, 5)  # blocks, folds
+
+_ELSEWHERE = ("position", "velocity", "acceleration")  # of other joints
+
+
+@dataclass(frozen=True)
+class Follows:
+    """What all that was measured predicts.
+
+    Attributes:
+        share: of the residual's variance; 0 if it is within two standard errors of 0.
+        joint: whose motion alone predicts nearly as much; None: no single joint's.
+        coordinate: id of the one of another joint that does; "": none alone.
+    """
+
+    share: float
+    joint: str | None = None
+    coordinate: str = ""
 
 
 @dataclass(frozen=True)
@@ -33,8 +46,9 @@ class Structure:
     """
 
     shares: tuple[tuple[str, float], ...]  # coordinate id -> share, in the order of COORDINATES
-    together: float  # a sum of one function of each motion coordinate, or the best one alone
+    together: float  # by the joint's own motion: its coordinates together, or the best one alone
     across: tuple[tuple[str, float], ...]  # joint name -> share, by a function of its velocity
+    follows: Follows
     motors: tuple[tuple[str, float], ...] = ()  # coupled motor, "5+6" -> share, of its velocity
 
     def share(self, coordinate: str) -> float:
@@ -49,67 +63,81 @@ def structure(prediction: Prediction, joint: int) -> Structure | None:
         return None
     rows = rows[:: -(-rows.size // _MOST)]
     e = prediction.measured[rows, joint] - prediction.predicted[rows, joint]
-    families = {
-        coordinate.id: _family(prediction, joint, coordinate.id, rows)
-        for coordinate in coordinates_of(prediction, joint)
-    }
-    shares = tuple(
-        (name, _share(name, family, e, prediction.qd[rows, joint]))
-        for name, family in families.items()
-    )
-    motion = stack([family for name, family in families.items() if name not in DRIFTS])
-    # many columns cost something on unseen motion: a sum may do worse than its best part
-    alone = max(share for name, share in shares if name not in DRIFTS)
-    speeds = prediction.qd[rows]
+    names = [coordinate.id for coordinate in coordinates_of(prediction, joint)]
+    m = _measured(prediction, joint, rows)
+    sets = {name: _curve(prediction, joint, name, rows) for name in names if name not in DRIFTS}
+    by = {joint: (*sets, *OWN)}
+    for k in range(m.q.shape[1]):
+        if k != joint:
+            curves = curve(m.q[:, k]), friction_curve(m.v[:, k]), curve(m.a[:, k])
+            sets |= {f"{name} {k}": x for name, x in zip(_ELSEWHERE, curves, strict=True)}
+            by[k] = (str(k), *(f"{name} {k}" for name in _ELSEWHERE))
+    for motor in prediction.motors:
+        sets[motor.name] = friction_curve(m.v @ np.asarray(motor.coefficients))
+    said = flexible(sets | functions(m), e, stretches(prediction.run[rows]))
+    alone = {name: said.alone.get(name, 0.0) for name in sets} | said.alone
+    drifts = {name: _drift(prediction, joint, name, rows, e) for name in names if name in DRIFTS}
+    joints = tuple(enumerate(info.name for info in prediction.joints))
+    best = {k: max(alone.get(name, 0.0) for name in by[k]) for k, _ in joints}
     return Structure(
-        shares=shares,
-        together=max(alone, explained_share(motion, e, *_MOTION)),
-        across=tuple(
-            (info.name, _across(speeds[:, other], e))
-            for other, info in enumerate(prediction.joints)
-        ),
-        motors=tuple(
-            (motor.name, _across(speeds @ np.asarray(motor.coefficients), e))
-            for motor in prediction.motors
-        ),
+        shares=tuple((name, (alone | drifts)[name]) for name in names),
+        together=best[joint],
+        across=tuple((name, alone[by[k][2] if k != joint else "velocity"]) for k, name in joints),
+        follows=_follows(said, best, by, prediction, joint),
+        motors=tuple((motor.name, alone[motor.name]) for motor in prediction.motors),
     )
 
 
-def _share(name: str, family: Smooth, e: np.ndarray, qd: np.ndarray) -> float:
-    """Of the variance of e; of a temperature, what it adds to the direction of motion alone."""
-    if name not in DRIFTS:
-        return explained_share(family, e, *_MOTION)
-    share = explained_share(family, e, *_DRIFT)
-    if name == "temperature":
-        share -= explained_share(direction_function(np.sign(qd)), e, *_DRIFT)
-    return max(0.0, share)
+def _follows(
+    said: Flexible, best: Mapping[int, float], by: Mapping[int, Sequence[str]],
+    prediction: Prediction, joint: int,
+) -> Follows:  # fmt: skip
+    """The joint, and its coordinate, that does as well as everything."""
+    enough = NEARLY * said.share
+    if not said.sure:
+        return Follows(0.0)
+    place = max(best, key=lambda k: best[k])
+    if best[place] < enough:
+        return Follows(said.share)
+    single = () if place == joint else zip(_ELSEWHERE, by[place][1:], strict=True)
+    coordinates = [name for name, of in single if said.alone.get(of, 0.0) >= enough]
+    return Follows(said.share, prediction.joints[place].name, next(iter(coordinates), ""))
 
 
-def _across(qd: np.ndarray, e: np.ndarray) -> float:
-    if not np.isfinite(qd).all():  # rows that do not count for the other joint may hold anything
-        return 0.0
-    return explained_share(_of_velocity(qd), e, *_MOTION)
+def _measured(prediction: Prediction, joint: int, rows: np.ndarray) -> Measured:
+    """What was measured on some rows; 0 throughout for joints that may hold anything there."""
+    every = [
+        np.where(np.isfinite(x[rows]).all(axis=0), x[rows], 0.0)
+        for x in (prediction.q, prediction.qd, prediction.qdd, prediction.predicted)
+    ]
+    q, v, a, torque = every
+    way, slips = np.sign(v[:, joint]), np.zeros((rows.size, 0))
+    if prediction.travel is not None:
+        stroke = max(float(np.ptp(q[:, joint])), 1e-12)
+        turned = [np.exp(-prediction.travel[rows, joint] / (d * stroke)) for d in SLIPS]
+        slips = way[:, None] * (1.0 - 2.0 * np.column_stack(turned))
+    return Measured(joint, q, v, a, torque, torque, way, slips, {})
 
 
-def _of_velocity(qd: np.ndarray) -> Smooth:
-    """Smooth on either side of zero, with a step there: what friction looks like."""
-    return stack([smooth_function(qd), direction_function(np.sign(qd))])
+def _drift(prediction: Prediction, joint: int, name: str, rows: np.ndarray, e: np.ndarray) -> float:
+    """Share by slow functions; of a temperature, what it adds to the direction of motion alone.
+
+    Friction changes with temperature, gravity does not: another function for either direction.
+    """
+    blocks, folds = _DRIFT
+    fold = (np.arange(e.size) * blocks // e.size) % folds
+    values = coordinate_values(prediction, joint, name)[rows]
+    if name == "time":
+        columns = drift_curve(values, prediction.run[rows])
+        return flexible({name: columns}, e, fold).share
+    way = np.sign(prediction.qd[rows, joint])[:, None]
+    slow = curve(values, 5)
+    said = flexible({name: np.hstack((slow, slow * way)), "direction": way}, e, fold).alone
+    return max(0.0, said.get(name, 0.0) - said.get("direction", 0.0))
 
 
-def _of_temperature(temperature: np.ndarray, way: np.ndarray) -> Smooth:
-    """Slow, and another function for either direction: friction changes, and gravity does not."""
-    slow = smooth_function(temperature, knots=5)
-    return stack([slow, Smooth(slow.columns * way[:, None], slow.penalty)])
-
-
-def _family(prediction: Prediction, joint: int, coordinate: str, rows: np.ndarray) -> Smooth:
+def _curve(prediction: Prediction, joint: int, coordinate: str, rows: np.ndarray) -> np.ndarray:
     values = coordinate_values(prediction, joint, coordinate)[rows]
     if coordinate == "direction":
-        return direction_function(values)
-    if coordinate in ("velocity", "travel"):
-        return _of_velocity(values)
-    if coordinate == "temperature":
-        return _of_temperature(values, np.sign(prediction.qd[rows, joint]))
-    if coordinate == "time":
-        return drift_function(values, prediction.run[rows])
-    return smooth_function(values)
+        return values[:, None]
+    return friction_curve(values) if coordinate in ("velocity", "travel") else curve(values)

@@ -3,11 +3,12 @@
 from modeler.compare.comparison import Comparison, JointComparison
 from modeler.compare.coordinates import COORDINATES, Coordinate
 from modeler.compare.ripple import lines, waves
+from modeler.compare.structure import NEARLY
 from modeler.compare.where import Region
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
 _STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
-_NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
+_MORE = 0.1  # share beyond what simpler functions explain from which on it is told
 _MEMORY = 3.5  # samples; filtering and decimation alone leave two or three
 _TOO_LARGE = 0.2  # relative error of which noise is no excuse
 _BURST = 0.5  # share of the squared residual in one short window: an event, not noise
@@ -51,7 +52,13 @@ def findings(item: JointComparison) -> list[str]:
     wrong = wrong_scale(item)
     if wrong:  # everything else would follow from it
         return [wrong, _worst(item)]
-    told = (_pattern(item), _other_joint(item), _ripple(item), _bias(item), _returns(item))
+    told = (
+        _pattern(item),
+        _follows(item) or _other_joint(item),
+        _ripple(item),
+        _bias(item),
+        _returns(item),
+    )
     found = [text for text in told if text]
     line = _oscillation(item)
     if line and not found:  # a pattern that follows the motion has the frequencies of the motion
@@ -98,7 +105,7 @@ def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
         return None
     for coordinate in COORDINATES:
         share = item.structure.share(coordinate.id)
-        if share >= _NEARLY * top:
+        if share >= NEARLY * top:
             return coordinate, share
     raise AssertionError("the best share is at least 0.9 of itself")
 
@@ -126,7 +133,7 @@ def _motor(name: str) -> str:
 
 def kind_of_residual(item: JointComparison) -> str:
     """`pattern`, `noise` or `other`: what a reader should see first."""
-    if wrong_scale(item) or _ripple(item) or _returns(item):
+    if wrong_scale(item) or _ripple(item) or _returns(item) or _follows(item):
         return "pattern"
     if best_pattern(item) is not None or best_other(item) is not None:
         return "pattern"
@@ -142,6 +149,7 @@ def looks_like_noise(item: JointComparison) -> bool:
         and best_other(item) is None
         and _ripple(item) is None
         and _returns(item) is None
+        and _follows(item) is None
         and _bias(item) is None
         and not _remembers(item)
         and _oscillation(item) is None
@@ -220,16 +228,33 @@ def _ripple(item: JointComparison) -> str | None:
     )
 
 
+def _follows(item: JointComparison) -> str | None:
+    """What all that was measured predicts, where it is clearly more than single coordinates do."""
+    found = item.structure
+    if found is None or found.follows.share < NOTICEABLE:
+        return None
+    single = (*found.shares, *found.across, *found.motors)
+    told = max(found.together, *(share for _, share in single))
+    if told > NOTICEABLE and found.follows.share < told + _MORE:
+        return None
+    name, coordinate = found.follows.joint, found.follows.coordinate or "motion"
+    whose = f"joint {name}" if name else "the joints together"
+    return f"{percent(found.follows.share)} of that follows the {coordinate} of {whose}"
+
+
 def _returns(item: JointComparison) -> str | None:
     """The repeatable share, where it is more than the coordinates and the mean account for."""
     share, found = returns(item), item.structure
     told = item.bias**2 / item.rms**2 + (found.together if found is not None else 0.0)
-    if item.shares is None or share < max(NOTICEABLE, told + 0.1 if told > NOTICEABLE else 0.0):
+    if (
+        item.shares is None
+        or item.shares.method == "smooth"
+        or share < max(NOTICEABLE, told + 0.1 if told > NOTICEABLE else 0.0)
+    ):
         return None
     return {
         "laps": f"{percent(share)} of it returns in every lap",
         "logs": f"{percent(share)} of it returns in every log of this motion",
-        "smooth": f"{percent(share)} of it follows the motion of the joints together",
     }[item.shares.method]
 
 

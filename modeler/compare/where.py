@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.compare.prediction import Prediction, spans
+from modeler.compare.prediction import Prediction
+from modeler.residuals.spectrum import spans
 
 AROUND_ZERO = 0.05  # of the joint's own largest speed
 FAST = 0.4

@@ -9,11 +9,11 @@ from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.contact import Window
 from modeler.diagnose.errors import over
 from modeler.diagnose.judge import GATE, RARE, SURE, Judged
-from modeler.diagnose.noise import knocking
 from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Finding, finite
 from modeler.diagnose.search import Search
 from modeler.diagnose.state import State
+from modeler.diagnose.systematic import knocking
 from modeler.effects import Acts, Effect
 
 KNOCKS = 0.85

@@ -2,9 +2,9 @@
 
 import dataclasses
 
-from modeler.diagnose.noise import knocking
 from modeler.diagnose.result import Diagnosis, Finding, Key
 from modeler.diagnose.search import Step
+from modeler.diagnose.systematic import knocking
 from modeler.diagnose.values import told_spread
 from modeler.effects import effect_named
 

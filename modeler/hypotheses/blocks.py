@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.compare.laps import lap
 from modeler.observation import Observation
+from modeler.residuals.laps import lap
 
 BLOCK = 0.5
 """s; longer where logs are long: statistics over blocks need no more than `MOST`."""

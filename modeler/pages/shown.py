@@ -7,9 +7,9 @@ import numpy as np
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import percent
 from modeler.diagnose.state import State, columns_of, state_of
+from modeler.diagnose.systematic import rival
 from modeler.pages.axes import Axis, axis_of
 from modeler.pages.bins import Bins, bins_of, calm_rows
-from modeler.pages.rival import rival_prediction
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +86,7 @@ def shown(found: Search, step: Step) -> Shown:
     own = None if axis.shows == "itself" else _own(found, step, j)
     return Shown(
         step=step, without=without, full=full, j=j, axis=axis,
-        rival=rival_prediction(without, j), own=own, calm=calm,
+        rival=rival(without, j).prediction, own=own, calm=calm,
         bins=bins_of(axis.x, adds if own is None else own, without.base.block[j], calm),
     )  # fmt: skip
 

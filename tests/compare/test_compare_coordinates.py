@@ -8,13 +8,13 @@ import pytest
 from known_defects import NOISE, prediction
 
 from modeler.compare import JointInfo, Prediction, compare, joint_verdict, report_html
-from modeler.compare.orders import order_spectrum
 from modeler.compare.picture import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.compare.pictures import all_pictures
 from modeler.compare.prediction import FullRate, Motor
 from modeler.compare.verdict import best_pattern, kind_of_residual
 from modeler.core.errors import ShapeError
 from modeler.observation.travel import travel_since_reversal
+from modeler.residuals.orders import order_spectrum
 
 
 def test_travel_of_a_sine() -> None:

@@ -1,11 +1,14 @@
 """From logs to shares, orders and coordinates: torques that are added to a log are found again."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.compare import Comparison, compare
+from modeler.compare import Comparison, compare, joint_verdict
 from modeler.compare.predict import predict
+from modeler.compare.verdict import kind_of_residual
 from modeler.core.errors import DataError
 from modeler.diagnose import diagnose
 from modeler.observation import Log, Processing
@@ -199,3 +202,36 @@ def test_an_automatic_cutoff_suits_the_slowest_log(machine: Machine) -> None:
     chosen = observe(machine.compiled, [fast, slow]).report.processing
     assert chosen.position_cutoff == pytest.approx(10.0)
     observe(machine.compiled, [slow], chosen)
+
+
+@pytest.mark.parametrize("seed", [3, 4, 5])
+@pytest.mark.parametrize(
+    ("words", "torque"),
+    [
+        ("follows the position of joint 2", lambda q, qd: np.sin(6.0 * q + 0.4)),
+        ("follows the motion of joint 2", lambda q, qd: np.sin(3.0 * q) * qd),
+    ],
+)
+def test_what_follows_another_joint_is_no_noise(
+    machine: Machine, words: str, torque: Callable, seed: int
+) -> None:
+    motion = wandering(np.arange(0.0, 20.0, 1.0 / RATE))
+    added = np.zeros_like(motion[1])
+    added[:, 0] = 0.3 * torque(motion[1][:, 1], motion[2][:, 1])
+    compared = machine.compared(machine.log("x.csv", motion, seed, added=added))
+    first, second = compared.joints
+    text = joint_verdict(first)
+    assert words in text and "noise" not in text
+    assert kind_of_residual(first) == "pattern"
+    known = float(np.var(added[:, 0]))
+    share = known / (known + filtered_noise())
+    assert first.structure is not None
+    assert first.structure.follows.share == pytest.approx(share, abs=0.25)
+    assert "the residual looks like noise" in joint_verdict(second)
+
+
+def test_nothing_follows_without_a_cause(machine: Machine) -> None:
+    motion = wandering(np.arange(0.0, 20.0, 1.0 / RATE))
+    for seed in range(10):
+        for item in machine.compared(machine.log("x.csv", motion, seed)).joints:
+            assert "the residual looks like noise" in joint_verdict(item)

@@ -6,8 +6,9 @@ from known_defects import NOISE, PERIOD, Defect, prediction
 from scipy.signal import lfilter
 
 from modeler.compare import JointComparison, compare, headline, joint_verdict, verdict
-from modeler.compare.smooth import explained_share, smooth_function
 from modeler.compare.verdict import best_pattern, kind_of_residual, looks_like_noise, percent
+from modeler.residuals.flexible import flexible
+from modeler.residuals.smooth import curve
 
 
 def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) -> JointComparison:
@@ -178,9 +179,9 @@ def test_share_is_that_of_unseen_blocks() -> None:
     x = np.tile(np.linspace(-1.0, 1.0, 500), 8)
     everywhere = np.sin(3.0 * x)
     reversing = everywhere * np.where(np.arange(x.size) < 2000, 1.0, -1.0)
-    family = smooth_function(x)
-    assert explained_share(family, everywhere, 8, 8) > 0.98
-    assert explained_share(family, reversing, 8, 8) == 0.0
+    fold = np.arange(x.size) * 8 // x.size
+    assert flexible({"x": curve(x)}, everywhere, fold).share > 0.98
+    assert flexible({"x": curve(x)}, reversing, fold).share == 0.0
 
 
 def test_a_joint_that_never_moves() -> None:

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import signal
 
-from modeler.compare.prediction import Prediction, spans
-
 _LONGEST = 1024  # samples of one Welch window
 _LAG = 2.0  # s, longest lag of the autocorrelation
 _FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
@@ -25,7 +23,7 @@ class Spectrum:
     peak_share: float  # of the power, within two frequency steps of the peak
 
 
-def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
+def spectrum(time: np.ndarray, segment: np.ndarray, e: np.ndarray) -> Spectrum | None:
     """Spectrum of one joint's residual; None when no segment is long enough (16 samples).
 
     Rows that do not count enter as zeros and the result is scaled by the share that counts:
@@ -33,10 +31,11 @@ def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
     are left out.
 
     Args:
-        prediction: for segment and time.
+        time: (n,) s.
+        segment: (n,) number of the evenly sampled stretch of each row.
         e: residual on all rows, (n,), NaN where the row does not count.
     """
-    pieces, period = _pieces(prediction, e)
+    pieces, period = _pieces(time, segment, e)
     if not pieces:
         return None
     correlation = _autocorrelation(pieces, round(_LAG / period))
@@ -58,14 +57,24 @@ def spectrum(prediction: Prediction, e: np.ndarray) -> Spectrum | None:
     )
 
 
-def _pieces(prediction: Prediction, e: np.ndarray) -> tuple[list[np.ndarray], float]:
+def spans(segment: np.ndarray) -> list[slice]:
+    """The stretches of equal segment number, in row order."""
+    if segment.size == 0:
+        return []
+    edges = np.flatnonzero(np.diff(segment)) + 1
+    starts = [0, *edges.tolist()]
+    stops = [*edges.tolist(), int(segment.size)]
+    return [slice(a, b) for a, b in zip(starts, stops, strict=True)]
+
+
+def _pieces(time: np.ndarray, segment: np.ndarray, e: np.ndarray) -> tuple[list[np.ndarray], float]:
     """Centred residual of each usable segment (NaN where it does not count), and the period."""
     centred = e - np.nanmean(e)
     found = []
-    for span in spans(prediction.segment):
+    for span in spans(segment):
         rows = span.stop - span.start
         if rows >= 16 and np.isfinite(e[span]).sum() >= 16:
-            found.append((centred[span], float(np.median(np.diff(prediction.time[span])))))
+            found.append((centred[span], float(np.median(np.diff(time[span])))))
     if not found:
         return [], 0.0
     steps = np.repeat([step for _, step in found], [piece.size for piece, _ in found])

@@ -1,0 +1,132 @@
+"""The flexible rival: how well do smooth functions of all that was measured predict a residual?"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import combinations_with_replacement
+
+import numpy as np
+from scipy.linalg.lapack import sposv
+from scipy.optimize import nnls
+
+LEAST = 100
+"""Rows below which nothing is predicted."""
+
+SURE = 2.0
+"""Share over its standard error that is more than chance."""
+
+_RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variances
+_FOLDS = 8
+_PARTS = 40  # of the rows in order: what noise makes of one has nothing to do with the next
+
+
+@dataclass(frozen=True, eq=False)
+class Flexible:
+    """What the rival says of one joint.
+
+    Attributes:
+        prediction: (n,) of the residual, N m or N; each row by fits to other stretches of time.
+        share: of the residual's variance that it predicts, between 0 and 1.
+        sigma: standard error of the share.
+        alone: the share by each set of functions alone; without sets that are constant.
+    """
+
+    prediction: np.ndarray
+    share: float
+    sigma: float = 0.0
+    alone: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def sure(self) -> bool:
+        """True if the share is more than chance, also in noise that has a colour."""
+        return self.share > SURE * self.sigma
+
+
+def flexible(sets: Mapping[str, np.ndarray], residual: np.ndarray, fold: np.ndarray) -> Flexible:
+    """The residual as predicted by sets of functions where they were not fitted.
+
+    Each set is fitted by ridge regression; the sets and their ridges are added with weights that
+    are not negative (stacking, Wolpert 1992; Breiman 1996). Rows of one fold are predicted by what
+    the others say: fits, and weights, which come from fits without a second fold. So neither a
+    ridge nor a set is chosen by the rows that judge it, and noise, white or coloured, gives a
+    share near 0.
+
+    Args:
+        sets: by name, (n, p) values of functions.
+        residual: (n,), in order of time.
+        fold: (n,) whole numbers; a fold is made of stretches much longer than noise lasts.
+    """
+    mean = float(residual.mean()) if residual.size else 0.0
+    y = residual - mean
+    energy = float(y @ y)
+    usable = {name: _standard(values) for name, values in sets.items()}
+    usable = {name: values for name, values in usable.items() if values.shape[1]}
+    rows = [np.flatnonzero(fold == f) for f in np.unique(fold)]
+    if y.size < LEAST or len(rows) < 3 or energy == 0.0 or not usable:
+        return Flexible(np.full(y.size, mean), 0.0)
+    found = [_crossed(values, y, rows) for values in usable.values()]
+    left = [float(np.sum((y - _stacked(columns, y, rows)) ** 2)) for columns in found]
+    alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(usable, left, strict=True)}
+    predicted = _stacked(np.concatenate(found, axis=2), y, rows)
+    gain = y**2 - (y - predicted) ** 2
+    parts = np.add.reduceat(gain, np.arange(_PARTS) * y.size // _PARTS)
+    share, sigma = float(gain.sum()), float(np.sqrt(_PARTS) * parts.std(ddof=1))
+    return Flexible(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
+
+
+def stretches(run: np.ndarray) -> np.ndarray:
+    """(n,) folds for rows in order of time, their log by number: each log in eight stretches."""
+    fold = np.zeros(run.size, dtype=int)
+    for log in np.unique(run):
+        own = np.flatnonzero(run == log)
+        fold[own] = (np.arange(own.size) * _FOLDS // own.size + log) % _FOLDS
+    return fold
+
+
+def _crossed(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
+    """(folds, n, ridges): at [f], rows of fold g by fits to all but f and g; g may be f."""
+    own = [X[r] for r in rows]
+    grams = [x.T @ x for x in own]
+    sides = [x.T @ y[r].astype(np.float32) for x, r in zip(own, rows, strict=True)]
+    G, u = sum(grams), sum(sides)
+    found = np.zeros((len(rows), len(X), len(_RIDGES)))
+    for f, g in combinations_with_replacement(range(len(rows)), 2):
+        gram, side = G - grams[f] - (f != g) * grams[g], u - sides[f] - (f != g) * sides[g]
+        for k, ridge in enumerate(_RIDGES):
+            theta = _solved(gram, ridge * X.shape[1], side)
+            found[f, rows[g], k] = own[g] @ theta
+            found[g, rows[f], k] = own[f] @ theta
+    return found
+
+
+def _stacked(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
+    """(n,) sum of predictions (folds, n, c), the weights of a fold by what others say of others."""
+    predicted = np.zeros(y.size)
+    for f, own in enumerate(rows):
+        said = columns[f]
+        gram = said.T @ said - said[own].T @ said[own]
+        side = said.T @ y - said[own].T @ y[own]
+        scale = float(np.trace(gram)) / len(gram)
+        if scale > 0.0:
+            root = np.linalg.cholesky(gram + 1e-6 * scale * np.eye(len(gram)))
+            weights, _ = nnls(root.T, np.linalg.solve(root, side))
+            predicted[own] = said[own] @ weights
+    return predicted
+
+
+def _solved(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
+    """x of (gram + ridge 1) x = side, for a symmetric gram."""
+    matrix = gram.copy().T  # in the order of LAPACK, which then copies nothing
+    matrix.flat[:: len(matrix) + 1] += ridge
+    _, x, failed = sposv(matrix, side, lower=1, overwrite_a=1)
+    assert failed == 0, "a ridge keeps the matrix positive"
+    return np.asarray(x)
+
+
+def _standard(values: np.ndarray) -> np.ndarray:
+    """Mean 0 and standard deviation 1, in single precision; without what is constant."""
+    if not len(values):
+        return values[:, :0]
+    centred = values - values.mean(axis=0)
+    size = np.sqrt(np.einsum("ij,ij->j", centred, centred) / len(centred))
+    seen = size > 1e-9
+    return np.asarray(centred[:, seen] / size[seen], dtype=np.float32)

@@ -1,0 +1,69 @@
+"""What noise does not do, from residuals made by hand."""
+
+import numpy as np
+import pytest
+
+from modeler.residuals.memory import forgotten, outbursts, returning
+
+STEP = 0.0125
+TIME = np.arange(3200) * STEP  # 40 s in two logs
+
+
+RUN = (TIME >= 20.0).astype(int)
+BLOCK = (TIME / 0.5).astype(int)
+
+
+def lasts(residual: np.ndarray) -> float:
+    found = returning(TIME, residual, RUN, [forgotten(30.0)] * 2)
+    assert found is not None
+    return found
+
+
+def noise(seed: int = 3) -> np.ndarray:
+    return np.random.default_rng(seed).normal(size=len(TIME))
+
+
+def coloured(seconds: float) -> np.ndarray:
+    """Noise that is forgotten within some seconds."""
+    keep, drawn = np.exp(-STEP / seconds), noise()
+    found = np.zeros_like(drawn)
+    for k in range(1, len(drawn)):
+        found[k] = keep * found[k - 1] + drawn[k]
+    return found
+
+
+@pytest.mark.parametrize("residual", [noise(), coloured(0.03), noise() * (1.0 + np.sin(TIME))])
+def test_noise_neither_lasts_nor_knocks(residual: np.ndarray) -> None:
+    assert lasts(residual) < 0.1
+    assert outbursts(residual, BLOCK) == 0.0
+
+
+def test_a_brake_that_drags_lasts() -> None:
+    dragging = 3.0 * (np.sin(0.4 * TIME) > 0.3) * np.sign(np.sin(0.9 * TIME))
+    share = float(np.mean(dragging**2) / np.mean((noise() + dragging) ** 2))
+    assert lasts(noise() + dragging) == pytest.approx(share, abs=0.2)
+
+
+def test_a_loose_part_knocks_and_does_not_last() -> None:
+    knocks = 20.0 * noise(4) * (np.abs(np.sin(0.7 * TIME)) > 0.995)
+    assert outbursts(noise() + knocks, BLOCK) > 0.85
+    assert lasts(noise() + knocks) < 0.2
+
+
+def test_what_returns_is_a_share_of_the_variance() -> None:
+    """A residual that grows, and rows far apart: between 0 and 1, and not blind."""
+    assert lasts(np.exp(0.1 * TIME)) == pytest.approx(1.0, abs=0.05)
+    far = TIME[::20]
+    assert returning(far, np.ones(far.size), RUN[::20], [0.2, 0.2]) == pytest.approx(1.0)
+
+
+def test_what_returns_in_the_next_lap() -> None:
+    """Laps of 4 s in the first log only: half of its variance is the same in each."""
+    residual = noise() + np.sqrt(2.0) * np.sin(2.0 * np.pi * 2.0 * TIME)
+    assert returning(TIME, residual, RUN, (4.0, 0.0)) == pytest.approx(0.5, abs=0.05)
+    assert returning(TIME, noise(), RUN, (4.0, 0.0)) == pytest.approx(0.0, abs=0.05)
+    assert returning(TIME, residual, RUN, (0.0, 0.0)) is None
+
+
+def test_too_few_rows_say_nothing() -> None:
+    assert outbursts(noise()[:50], BLOCK[:50]) == 0.0
