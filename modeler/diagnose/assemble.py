@@ -29,7 +29,7 @@ from modeler.hypotheses.candidates import Candidate
 from modeler.observation.channels import Fault
 
 LOST = 1.0
-"""Held-out error of a joint from which on the model says nothing about that motion."""
+"""Held-out error from which on a model says nothing about that motion, nor what it lacks."""
 
 TOUCHED = 0.1
 """Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
@@ -126,7 +126,8 @@ def _findings(
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
         finding = _finding(found, step, touched, errors[k : k + 2], closed)
-        findings.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
+        if finding.error_after <= LOST:
+            findings.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
         tick()
     return detected(found, window, errors[-1], findings)
 

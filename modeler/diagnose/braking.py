@@ -32,7 +32,7 @@ def drives(before: State, after: State, pick: Candidate) -> bool:
     if pick.effect.family != "friction" or not pick.local:
         return False
     j = pick.index
-    if not _own(after, j):
+    if not has_friction(after, j):
         return False  # a model without friction says nothing of the whole
     left = float(np.sqrt(np.mean(after.residual[j] ** 2)))
     own = [k for k, other in enumerate(after.picks) if _brakes(other, j)]
@@ -41,6 +41,11 @@ def drives(before: State, after: State, pick: Candidate) -> bool:
         worst = max(worst, _driving(after, j, own[:-1]))
     earlier = [k for k, other in enumerate(before.picks) if _brakes(other, j)]
     return worst > max(left, _driving(before, j, earlier))
+
+
+def has_friction(state: State, j: int) -> bool:
+    """True if the model has friction of joint j alone."""
+    return bool(_own(state, j))
 
 
 def _brakes(pick: Candidate, j: int) -> bool:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from modeler.diagnose.braking import has_friction, largest_friction
 from modeler.diagnose.state import State
 
 SHORT = 5.0
@@ -11,6 +12,7 @@ _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
 _ONE_SPEED = 1.3  # ratio of the 90 % and 10 % quantiles of the speed
 _SLOW = 0.01  # of a joint's torque that inertia makes
+_SMOOTH = 0.01  # of a joint's torque that friction makes
 _TREMBLES = 4.0  # times the measured torque: no torque that was measured, but noise of the motion
 
 
@@ -34,7 +36,7 @@ def data_lines(state: State) -> tuple[str, ...]:
         lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
     for j in range(len(observation.joints)):
         lines += _motion(state, j)
-    return (*lines, *_slow(state), *_noisy(state))
+    return (*lines, *_slow(state), *_noisy(state), *_smooth(state))
 
 
 def _motion(state: State, j: int) -> list[str]:
@@ -91,6 +93,22 @@ def _slow(state: State) -> list[str]:
     return [
         f"joint{'s' if len(names) > 1 else ''} {', '.join(names)}: slow motion only, inertia makes "
         "less than 1 % of the torque: effects of speed and acceleration cannot be told; move faster"
+    ]
+
+
+def _smooth(state: State) -> list[str]:
+    """Torques of a robot none of whose joints rubs."""
+    shares = []
+    for j, joint in enumerate(state.data.observation.joints):
+        y = state.rows.y[j]
+        if joint.actuated and y.size and has_friction(state, j):
+            size = float(np.sqrt(np.mean(y**2)))
+            shares.append(largest_friction(state, j) / max(size, 1e-300))
+    if not shares or max(shares) > _SMOOTH:
+        return []
+    return [
+        f"no joint rubs: friction is at most {100.0 * max(shares):.2g} % of the torque; a robot "
+        "with gears does: were these torques computed from the motion, and not measured?"
     ]
 
 

@@ -56,10 +56,10 @@ def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
 
 
 def _lasts(state: State, candidate: Candidate) -> bool:
-    """False for what fades much faster or slower than the logs can show."""
+    """False for what fades much faster than the logs can show, or takes longer than they last."""
     times = [candidate.shapes[s.name] for s in candidate.form.shapes if s.scale == "seconds"]
     span = float(np.ptp(state.data.observation.time))
-    return all(0.1 * span <= time <= 3.0 * span for time in times)
+    return all(0.1 * span <= time <= span for time in times)
 
 
 def load_candidates(state: State) -> list[Candidate]:

@@ -19,7 +19,11 @@ _SLIP = Shape(
     "travel over which the friction turns",
 )
 _WIDE_SLIP = Shape("d", "travel", (0.08, 0.16, 0.32), (0.06, 1.0), "travel over which it turns")
-_WARM_UP = Shape("tau", "seconds", (10.0, 30.0, 100.0, 300.0, 1000.0), (8.0, 1e4), "warm-up time")
+_WARM_UP = Shape(
+    "tau", "seconds", (60.0, 150.0, 400.0, 1000.0, 3000.0), (60.0, 1e4), "warm-up time"
+)
+    "tau", "seconds", (60.0, 150.0, 400.0, 1000.0, 3000.0), (60.0, 1e4), "warm-up time"
+)
 
 FRICTION: tuple[Effect, ...] = (
     Effect(
