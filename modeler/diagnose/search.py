@@ -123,7 +123,7 @@ def search(
     """
     start = state = _started(data, beta)
     steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
-    survey = surveyed(state, without) if most else None
+    survey = surveyed(state, without, tick=tick) if most else None
     judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
         first = judgement.best
@@ -136,7 +136,7 @@ def search(
             judgement = survey.judged(refused, tick)
             continue
         best, later = accepted
-        survey = surveyed(later, without)
+        survey = surveyed(later, without, tick=tick)
         tick()
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
         after = survey.judged(refused, tick)
@@ -206,16 +206,16 @@ class Survey:
         state: it.
         found: candidates that show.
         columns: theirs.
-        order: what chooses among their shapes.
         best: every effect on every joint at the best of its shapes, none refined, best first.
+        order: what chooses among the shapes of `found`.
         refined: effects that were refined, by the shapes that this began with.
     """
 
     state: State
     found: Sequence[Candidate]
     columns: Sequence[Columns]
-    order: Sequence[Order]
     best: Sequence[Judged]
+    order: Sequence[Order] = ()
     refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
 
     def still(self, refused: Sequence[Judged]) -> list[Judged]:
@@ -238,7 +238,7 @@ class Survey:
         best = [j for j in self.best if j.candidate.key not in touched]
         best += judged_at(self.state, found, columns, again)
         best.sort(key=lambda j: -float(j.drop.sum()))
-        return Survey(self.state, found, columns, order, best, self.refined)
+        return Survey(self.state, found, columns, best, order, self.refined)
 
     def judged(
         self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
@@ -299,22 +299,26 @@ class Survey:
 
 
 def surveyed(
-    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
-) -> Survey:
+    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None,
+    tick: Callable[[], None] = lambda: None,
+) -> Survey:  # fmt: skip
     """All candidates in a state, or those of one effect, or of one joint."""
     return survey_of(
-        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
+        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)], tick
     )
 
 
-def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
+def survey_of(
+    state: State, found: Sequence[Candidate], tick: Callable[[], None] = lambda: None
+) -> Survey:
     """Some candidates in a state; those that show."""
     columns = all_columns_of(state.rows, found, state.cache)
+    tick()
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
     order = sift(state, found, columns)
     best = judged_at(state, found, columns, leading(found, order))
-    return Survey(state, found, columns, order, best)
+    return Survey(state, found, columns, best, order)
 
 
 def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
