@@ -43,10 +43,16 @@ SAME_WAVES = 0.1
 """Orders that differ by less than this share are one."""
 
 
+Tick = Callable[[], None]
+
+
+def _silent() -> None:
+    """Nobody is told."""
+
+
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
-    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (),
-    tick: Callable[[], None] = lambda: None,
+    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (), tick: Tick = _silent,
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -61,16 +67,10 @@ def assembled(
     """
     chain = _chain(found)
     seen, errors = _errors(chain, other)
-    tick()
-    shares = []
-    for j in range(len(errors[0])):
-        shares.append(systematic_share(found.end, j))
-        tick()
+    shares = _systematic(found.end, tick)
     contradicted = any(fault.certain for fault in faults)
-    every = (
-        () if contradicted else _findings(found, chain, window, errors, shares, seen, looks, tick)
-    )
-    effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
+    own = () if contradicted else _findings(found, chain, window, errors, shares, seen, looks, tick)
+    effects, refinements = (tuple(f for f in own if f.refines is r) for r in (False, True))
     joints = _joints(found, errors, shares)
     diagnosis = Diagnosis(
         robot=model.spec.robot,
@@ -90,6 +90,15 @@ def assembled(
         contradicted=contradicted, window=window, search=found,
     )  # fmt: skip
     return sentences(diagnosis)
+
+
+def _systematic(state: State, tick: Callable[[], None]) -> list[float]:
+    """Share of each joint's residual that cannot be noise."""
+    shares = []
+    for j in range(state.rows.joints):
+        tick()
+        shares.append(systematic_share(state, j))
+    return shares
 
 
 def _errors(

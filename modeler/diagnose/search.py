@@ -123,12 +123,11 @@ def search(
     """
     start = state = _started(data, beta)
     steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # refused: in this state
-    survey = surveyed(state, without, tick=tick) if most else None
+    survey = surveyed(state, without) if most else None
     judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
         first = judgement.best
         accepted = put_in(state, _named(state, first, refused, without), veto)
-        tick()
         if isinstance(accepted, Refused):
             refused.append(accepted.judged)
             if len(vetoed) + len(refused) == ASKED:
@@ -136,7 +135,7 @@ def search(
             judgement = survey.judged(refused, tick)
             continue
         best, later = accepted
-        survey = surveyed(later, without, tick=tick)
+        survey = surveyed(later, without)
         tick()
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
         after = survey.judged(refused, tick)
@@ -299,21 +298,17 @@ class Survey:
 
 
 def surveyed(
-    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None,
-    tick: Callable[[], None] = lambda: None,
-) -> Survey:  # fmt: skip
+    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
+) -> Survey:
     """All candidates in a state, or those of one effect, or of one joint."""
     return survey_of(
-        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)], tick
+        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
     )
 
 
-def survey_of(
-    state: State, found: Sequence[Candidate], tick: Callable[[], None] = lambda: None
-) -> Survey:
+def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     """Some candidates in a state; those that show."""
     columns = all_columns_of(state.rows, found, state.cache)
-    tick()
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
     order = sift(state, found, columns)

@@ -157,7 +157,7 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
         return search.Refused(best)  # type: ignore[arg-type]
 
     class Endless:
-        def judged(self, vetoed: object = ()) -> SimpleNamespace:
+        def judged(self, vetoed: object = (), tick: object = None) -> SimpleNamespace:
             return SimpleNamespace(best=object(), ranked=())
 
     monkeypatch.setattr(search, "put_in", refused)
