@@ -42,10 +42,16 @@ SAME_WAVES = 0.1
 """Orders that differ by less than this share are one."""
 
 
+Tick = Callable[[], None]
+
+
+def _silent() -> None:
+    """Nobody is told."""
+
+
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
-    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (),
-    tick: Callable[[], None] = lambda: None,
+    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (), tick: Tick = _silent,
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -88,8 +94,8 @@ def _shares(state: State, tick: Callable[[], None]) -> list[float]:
     """(J,) of the variance of what is left, systematic."""
     shares = []
     for j in range(state.rows.joints):
-        shares.append(systematic_share(state, j))
         tick()
+        shares.append(systematic_share(state, j))
     return shares
 
 

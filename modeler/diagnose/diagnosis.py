@@ -38,11 +38,8 @@ _READ, _SEARCHED, _LOOKED = 0.05, 0.7, 0.9  # shares of the work when these are 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def diagnose(
     model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
-    holdout: Sequence[Log] = (),
-    without: Sequence[str] = (),
-    most: int = MOST,
-    progress: Callable[[float], None] | None = None,
-    known: Known | None = None,
+    holdout: Sequence[Log] = (), without: Sequence[str] = (), most: int = MOST,
+    progress: Callable[[float], None] | None = None, known: Known | None = None,
 ) -> Diagnosis:  # fmt: skip
     """The effects that the model lacks on these logs, with what they would gain.
 
@@ -59,14 +56,12 @@ def diagnose(
     Raises:
         DataError: no usable row.
     """
-    meter = Meter(progress or (lambda share: None))
-    meter.stage(_READ)
+    meter = Meter(progress, _READ)
     seen = analysed(compiled, logs, model.processing)
     data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = _faults(model, compiled, seen, other)
-    meter.stage(_SEARCHED)
-    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter.tick
+    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
     found = _searched(data, other, *options)
     aligned = _aligned(data, found, model, logs)
     if aligned is not None:
@@ -79,9 +74,11 @@ def diagnose(
 
 
 def _looks(
-    data: Data, logs: Sequence[Log], other: Data | None, window: Window | None
+    data: Data, logs: Sequence[Log], other: Data | None, window: Window | None, found: Search
 ) -> list[tuple[str, Data]]:
-    """Other looks, those at the training logs without the rows of a push."""
+    """Other looks, those at the training logs without the rows of a push; none for no effect."""
+    if not found.steps:
+        return []
     return [
         (what, look if window is None or look is other else _masked(look, window))
         for what, look in other_looks(data, logs, other)
@@ -94,21 +91,21 @@ def _told(
 ) -> Diagnosis:  # fmt: skip
     """What a search found, looked at again, with a sentence on the band."""
     meter.stage(_LOOKED)
-    every = _looks(data, logs, other, window) if found.steps else []
-    looks = looked_again(found, every, meter.tick)
+    looks = looked_again(found, _looks(data, logs, other, window, found), meter.tick)
     meter.stage(1.0)
     diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
-    meter.stage(1.0)
+    meter.done()
     line = bands_line(model.processing, data.observation.report.processing)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
 def _searched(
     data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
-    tick: Callable[[], None],
+    meter: Meter,
 ) -> Search:  # fmt: skip
+    meter.stage(_SEARCHED)
     veto = vetoing(other) if other is not None else None
-    return search(data, beta, without, most, veto, tick)
+    return search(data, beta, without, most, veto, meter.tick)
 
 
 def _aligned(data: Data, found: Search, model: IdentifiedModel, logs: Sequence[Log]) -> Data | None:

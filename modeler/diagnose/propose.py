@@ -12,11 +12,9 @@ from modeler.hypotheses.candidates import Candidate, candidates
 
 
 def proposals(
-    state: State,
-    only: str | None = None,
-    without: Sequence[str] = (),
+    state: State, only: str | None = None, without: Sequence[str] = (),
     keys: Set[tuple[str, str | None]] | None = None,
-) -> list[Candidate]:
+) -> list[Candidate]:  # fmt: skip
     """What could be missing in this state, without what was put in already.
 
     Args:

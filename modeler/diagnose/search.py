@@ -222,16 +222,16 @@ class Survey:
         state: it.
         found: candidates that show.
         columns: theirs.
-        order: what chooses among their shapes.
         best: every effect on every joint at the best of its shapes, none refined, best first.
+        order: what chooses among the shapes of `found`.
         refined: effects that were refined, by the shapes that this began with.
     """
 
     state: State
     found: Sequence[Candidate]
     columns: Sequence[Columns]
-    order: Sequence[Order]
     best: Sequence[Judged]
+    order: Sequence[Order] = ()
     refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
 
     def still(self, refused: Sequence[Judged]) -> list[Judged]:
@@ -254,7 +254,7 @@ class Survey:
         best = [j for j in self.best if j.candidate.key not in touched]
         best += judged_at(self.state, found, columns, again)
         best.sort(key=lambda j: -float(j.drop.sum()))
-        return Survey(self.state, found, columns, order, best, self.refined)
+        return Survey(self.state, found, columns, best, order, self.refined)
 
     def judged(
         self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
@@ -330,7 +330,7 @@ def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     found, columns = _picked(found, seen), _picked(columns, seen)
     order = sift(state, found, columns)
     best = judged_at(state, found, columns, leading(found, order))
-    return Survey(state, found, columns, order, best)
+    return Survey(state, found, columns, best, order)
 
 
 def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:

@@ -22,8 +22,6 @@ _WIDE_SLIP = Shape("d", "travel", (0.08, 0.16, 0.32), (0.06, 1.0), "travel over 
 _WARM_UP = Shape(
     "tau", "seconds", (60.0, 150.0, 400.0, 1000.0, 3000.0), (60.0, 1e4), "warm-up time"
 )
-    "tau", "seconds", (60.0, 150.0, 400.0, 1000.0, 3000.0), (60.0, 1e4), "warm-up time"
-)
 
 FRICTION: tuple[Effect, ...] = (
     Effect(

@@ -21,17 +21,7 @@ UNFELT = 1e-12
 
 def own_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
     """(n, k) equations of its k columns on its joint."""
-    j = candidate.index
-    names = candidate.form.names
-    values: dict[str, object] = dict(candidate.shapes)
-    values |= {"q": signals.q[:, j], "v": signals.v[:, j], "a": signals.a[:, j]}
-    for name in ("load", "static", "torque", "rate"):
-        if name in names:
-            values[name] = getattr(signals, name)[:, j]
-    if "t" in names:
-        values["t"] = signals.time
-    if "T" in names:
-        values["T"] = signals.temperature(candidate.joint or "")
+    values: dict[str, object] = {**candidate.shapes, **_read(candidate, signals)}
     memory = candidate.form.memory
     if memory is not None:
         values["z"] = _state(memory, candidate, signals)
@@ -43,6 +33,43 @@ def own_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
                 for column in candidate.form.columns
             ]
         )
+
+
+def _read(candidate: Candidate, signals: Signals) -> dict[str, np.ndarray | None]:
+    """(n,) what its equations read of the motion and the model, by name."""
+    j, names = candidate.index, candidate.form.names
+    values: dict[str, np.ndarray | None]
+    values = {"q": signals.q[:, j], "v": signals.v[:, j], "a": signals.a[:, j]}
+    for name in ("load", "static", "torque", "rate"):
+        if name in names:
+            values[name] = getattr(signals, name)[:, j]
+    if "t" in names:
+        values["t"] = signals.time
+    if "T" in names:
+        values["T"] = signals.temperature(candidate.joint or "")
+    return values
+
+
+def own_columns_of(candidates: Sequence[Candidate], signals: Signals) -> np.ndarray:
+    """(n, k) of candidates of one form on one joint, that of the first, then the next."""
+    first = candidates[0]
+    if first.form.memory is not None or len(candidates) == 1 or not first.shapes:
+        return np.hstack([own_columns(candidate, signals) for candidate in candidates])
+    values: dict[str, object] = {
+        name: np.array([candidate.shapes[name] for candidate in candidates])
+        for name in first.shapes
+    }
+    values |= {
+        name: value[:, None]
+        for name, value in _read(first, signals).items() if value is not None
+    }  # fmt: skip
+    whole = np.ones((len(signals.q), len(candidates)))
+    with np.errstate(all="ignore"):
+        found = [
+            whole * column.equation.fold(values, FUNCTIONS, np.pi, float)
+            for column in first.form.columns
+        ]
+    return np.stack(found, axis=2).reshape(len(whole), -1)
 
 
 def _state(memory: Memory, candidate: Candidate, signals: Signals) -> np.ndarray:
@@ -74,7 +101,7 @@ def all_columns(candidate: Candidate, signals: Signals) -> np.ndarray:
 def moved_columns(candidates: Sequence[Candidate], signals: Signals) -> np.ndarray:
     """(n, J, k) of candidates of one effect that moves the position of one joint."""
     first = candidates[0]
-    own = np.hstack([own_columns(candidate, signals) for candidate in candidates])
+    own = own_columns_of(candidates, signals)
     return signals.all_moved(first.index, own, first.effect.whole_axis)
 
 

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
-from modeler.hypotheses.columns import all_columns, moved_columns, own_columns
+from modeler.hypotheses.columns import all_columns, moved_columns, own_columns, own_columns_of
 from modeler.hypotheses.signals import Reference, Signals
 from modeler.observation import Observation
 from modeler.observation.row_filter import SPREAD, only
@@ -73,10 +73,7 @@ class Rows:
         """The columns of several candidates of one effect on one joint."""
         first = candidates[0]
         if first.local:
-            own = [
-                np.hstack([own_columns(candidate, signals) for candidate in candidates])
-                for signals in self.signals
-            ]
+            own = [own_columns_of(candidates, signals) for signals in self.signals]
             found: list[np.ndarray | None] = [None] * self.joints
             found[first.index] = self.filtered(first.index, own)
             whole: Columns = tuple(found)

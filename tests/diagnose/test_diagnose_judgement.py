@@ -65,7 +65,7 @@ def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
 def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
     before: float, now: float, again: bool
 ) -> None:
-    survey = Survey(None, (), (), (), (judged("spring", now),))  # type: ignore[arg-type]
+    survey = Survey(None, (), (), (judged("spring", now),))  # type: ignore[arg-type]
     refused = [judged("spring", before), judged("stribeck", 0.2, mends=True)]
     kept = survey.still(refused)  # type: ignore[arg-type]
     assert (refused[0] not in kept) is again

@@ -8,7 +8,7 @@ import pytest
 from modeler.diagnose import diagnose
 from modeler.diagnose.analyse import analysis_processing, bands_line
 from modeler.observation import Log, Processing
-from tests.diagnose.conftest import Case
+from tests.diagnose.conftest import Case, motion
 
 
 def test_noise_of_the_positions_is_told_with_what_helps(case: Case) -> None:
@@ -34,3 +34,18 @@ def test_a_parallel_filter_that_was_given_rules_the_diagnosis():
         assert all("up to 24 Hz" in line and "fit up to 5 Hz" in line for line in said)
     low = dataclasses.replace(automatic, position_cutoff=10.0)
     assert analysis_processing(low).parallel_cutoff == pytest.approx(8.0)
+
+
+def test_torques_without_any_friction_are_doubted(case: Case) -> None:
+    model = case.fitted(case.train)
+    kinds = [base.kind for base in case.compiled.spec.base]
+    friction = np.where([kind == "friction" for kind in kinds], model.beta, 0.0)
+
+    def smooth(log: Log) -> np.ndarray:
+        q, v = motion(log)
+        return -case.compiled.inverse_dynamics(q, v, np.zeros_like(q), friction)
+
+    for hidden, told in ((smooth, 1), (lambda log: np.zeros_like(log.tau), 0)):
+        fitted, train, _ = case.hidden(hidden)
+        lines = diagnose(fitted, case.compiled, [train], most=0).data
+        assert sum("no joint rubs" in line for line in lines) == told
