@@ -7,7 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "compiled", "observation", "fit", "residuals", "compare", "hypotheses", "diagnose", "pages",
+    "compiled", "observation", "fit", "residuals", "compare", "hypotheses", "scoring", "diagnose",
+    "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -19,6 +20,7 @@ STAGES: dict[str, set[str]] = {
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
     "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
+    "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
     "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
     "simulate": {"core", "robot"},
@@ -46,7 +48,8 @@ PACKAGES: dict[str, set[str]] = {
     "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "hypotheses": {"numpy", "scipy"},
-    "diagnose": {"numpy", "scipy", "threadpoolctl"},
+    "scoring": {"numpy", "scipy"},
+    "diagnose": {"numpy", "threadpoolctl"},
     "pages": {"numpy", "scipy"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
     "show": {"numpy", "matplotlib"},

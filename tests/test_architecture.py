@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from modeler.effects import CATALOGUE
+from modeler.effects.standard import STANDARD
 from tests.architecture import (
     FUNCTION_LINES,
     LONGER,
@@ -162,3 +164,16 @@ def test_the_package_itself_loads_nothing() -> None:
     code = "import modeler, sys; print(*[n for n in sys.modules if n.startswith('modeler.')])"
     command = [sys.executable, "-c", code]
     assert not subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+ENGINE = ("hypotheses", "scoring", "diagnose", "pages", "improve")
+
+
+@pytest.mark.parametrize("stage", ENGINE)
+def test_the_engine_knows_no_effect_by_its_name(stage: str) -> None:
+    """What is special about an effect stands in its definition: users' own effects are alike."""
+    names = {e.id for e in CATALOGUE if e not in STANDARD}
+    for path in modules(PACKAGE / stage):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        words = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
+        assert not words & names, path.name

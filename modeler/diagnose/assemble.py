@@ -15,18 +15,18 @@ from modeler.diagnose.errors import crossed_errors, held_out_squares, over, rela
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
-from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, Pick, finite
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import evidence, sentences
-from modeler.diagnose.state import Data, State, state_of
-from modeler.diagnose.systematic import systematic_share
-from modeler.diagnose.timing import instrumental
 from modeler.diagnose.values import named_intervals, profile_of, shape_units, values_of
 from modeler.effects import Acts
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation.channels import Fault
+from modeler.scoring.propose import ruled_out
+from modeler.scoring.state import Data, State, state_of
+from modeler.scoring.systematic import systematic_share
+from modeler.scoring.timing import instrumental
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""

@@ -1,12 +1,12 @@
 """What the logs cannot show, whatever is missing in the model."""
 
 from modeler.diagnose.data_checks import one_speed
-from modeler.diagnose.gram import VISIBLE
-from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.result import Key
 from modeler.diagnose.search import Search
-from modeler.diagnose.state import State
 from modeler.effects import Acts, effect_named
+from modeler.scoring.gram import VISIBLE
+from modeler.scoring.propose import proposals, ruled_out
+from modeler.scoring.state import State
 
 
 def blind_spots(found: Search) -> tuple[Key, ...]:

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.diagnose.state import State
 from modeler.hypotheses.candidates import Candidate
+from modeler.scoring.state import State
 
 DRIVES = "with it the friction of its joint would drive instead of brake"
 """Why such an effect is refused."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeler.diagnose.state import State
+from modeler.scoring.state import State
 
 AFTER = 0.1
 """s: how long a burst lasts."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.diagnose.state import State
+from modeler.scoring.state import State
 
 CLOSED = 0.95
 """Share of what is systematic that an effect must explain to be stated as the cause."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.state import State
+from modeler.scoring.state import State
 
 MARGIN = 0.5
 """s before and after a push that are left out with it."""

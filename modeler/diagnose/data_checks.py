@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.diagnose.braking import has_friction, largest_friction
-from modeler.diagnose.state import State
+from modeler.scoring.state import State
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""

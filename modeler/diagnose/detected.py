@@ -9,12 +9,12 @@ from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.contact import Window
 from modeler.diagnose.errors import over
 from modeler.diagnose.judge import GATE, RARE, SURE, Judged
-from modeler.diagnose.propose import ruled_out
 from modeler.diagnose.result import Finding, finite
 from modeler.diagnose.search import Search
-from modeler.diagnose.state import State
-from modeler.diagnose.systematic import knocking
 from modeler.effects import Acts, Effect
+from modeler.scoring.propose import ruled_out
+from modeler.scoring.state import State
+from modeler.scoring.systematic import knocking
 
 KNOCKS = 0.85
 """Share of a residual's energy in outbursts from which on something knocks."""

@@ -17,13 +17,13 @@ from modeler.diagnose.looks import looked_again, other_looks
 from modeler.diagnose.meter import Meter
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.search import MOST, Search, search
-from modeler.diagnose.state import Data, State, state_of
-from modeler.diagnose.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.candidates import Known
 from modeler.observation import Log, Observation
 from modeler.observation.channels import Fault, faults
+from modeler.scoring.state import Data, State, state_of
+from modeler.scoring.timing import logger_shift
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

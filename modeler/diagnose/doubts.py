@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from modeler.diagnose.data_checks import data_lines
 from modeler.diagnose.late import late_lines
 from modeler.diagnose.search import Search
-from modeler.diagnose.state import Data, State
 from modeler.fit import IdentifiedModel
 from modeler.observation.channels import Fault
+from modeler.scoring.state import Data, State
 
 
 def doubts(

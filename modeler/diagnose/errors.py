@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from modeler.diagnose.score import Unseen, scored
-from modeler.diagnose.state import Data, State, picked_columns
+from modeler.scoring.score import Unseen, scored
+from modeler.scoring.state import Data, State, picked_columns
 
 
 def relative(left: np.ndarray, size: np.ndarray) -> np.ndarray:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.gram import VISIBLE, Pool
-from modeler.diagnose.rank import Ranking
-from modeler.diagnose.state import State
-from modeler.diagnose.timing import confirmed
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
+from modeler.scoring.gram import VISIBLE, Pool
+from modeler.scoring.rank import Ranking
+from modeler.scoring.state import State
+from modeler.scoring.timing import confirmed
 
 GATE = 0.03
 """Least share of the residual variance on held-out motion that is worth a name."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.diagnose.search import Search
-from modeler.diagnose.timing import CONVENTION
+from modeler.scoring.timing import CONVENTION
 
 SHARE = 0.2
 """Least share of the error variance left that the shift of one position explains."""

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.diagnose.polish import polished
-from modeler.diagnose.state import State, all_columns_of, columns_of
 from modeler.effects import Effect
 from modeler.hypotheses.candidates import Candidate, over_grid
+from modeler.scoring.polish import polished
+from modeler.scoring.state import State, all_columns_of, columns_of
 
 CLEAR = 1.01
 """Ratio of two falls that decides, and of what they leave of the squared residuals."""

@@ -16,12 +16,12 @@ from typing import Any
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
-from modeler.diagnose.propose import proposals, ruled_out
 from modeler.diagnose.search import Search, Step, survey_of
-from modeler.diagnose.state import Data, State, all_columns_of, state_of, visible
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation import Log
 from modeler.observation.motion import HIGHEST
+from modeler.scoring.propose import proposals, ruled_out
+from modeler.scoring.state import Data, State, all_columns_of, state_of, visible
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""

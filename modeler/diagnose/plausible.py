@@ -5,11 +5,11 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from modeler.diagnose.braking import largest_friction
-from modeler.diagnose.state import State, columns_of
 from modeler.effects import Needs
 from modeler.fit.possible import body, nearest_possible
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import body_parameters
+from modeler.scoring.state import State, columns_of
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from

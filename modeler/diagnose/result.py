@@ -10,8 +10,8 @@ import numpy as np
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
-from modeler.diagnose.state import State
 from modeler.hypotheses.candidates import Candidate
+from modeler.scoring.state import State
 
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""

@@ -20,15 +20,15 @@ from modeler.diagnose.judge import (
     sift,
 )
 from modeler.diagnose.levers import constant_force
-from modeler.diagnose.orders import counted
 from modeler.diagnose.plausible import objection
-from modeler.diagnose.polish import best_polished
-from modeler.diagnose.propose import proposals, ruled_out
-from modeler.diagnose.state import Data, State, all_columns_of, columns_of, state_of, visible
 from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
+from modeler.scoring.orders import counted
+from modeler.scoring.polish import best_polished
+from modeler.scoring.propose import proposals, ruled_out
+from modeler.scoring.state import Data, State, all_columns_of, columns_of, state_of, visible
 
 _T = TypeVar("_T")
 

@@ -4,9 +4,9 @@ import dataclasses
 
 from modeler.diagnose.result import Diagnosis, Finding, Key
 from modeler.diagnose.search import Step
-from modeler.diagnose.systematic import knocking
 from modeler.diagnose.values import told_spread
 from modeler.effects import effect_named
+from modeler.scoring.systematic import knocking
 
 TOLD = 0.15
 """Gain from which on an effect is mentioned that was refused."""

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.state import State
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import body_parameters
 from modeler.hypotheses.conditional import Problem
 from modeler.hypotheses.profile import Profile, profile
 from modeler.hypotheses.tilt import tilt_basis
+from modeler.scoring.state import State
 
 LOPSIDED = 2.0
 """Ratio of the sides of an interval above which one standard deviation does not describe it."""

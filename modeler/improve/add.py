@@ -15,11 +15,8 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Pick
-from modeler.diagnose.score import Score, Unseen, errors_of, rms_error, scored, told
 from modeler.diagnose.search import extended, survey_of, surveyed
 from modeler.diagnose.sentences import where
-from modeler.diagnose.state import Data, State, state_of
-from modeler.diagnose.timing import instrumental
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.hypotheses.candidates import Known
@@ -31,6 +28,9 @@ from modeler.improve.rows import Logs, Rows, rows_of
 from modeler.improve.sure import with_shapes
 from modeler.improve.unseen import left_of, left_out
 from modeler.robot import robot_from_text
+from modeler.scoring.score import Score, Unseen, errors_of, rms_error, scored, told
+from modeler.scoring.state import Data, State, state_of
+from modeler.scoring.timing import instrumental
 
 if TYPE_CHECKING:
     from modeler.diagnose import Finding

@@ -1,11 +1,11 @@
 """What the user should know of an effect that was added, beside its error."""
 
-from modeler.diagnose.score import told
 from modeler.diagnose.sentences import where
 from modeler.diagnose.values import told_spread
 from modeler.effects import Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel
 from modeler.robot import robot_from_text
+from modeler.scoring.score import told
 
 
 def added(model: IdentifiedModel) -> list[str]:

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.compiled import CompiledModel
-from modeler.diagnose.state import Data, State, columns_of, state_of
 from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.profile import Problem, Profile, profile
 from modeler.observation import Observation
 from modeler.robot import robot_from_text
+from modeler.scoring.state import Data, State, columns_of, state_of
 
 
 def with_shapes(

@@ -3,12 +3,12 @@
 import numpy as np
 
 from modeler.compiled import CompiledModel
-from modeler.diagnose.gram import base_of, pieces
-from modeler.diagnose.score import Unseen
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.blocks import blocks_of
 from modeler.observation import Observation
 from modeler.observation.torque import model_torque
+from modeler.scoring.gram import base_of, pieces
+from modeler.scoring.score import Unseen
 
 
 def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:

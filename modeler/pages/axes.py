@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.state import State
 from modeler.effects import Acts, Shows
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.signals import Signals
 from modeler.observation.travel import travel_since_reversal
+from modeler.scoring.state import State
 
 
 @dataclass(frozen=True, eq=False)

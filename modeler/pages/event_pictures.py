@@ -5,8 +5,8 @@ import numpy as np
 from modeler.compare.picture import COLORS, Curve, Panel, Picture, Style
 from modeler.diagnose.bursts import AFTER, load_turns
 from modeler.diagnose.contact import MARGIN, Window
-from modeler.diagnose.state import State
 from modeler.pages.evidence import MEANS, ROWS, scatter
+from modeler.scoring.state import State
 
 _AROUND = 0.5  # s before and after a change of sign that are drawn
 _BESIDE = 3.0  # s before and after a push

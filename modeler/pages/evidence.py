@@ -20,11 +20,11 @@ from modeler.compare.picture import (
     Series,
     Style,
 )
-from modeler.diagnose.orders import order_spectrum
 from modeler.diagnose.search import Search, Step
 from modeler.pages.bins import bins_of
 from modeler.pages.shown import Shown, shown
 from modeler.pages.view import View, view_of
+from modeler.scoring.orders import order_spectrum
 
 ROWS = Style(GREY, 2.0, 0.35)
 MEANS = Style(BLACK, 0.0)

@@ -6,10 +6,10 @@ import numpy as np
 
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import percent
-from modeler.diagnose.state import State, columns_of, state_of
-from modeler.diagnose.systematic import rival
 from modeler.pages.axes import Axis, axis_of
 from modeler.pages.bins import Bins, bins_of, calm_rows
+from modeler.scoring.state import State, columns_of, state_of
+from modeler.scoring.systematic import rival
 
 
 @dataclass(frozen=True, eq=False)

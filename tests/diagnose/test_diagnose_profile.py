@@ -9,11 +9,11 @@ from modeler.api import compile_model, derive, generate, identified, load, obser
 from modeler.diagnose import Known
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.search import extended, surveyed
-from modeler.diagnose.state import Data, state_of
 from modeler.diagnose.values import profile_of, told_spread
 from modeler.fit import identify, load_model, save_model
 from modeler.improve import Logs, add_effect, added, undone
 from modeler.observation import read_log
+from modeler.scoring.state import Data, state_of
 from modeler.simulate import SimulationSettings, hidden_from_text, simulate, write_log
 
 

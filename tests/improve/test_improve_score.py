@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from modeler.diagnose.score import Score, Unseen, scored, told
+from modeler.scoring.score import Score, Unseen, scored, told
 
 RATE, SPAN = 20.0, 30.0
 

@@ -13,7 +13,6 @@ from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.contract import Emitted
 from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.diagnose.score import Score, Unseen, scored
 from modeler.fit import IdentifiedModel
 from modeler.improve import Logs, add_findings
 from modeler.improve.rows import rows_of
@@ -21,6 +20,7 @@ from modeler.improve.unseen import left_of
 from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST
 from modeler.robot import robot_from_text
+from modeler.scoring.score import Score, Unseen, scored
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.sanity import faults
 from tests.measured_sets.sets import SETS, Case

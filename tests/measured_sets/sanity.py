@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from modeler.diagnose import Diagnosis, Finding
-from modeler.diagnose.state import State
+from modeler.scoring.state import State
 
 SLACK = 0.05
 """Of the whole friction of a joint: less is rounding."""

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from modeler.diagnose.reduced import Reduced
 from modeler.hypotheses.orthonormal import turn_of
 from modeler.hypotheses.rows import Columns, Rows
+from modeler.scoring.reduced import Reduced
 
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""

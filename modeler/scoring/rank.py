@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.gram import VISIBLE, Base, Pool, but_one, solved
+from modeler.scoring.gram import VISIBLE, Base, Pool, but_one, solved
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,10 @@ from collections.abc import Sequence, Set
 
 import numpy as np
 
-from modeler.diagnose.orders import ripple_candidates
-from modeler.diagnose.state import State
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate, candidates
+from modeler.scoring.orders import ripple_candidates
+from modeler.scoring.state import State
 
 
 def proposals(

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar
 
-from modeler.diagnose.gram import pool_of
-from modeler.diagnose.rank import fall
-from modeler.diagnose.state import State, columns_of, visible
 from modeler.effects import Shape
 from modeler.hypotheses.candidates import Candidate
+from modeler.scoring.gram import pool_of
+from modeler.scoring.rank import fall
+from modeler.scoring.state import State, columns_of, visible
 
 _STEPS = 8
 

@@ -8,9 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modeler.diagnose.gram import Base, Pool, base_of, pool_of, sigma_of
-from modeler.diagnose.rank import Ranking, Sifted, rank, sifted
-from modeler.diagnose.reduced import Reduced, Reduction, reduction
 from modeler.effects import Acts
 from modeler.hypotheses.blocks import Blocks, blocks_of
 from modeler.hypotheses.candidates import Candidate, JointScale, Known, scales_of
@@ -19,6 +16,9 @@ from modeler.hypotheses.rows import Columns, Rows, rows_of
 from modeler.hypotheses.signals import Reference
 from modeler.hypotheses.tilt import frame_slopes, tilt_weights
 from modeler.observation import Observation
+from modeler.scoring.gram import Base, Pool, base_of, pool_of, sigma_of
+from modeler.scoring.rank import Ranking, Sifted, rank, sifted
+from modeler.scoring.reduced import Reduced, Reduction, reduction
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

@@ -4,12 +4,12 @@ from collections.abc import Callable, Set
 
 import numpy as np
 
-from modeler.diagnose.state import State, column_key
 from modeler.effects import Effect
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import all_columns, own_columns
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.orders import order_spectrum as spectrum_of
+from modeler.scoring.state import State, column_key
 
 
 def order_spectrum(state: State, j: int) -> OrderSpectrum | None:

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.diagnose.gram import pieces
-from modeler.diagnose.state import State, picked_columns
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns, Rows
 from modeler.hypotheses.signals import Signals
 from modeler.observation.motion import low_pass
+from modeler.scoring.gram import pieces
+from modeler.scoring.state import State, picked_columns
 
 SURE = 4.0
 """Least ratio of the instrumental estimate to its standard error."""

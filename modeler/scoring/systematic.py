@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from modeler.diagnose.orders import order_spectrum
-from modeler.diagnose.state import State
 from modeler.hypotheses.signals import resonance
 from modeler.observation.bristle import bristle
 from modeler.residuals.features import SLIPS, Measured, functions
 from modeler.residuals.flexible import LEAST, Flexible, flexible
 from modeler.residuals.memory import forgotten, outbursts, returning
+from modeler.scoring.orders import order_spectrum
+from modeler.scoring.state import State
 
 _LIGHT = 0.1  # damping ratio of what rings
 _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
