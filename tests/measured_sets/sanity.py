@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from modeler.diagnose import Diagnosis, Finding
+from modeler.effects import Needs
 from modeler.scoring.state import State
 
 SLACK = 0.05
@@ -101,7 +102,7 @@ def _friction_faults(found: Diagnosis, finding: Finding) -> Iterator[str]:
         return  # a model without friction says nothing of the whole
     levels = {c.prefix: finding.parameters[name] for c, name in
               zip(pick.form.columns, pick.parameter_names(), strict=True)
-              if c.within_friction}  # fmt: skip
+              if Needs.FRICTION in pick.effect.needs}  # fmt: skip
     for name, level in (levels | _coulomb(state, columns)).items():
         yield from level_fault(name, level, torque)
     yield from driving_fault(torque, speed)
