@@ -11,7 +11,7 @@ from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
 from modeler.diagnose.detected import detected
 from modeler.diagnose.doubts import doubts
-from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
+from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative, touched_joints
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
@@ -30,9 +30,6 @@ from modeler.scoring.timing import instrumental
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
-
-TOUCHED = 0.1
-"""Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
 
 SMALLER = 0.4
 """Torque of an effect over that of one of its family before, below which it only mends that."""
@@ -128,7 +125,7 @@ def _findings(
     """Effects that were put in, and those that are no columns."""
     findings = []
     for k, step in enumerate(found.steps):
-        touched = _touched(step, *chain[k : k + 2])
+        touched = touched_joints(step.judged, *chain[k : k + 2])
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
         finding = _finding(found, step, touched, errors[k : k + 2], closed)
@@ -146,22 +143,6 @@ def _chain(found: Search) -> list[State]:
         for k in range(1, len(picks))
     ]
     return [found.start, *middle, *([found.end] if picks else [])]
-
-
-def _touched(step: Step, before: State, after: State) -> list[int]:
-    """Joints whose residuals the effect explains: its own, or all where they fall most."""
-    if step.judged.alone:
-        return [step.pick.index]
-    sigma = before.base.sigma
-    fall = np.array(
-        [
-            float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
-            for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
-        ]
-    )
-    if fall.max() <= 0.0:
-        return [int(np.argmax(fall))]
-    return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
 
 
 def _finding(

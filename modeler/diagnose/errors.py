@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from modeler.diagnose.judge import GATE, Judged
 from modeler.scoring.score import Unseen, scored
 from modeler.scoring.state import Data, State, picked_columns
 
@@ -58,14 +59,44 @@ def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:
     return float(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
 
 
-def vetoing(data: Data) -> Callable[[State, State], bool]:
+TOUCHED = 0.1
+"""Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
+
+
+def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
+    """Joints whose residuals an effect explains: its own, or all where they fall most."""
+    if judged.alone:
+        return [judged.candidate.index]
+    sigma = before.base.sigma
+    fall = np.array(
+        [
+            float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
+            for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
+        ]
+    )
+    if fall.max() <= 0.0:
+        return [int(np.argmax(fall))]
+    return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
+
+
+def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
     """A veto by held-out logs: True if a state with an effect more is not the better one there.
+
+    The error of the joints that it touches must fall by what is worth a name, and by more than
+    chance (`scored`).
 
     Args:
         data: held-out logs.
     """
 
-    def veto(before: State, after: State) -> bool:
+    def veto(before: State, after: State, judged: Judged) -> bool:
+        touched = touched_joints(judged, before, after)
+        old, new = (
+            over(before, touched, relative(*held_out_squares(state, data)))
+            for state in (before, after)
+        )
+        if 1.0 - (new / max(old, 1e-300)) ** 2 < GATE:
+            return True
         return not scored(*(_unseen(state, data) for state in (before, after))).better
 
     return veto

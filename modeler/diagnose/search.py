@@ -100,8 +100,9 @@ class Search:
     without: tuple[str, ...] = ()
 
 
-Veto = Callable[[State, State], bool]
-"""True if an effect does not lower the error on held-out logs: state without it, and with it."""
+Veto = Callable[[State, State, Judged], bool]
+"""True if an effect does not lower the error on held-out logs: state without it, with it, the
+effect as it was judged."""
 
 
 def search(
@@ -140,19 +141,21 @@ def search(
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
-    if not steps and (described := _description(start, refused, judgement)):
+    if not steps and (described := _description(start, refused, judgement, veto)):
         steps, state = [described], extended(start, described.pick)
     kept, state = _backward(state, steps, veto, tick)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
 
 
-def _description(start: State, refused: Sequence[Judged], last: Judgement) -> Step | None:
+def _description(
+    start: State, refused: Sequence[Judged], last: Judgement, veto: Veto | None
+) -> Step | None:
     """Where nothing was named, what describes the logs best though it cannot be the cause."""
     doubted = [judged for judged in refused if judged.why not in ("", DRIVES)]
-    if not doubted:
-        return None
-    best = max(doubted, key=lambda judged: judged.share)
-    return Step(best, last.others(best), start)
+    for best in sorted(doubted, key=lambda judged: -judged.share):
+        if veto is None or not veto(start, extended(start, best.candidate), best):
+            return Step(best, last.others(best), start)
+    return None
 
 
 def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
@@ -174,7 +177,7 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
             return Refused(dataclasses.replace(judged, possible=False, why=DRIVES))
         if why := _objection(later):
             return Refused(dataclasses.replace(judged, possible=False, why=why))
-        if veto is None or not veto(state, later):
+        if veto is None or not veto(state, later, judged):
             return judged, later
     return Refused(best)
 
@@ -370,7 +373,7 @@ def _backward(
         idle = {}
         for k, step in enumerate(kept):
             judged, less = _beside(state, kept, step)
-            if not judged.significant or (veto is not None and veto(less, state)):
+            if not judged.significant or (veto is not None and veto(less, state, judged)):
                 idle[k] = judged.gain
             tick()
         if not idle:

@@ -146,7 +146,7 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     state = SimpleNamespace(rows=None, cache={})
     monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
     monkeypatch.setattr(search, "_objection", lambda later: "")
-    found = search.put_in(state, at(36.3), lambda a, later: later.shapes["m"] in refuse)
+    found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
     named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
     assert named == order
 
@@ -202,9 +202,9 @@ def test_where_nothing_is_named_the_best_of_what_was_doubted_describes() -> None
         )
     ]  # fmt: skip
     last = search.Judgement((), None)
-    described = search._description(None, refused, last)  # type: ignore[arg-type]
+    described = search._description(None, refused, last, None)  # type: ignore[arg-type]
     assert described is not None and described.pick.effect.id == "payload"
-    assert search._description(None, refused[1:3], last) is None  # type: ignore[arg-type]
+    assert search._description(None, refused[1:3], last, None) is None  # type: ignore[arg-type]
 
 
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
