@@ -13,6 +13,7 @@ from modeler.diagnose.data_checks import SHORT, length
 from modeler.diagnose.detected import CONTACT, detected
 from modeler.diagnose.doubts import doubts
 from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative
+from modeler.diagnose.gains import gain_deviations, gain_visible, is_gain
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
@@ -158,6 +159,9 @@ def _finding(
     values, deviations = found.end.values[place], judged.deviations * _left(found, step, touched)
     if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
         values, deviations = instrumental(step.before, pick)
+    visible = judged.visible
+    if is_gain(pick):
+        deviations, visible = gain_deviations(found.end, place), gain_visible(found.end, place)
     along = profile_of(found.end, place)
     if along is not None:
         deviations = along.deviations()
@@ -181,7 +185,7 @@ def _finding(
         closure=closed,
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
-        pick=Pick(pick, values, found.end, judged.visible),
+        pick=Pick(pick, values, found.end, visible),
     )
 
 

@@ -15,10 +15,11 @@ from typing import Any
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.gains import columns_about, settled
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
 from modeler.diagnose.propose import proposals
 from modeler.diagnose.search import Search, Step
-from modeler.diagnose.state import Data, State, columns_of, state_of, visible
+from modeler.diagnose.state import Data, State, state_of, visible
 from modeler.observation import Log
 from modeler.observation.motion import HIGHEST
 
@@ -115,7 +116,8 @@ def _logged(data: Data, candidate: Candidate) -> bool:
 def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
     """The state in which the effect was chosen, from other data."""
     once = state_of(data, picks, before.beta)
-    return state_of(data, picks, once.beta, once.cache)
+    about = settled(once)
+    return state_of(data, picks, once.beta if about is None else about, once.cache)
 
 
 def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
@@ -126,6 +128,6 @@ def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     keys = {c.key for c in first}
     again = [c for c in proposals(state, None, found.without) if c.key in keys]
     every = [c for c in (*first, *again) if _logged(state.data, c)]
-    columns = [columns_of(state.rows, c, state.cache) for c in every]
+    columns = [columns_about(state, c) for c in every]
     seen = [i for i, c in enumerate(columns) if visible(c)]
     return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])

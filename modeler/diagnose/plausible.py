@@ -13,8 +13,8 @@ LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
 which on it is not this joint that rings."""
 
-OFF = 0.5
-"""Relative error of a drive gain from which on it is none."""
+TENFOLD = 10.0
+"""A drive gain that is wrong by more, either way, is a matter of units."""
 
 BALANCERS = ("counterbalance", "constant_force_spring")
 
@@ -83,8 +83,8 @@ def _no_body(parameters: Mapping[str, float]) -> str:
 
 
 def _no_gain(eps: float) -> str:
-    """A torque constant that is off by that much is a matter of sign or unit."""
-    if abs(eps) < OFF:
+    """A torque of the other sign, or off by that much, is no matter of its torque constant."""
+    if 1.0 / TENFOLD < 1.0 - eps < TENFOLD:
         return ""
     true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
     return f"the true gain would be {true} the given one: check sign and unit of that torque"

@@ -75,6 +75,14 @@ class Rows:
         )
 
 
+def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
+    """(rows, k) columns on joint j; zeros where there are none."""
+    here = columns[j]
+    if here is not None:
+        return here
+    return np.zeros((rows, next(c.shape[1] for c in columns if c is not None)))
+
+
 def rows_of(observation: Observation, reference: Reference) -> Rows:
     """The rows of an observation.
 

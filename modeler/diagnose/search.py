@@ -9,6 +9,7 @@ import numpy as np
 
 from modeler.diagnose.braking import drives
 from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.gains import columns_about, is_gain, likeliest, settled
 from modeler.diagnose.judge import (
     Judged,
     Judgement,
@@ -175,7 +176,14 @@ def _counted(state: State, best: Judged) -> list[Judged]:
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
-    """The best effect, or its twin of another law where that explains the same with less."""
+    """The best effect, or its twin of another law where that explains the same with less.
+
+    Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
+    """
+    if is_gain(best.candidate):
+        every = proposals(state, best.candidate.effect.id, without)
+        gains = [c for c in every if not _among(c, vetoed)]
+        return _judged_again(state, likeliest(state, gains) or best.candidate)
     if best.candidate.effect.id != "counterbalance":
         return best
     other = effect_named("constant_force_spring", state.data.known.catalogue)
@@ -185,7 +193,11 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
     pull = constant_force(state, best.candidate, other)
     if pull is None or _among(pull, vetoed):
         return best
-    return judge(state, [pull], [columns_of(state.rows, pull, state.cache)]).ranked[0]
+    return _judged_again(state, pull)
+
+
+def _judged_again(state: State, candidate: Candidate) -> Judged:
+    return judge(state, [candidate], [columns_about(state, candidate)]).ranked[0]
 
 
 def _started(data: Data, beta: np.ndarray) -> State:
@@ -285,7 +297,7 @@ def surveyed(
 
 def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     """Some candidates in a state; those that show."""
-    columns = [columns_of(state.rows, c, state.cache) for c in found]
+    columns = [columns_about(state, c) for c in found]
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
     return Survey(state, found, columns, best_shapes(state, found, columns))
@@ -311,9 +323,10 @@ def _ripples(candidate: Candidate) -> bool:
 
 def extended(state: State, pick: Candidate) -> State:
     """The state with one effect more, linearised about its own parameters."""
-    picks = (*state.picks, pick)
-    once = state_of(state.data, picks, state.beta, state.cache)
-    return state_of(state.data, picks, once.beta, state.cache)
+    picks, about = (*state.picks, pick), settled(state, pick)
+    once = state_of(state.data, picks, state.beta if about is None else about, state.cache)
+    about = settled(once)
+    return state_of(state.data, picks, once.beta if about is None else about, state.cache)
 
 
 def _backward(state: State, steps: Sequence[Step]) -> tuple[list[Step], State]:
@@ -338,4 +351,4 @@ def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
     """One of the effects, judged in the model with the others."""
     others = [s.pick for s in kept if s is not step]
     less = state_of(state.data, others, state.beta, state.cache)
-    return judge(less, [step.pick], [columns_of(less.rows, step.pick, state.cache)]).ranked[0]
+    return _judged_again(less, step.pick)

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from modeler.diagnose.candidates import Candidate
-from modeler.diagnose.rows import Columns, Rows
+from modeler.diagnose.rows import Rows, dense
 from modeler.diagnose.signals import Signals
 from modeler.diagnose.state import State
 from modeler.effects import Acts
@@ -72,19 +72,13 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
     for j in range(state.rows.joints):
         sigma = state.base.sigma[j]
         base = smooth.W[j][:, state.data.free]
-        picks = [_dense(e, j, len(base)) for e in extra]
-        X.append(np.hstack([state.W[j], _dense(own, j, len(base))]) / sigma)
-        Z.append(np.hstack([base, *picks, _dense(other, j, len(base))]) / sigma)
+        picks = [dense(e, j, len(base)) for e in extra]
+        X.append(np.hstack([state.W[j], dense(own, j, len(base))]) / sigma)
+        Z.append(np.hstack([base, *picks, dense(other, j, len(base))]) / sigma)
         y.append(state.y[j] / sigma)
         block.append(state.base.block[j])
     k = next(c.shape[1] for c in own if c is not None)
     return _solve(np.vstack(X), np.vstack(Z), np.concatenate(y), np.concatenate(block), k)
-
-
-def _dense(columns: Columns, j: int, rows: int) -> np.ndarray:
-    k = next(c.shape[1] for c in columns if c is not None)
-    here = columns[j]
-    return np.zeros((rows, k)) if here is None else here
 
 
 def _solve(

@@ -15,6 +15,7 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.candidates import Known
 from modeler.diagnose.columns import body_parameters
 from modeler.diagnose.diagnosis import kept_parameters
+from modeler.diagnose.gains import gain_visible, is_gain
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Pick
 from modeler.diagnose.search import extended, survey_of, surveyed
@@ -148,7 +149,8 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
         values = instrumental(state, best.candidate)[0]
         return Pick(best.candidate, values, state, best.visible)
     later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
-    return Pick(best.candidate, later.values[0], later, best.visible)
+    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
+    return Pick(best.candidate, later.values[0], later, visible)
 
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
@@ -179,6 +181,7 @@ def _check_seen(pick: Pick) -> None:
 
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
     """The model with the effect, and whether it is the better one."""
+    print("VIS", pick.candidate.key, pick.visible)
     _check_seen(pick)
     after = _with(before, pick)
     refitted = pick.candidate.effect.acts is not Acts.LINK
