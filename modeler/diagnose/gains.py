@@ -11,7 +11,7 @@ linear fit with these columns satisfies at its own parameters (`instruments`: W_
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -27,7 +27,8 @@ _CLOSE = 1e-3  # what is moved less than this at the end is used still
 _STEP = 0.5  # largest change of a g at once, as a share of it
 _FARTHEST = 20.0  # a g is sought from there on
 _GRID = tuple(np.geomspace(0.1, 10.0, 13))
-_RCOND = 1e-10
+_RIDGE = 1e-10
+_SAME = 0.01  # weights that change by less are settled
 _SCALES = frozenset({"torque"})
 
 
@@ -137,7 +138,7 @@ class _Problem:
         return np.sqrt(np.where(square > 0.0, square, 1.0))
 
     def starts(self) -> list[np.ndarray]:
-        """(J,) of g: with the measured torque for a column, and the best of a grid for a new one."""
+        """(J,) of g: with the measured torque for a column; for a new one, the best of a grid."""
         found = [self._measured()]
         for j in self.gains:
             if self.given[j] == 1.0:
@@ -183,8 +184,10 @@ class _Problem:
         for _ in range(_WEIGHINGS):
             if found is None:
                 break
-            problem = problem.reweighed(found.left)
+            before, problem = problem.spread, problem.reweighed(found.left)
             found = problem.solved(found.g)
+            if np.max(np.abs(problem.spread / before - 1.0)) < _SAME:
+                break
         return found
 
     def reweighed(self, left: np.ndarray) -> "_Problem":
@@ -207,7 +210,7 @@ class _Problem:
         """
         values, c = self._values(g), self.size
         matrix, _ = self._equations(g, values)
-        inverse = np.linalg.pinv(matrix, rcond=_RCOND)[len(self.free) :]
+        inverse = np.linalg.pinv(matrix, rcond=_RIDGE)[len(self.free) :]
         sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, len(matrix)))
         for j, own in enumerate(weighted):
             base, rest = own[:, :c] @ values[:c], own[:, c:-1] @ values[c:]
@@ -294,7 +297,8 @@ class _Problem:
 
 
 def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    return np.asarray(np.linalg.lstsq(matrix, right, rcond=_RCOND)[0])
+    """With a ridge in place of the rank: products of columns of length one."""
+    return np.linalg.solve(matrix + _RIDGE * np.eye(len(matrix)), right)
 
 
 def _weighted(state: State) -> list[np.ndarray]:
@@ -308,10 +312,16 @@ def _weighted(state: State) -> list[np.ndarray]:
     return found
 
 
+@lru_cache(maxsize=1)
+def _grams(state: State) -> np.ndarray:
+    """(J, z + 1, z + 1) products of the columns of `_weighted`."""
+    return np.stack([own.T @ own for own in _weighted(state)])
+
+
 def _problem(state: State, gains: Sequence[int]) -> _Problem:
     """With these gains, those of the robot, and all picks that are no gains."""
-    weighted, had = _weighted(state), _own_gains(state)
-    size, every = len(state.beta), weighted[0].shape[1] - 1
+    grams, had = _grams(state), _own_gains(state)
+    size, every = len(state.beta), grams.shape[1] - 1
     fixed = np.zeros(every)
     if state.data.kept is not None:
         fixed[:size] = state.data.kept
@@ -325,8 +335,8 @@ def _problem(state: State, gains: Sequence[int]) -> _Problem:
             given[pick.index] -= values[0]
     free = [*(int(i) for i in state.data.free if i not in had), *range(size, every)]
     return _Problem(
-        rows=np.array([len(own) for own in weighted]),
-        grams=np.stack([own.T @ own for own in weighted]),
+        rows=np.array([len(own) for own in state.rows.y]),
+        grams=grams,
         free=np.array(free, dtype=int), fixed=fixed,
         gains=sorted({*gains, *had.values()}), size=size, given=given, had=had,
         spread=state.base.sigma,

@@ -181,7 +181,6 @@ def _check_seen(pick: Pick) -> None:
 
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
     """The model with the effect, and whether it is the better one."""
-    print("VIS", pick.candidate.key, pick.visible)
     _check_seen(pick)
     after = _with(before, pick)
     refitted = pick.candidate.effect.acts is not Acts.LINK
