@@ -19,6 +19,9 @@ from modeler.diagnose.candidates import Candidate
 from modeler.diagnose.rows import Columns, dense
 from modeler.diagnose.state import State, columns_of
 
+TENFOLD = 10.0
+"""A drive gain that is wrong by more, either way, is a matter of units."""
+
 _PASSES = 60
 _SETTLED = 1e-8
 _WEIGHINGS = 5
@@ -66,19 +69,20 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     Where a wrong gain bends the model, the weights of the state say more of the bend than of the
     joints. None where no gain can be settled.
     """
-    scores = []
-    for candidate in candidates:
+    found = {}
+    for k, candidate in enumerate(candidates):
         gains = [pick.index for pick in (*state.picks, candidate) if is_gain(pick)]
-        found = _best(_problem(state, gains))
-        scores.append(np.inf if found is None else found.score)
-    return candidates[int(np.argmin(scores))] if np.isfinite(scores).any() else None
+        best = _best(_problem(state, gains))
+        if best is not None:
+            found[k] = best.order
+    return candidates[min(found, key=lambda k: found[k])] if found else None
 
 
 def _best(problem: "_Problem") -> "_Solution | None":
     """The likeliest of the solutions from all starts, with the weights given and with none."""
     every = [p.weighed(start) for p in (problem, problem.level()) for start in p.starts()]
     found = [f for f in every if f is not None]
-    return min(found, key=lambda f: f.score) if found else None
+    return min(found, key=lambda f: f.order) if found else None
 
 
 def gain_deviations(state: State, place: int) -> np.ndarray:
@@ -103,6 +107,11 @@ class _Solution:
     g: np.ndarray  # (J,)
     left: np.ndarray  # (J,) squares, in units of sigma
     score: float  # the less, the likelier
+
+    @property
+    def order(self) -> tuple[bool, float]:
+        """The likelier, the less; a sign or a unit is a matter of channels, and comes last."""
+        return not bool(np.all((self.g > 1.0 / TENFOLD) & (self.g < TENFOLD))), self.score
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,15 +6,13 @@ import numpy as np
 
 from modeler.diagnose.braking import largest_friction
 from modeler.diagnose.candidates import Candidate
+from modeler.diagnose.gains import TENFOLD
 from modeler.diagnose.state import State, columns_of
 from modeler.effects import Acts
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
 which on it is not this joint that rings."""
-
-TENFOLD = 10.0
-"""A drive gain that is wrong by more, either way, is a matter of units."""
 
 BALANCERS = ("counterbalance", "constant_force_spring")
 
