@@ -12,6 +12,7 @@ from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.candidates import Known
+from modeler.diagnose.channel_faults import channel_faults
 from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.detected import CONTACT
 from modeler.diagnose.errors import vetoing
@@ -23,7 +24,6 @@ from modeler.diagnose.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
 from modeler.observation import Log, Observation
-from modeler.observation.channels import Fault, faults
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -60,7 +60,7 @@ def diagnose(
     seen = analysed(compiled, logs, model.processing)
     data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
-    doubted = _faults(model, compiled, seen, other)
+    doubted = channel_faults(model, data, other, logs)
     options = model.beta, without, 0 if any(f.certain for f in doubted) else most, progress
     found = _searched(data, other, *options)
     aligned = _aligned(data, found, model, logs)
@@ -134,17 +134,6 @@ def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
     processing = data.observation.report.processing
     seen = analysed(data.compiled, holdout, processing, chosen=True)
     return dataclasses.replace(data, observation=seen)
-
-
-def _faults(
-    model: IdentifiedModel, compiled: "CompiledModel", observation: Observation, other: Data | None
-) -> tuple[Fault, ...]:
-    """Channels that contradict the model, of the logs and of the held-out ones."""
-    found = faults(compiled, observation, model.beta)
-    if other is None:
-        return found
-    held = faults(compiled, other.observation, model.beta)
-    return (*found, *(dataclasses.replace(f, line=f"held out: {f.line}") for f in held))
 
 
 def kept_parameters(

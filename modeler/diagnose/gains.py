@@ -78,6 +78,12 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     return candidates[min(found, key=lambda k: found[k])] if found else None
 
 
+def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndarray] | None:
+    """Base parameters (c,) and g (J,) with the gains of these joints; None if none make sense."""
+    found = _best(_problem(state, joints))
+    return None if found is None or found.order[0] else (found.beta, found.g)
+
+
 def _best(problem: "_Problem") -> "_Solution | None":
     """The likeliest of the solutions from all starts, with the weights given and with none."""
     every = [p.weighed(start) for p in (problem, problem.level()) for start in p.starts()]
@@ -219,7 +225,9 @@ class _Problem:
         """
         values, c = self._values(g), self.size
         matrix, _ = self._equations(g, values)
-        inverse = np.linalg.pinv(matrix, rcond=_RIDGE)[len(self.free) :]
+        length = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
+        inverse = np.linalg.pinv(matrix / np.outer(length, length), rcond=_RIDGE)
+        inverse = (inverse / np.outer(length, length))[len(self.free) :]
         sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, len(matrix)))
         for j, own in enumerate(weighted):
             base, rest = own[:, :c] @ values[:c], own[:, c:-1] @ values[c:]
@@ -307,7 +315,8 @@ class _Problem:
 
 def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """With a ridge in place of the rank: products of columns of length one."""
-    return np.linalg.solve(matrix + _RIDGE * np.eye(len(matrix)), right)
+    ridge = _RIDGE * np.maximum(np.diag(matrix), 1.0)
+    return np.linalg.solve(matrix + np.diag(ridge), right)
 
 
 def _weighted(state: State) -> list[np.ndarray]:

@@ -20,7 +20,7 @@ from modeler.diagnose.judge import Judged, best_shapes, decide, tied
 from modeler.diagnose.propose import proposals
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.state import Data, State, state_of, visible
-from modeler.observation import Log
+from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST
 
 FACTORS = (0.7, 1.4)
@@ -67,6 +67,13 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
     """
     if other is not None:
         yield "the held-out logs", other
+    for factor, changed in cut_off_otherwise(data, logs):
+        seen = analysed(data.compiled, logs, changed, chosen=True)
+        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+
+
+def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, Processing]]:
+    """The processing of the training logs with the filters elsewhere, by `FACTORS`."""
     processing = data.observation.report.processing
     highest = HIGHEST / max(log.step for log in logs)
     for factor in FACTORS:
@@ -75,9 +82,7 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
             for name in ("position_cutoff", "parallel_cutoff")
             if (value := getattr(processing, name))
         }
-        changed = dataclasses.replace(processing, **cut, decimation=None, edge=None)
-        seen = analysed(data.compiled, logs, changed, chosen=True)
-        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+        yield factor, dataclasses.replace(processing, **cut, decimation=None, edge=None)
 
 
 def looked_again(found: Search, looks: Sequence[tuple[str, Data]]) -> list[tuple[Look, ...]]:

@@ -152,7 +152,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         signature="residual against the predicted torque: a line",
         look_alikes="the joint's own parameters all scaled; needs other joints that share them, or "
         "a known load",
-        range="below 30 %",
+        range="mostly below 30 %, up to tenfold; beside the gains of the other joints",
         source="Gautier and Briot 2011, 2014",
     ),
     Effect(
