@@ -23,6 +23,7 @@ from modeler.effects import Acts
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation.channels import Fault
+from modeler.scoring.gains import gain_deviations, gain_visible, is_gain
 from modeler.scoring.propose import ruled_out
 from modeler.scoring.state import Data, State, state_of
 from modeler.scoring.systematic import systematic_share
@@ -157,6 +158,9 @@ def _finding(
     values, deviations = found.end.values[place], judged.deviations * _left(found, step, touched)
     if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
         values, deviations = instrumental(step.before, pick)
+    visible = judged.visible
+    if is_gain(pick):
+        deviations, visible = gain_deviations(found.end, place), gain_visible(found.end, place)
     along = profile_of(found.end, place)
     if along is not None:
         deviations = along.deviations()
@@ -180,7 +184,7 @@ def _finding(
         closure=closed,
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
-        pick=Pick(pick, values, found.end, judged.visible),
+        pick=Pick(pick, values, found.end, visible),
     )
 
 

@@ -11,6 +11,7 @@ from modeler.core.errors import DataError
 from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
+from modeler.diagnose.channel_faults import channel_faults
 from modeler.diagnose.contact import MARGIN, Window, contact_window
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.looks import looked_again, other_looks
@@ -21,7 +22,7 @@ from modeler.effects import Acts, Effect, effect_named
 from modeler.fit import IdentifiedModel
 from modeler.hypotheses.candidates import Known
 from modeler.observation import Log, Observation
-from modeler.observation.channels import Fault, faults
+from modeler.observation.channels import Fault
 from modeler.scoring.state import Data, State, state_of
 from modeler.scoring.timing import logger_shift
 
@@ -60,7 +61,7 @@ def diagnose(
     seen = analysed(compiled, logs, model.processing)
     data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
-    doubted = _faults(model, compiled, seen, other)
+    doubted = channel_faults(model, data, other, logs)
     options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
     found = _searched(data, other, *options)
     aligned = _aligned(data, found, model, logs)
@@ -141,17 +142,6 @@ def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
     processing = data.observation.report.processing
     seen = analysed(data.compiled, holdout, processing, chosen=True)
     return dataclasses.replace(data, observation=seen)
-
-
-def _faults(
-    model: IdentifiedModel, compiled: "CompiledModel", observation: Observation, other: Data | None
-) -> tuple[Fault, ...]:
-    """Channels that contradict the model, of the logs and of the held-out ones."""
-    found = faults(compiled, observation, model.beta)
-    if other is None:
-        return found
-    held = faults(compiled, other.observation, model.beta)
-    return (*found, *(dataclasses.replace(f, line=f"held out: {f.line}") for f in held))
 
 
 def kept_parameters(

@@ -18,10 +18,11 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
 from modeler.diagnose.search import Search, Step, survey_of
 from modeler.hypotheses.candidates import Candidate
-from modeler.observation import Log
+from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST
+from modeler.scoring.gains import all_columns_about, settled
 from modeler.scoring.propose import proposals, ruled_out
-from modeler.scoring.state import Data, State, all_columns_of, state_of, visible
+from modeler.scoring.state import Data, State, state_of, visible
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""
@@ -67,6 +68,13 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
     """
     if other is not None:
         yield "the held-out logs", other
+    for factor, changed in cut_off_otherwise(data, logs):
+        seen = analysed(data.compiled, logs, changed, chosen=True)
+        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+
+
+def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, Processing]]:
+    """The processing of the training logs with the filters elsewhere, by `FACTORS`."""
     processing = data.observation.report.processing
     highest = HIGHEST / max(log.step for log in logs)
     for factor in FACTORS:
@@ -75,9 +83,7 @@ def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator
             for name in ("position_cutoff", "parallel_cutoff")
             if (value := getattr(processing, name))
         }
-        changed = dataclasses.replace(processing, **cut, decimation=None, edge=None)
-        seen = analysed(data.compiled, logs, changed, chosen=True)
-        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+        yield factor, dataclasses.replace(processing, **cut, decimation=None, edge=None)
 
 
 def looked_again(
@@ -135,7 +141,8 @@ def _logged(data: Data, candidate: Candidate) -> bool:
 def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
     """The state in which the effect was chosen, from other data."""
     once = state_of(data, picks, before.beta)
-    return state_of(data, picks, once.beta, once.cache)
+    about = settled(once)
+    return state_of(data, picks, once.beta if about is None else about, once.cache)
 
 
 def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
@@ -146,6 +153,6 @@ def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     keys = {c.key for c in first}
     again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
     every = [c for c in (*first, *again) if _logged(state.data, c)]
-    columns = all_columns_of(state.rows, every, state.cache)
+    columns = all_columns_about(state, every)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])

@@ -9,14 +9,12 @@ from modeler.effects import Needs
 from modeler.fit.possible import body, nearest_possible
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import body_parameters
+from modeler.scoring.gains import TENFOLD
 from modeler.scoring.state import State, columns_of
 
 LOOSE = 5.0
 """Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
 which on it is not this joint that rings."""
-
-FARTHEST = 10.0
-"""Ratio of true and given drive gain, either way, from which on it is no gain."""
 
 LOST = 0.3
 """Share, of the rms that a body on a link explains, that one that can be built may miss."""
@@ -101,10 +99,10 @@ def _alone(state: State, pick: Candidate) -> np.ndarray:
 
 
 def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
-    """The true gain is 1 / (1 - eps) times the given one: no torque constant is off so far."""
+    """A torque of the other sign, or off by that much, is no matter of its torque constant."""
     del state
     eps = parameters[pick.parameter_names()[0]]
-    if 1.0 / FARTHEST < 1.0 - eps < FARTHEST:
+    if 1.0 / TENFOLD < 1.0 - eps < TENFOLD:
         return ""
     true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
     return f"the true gain would be {true} the given one: check sign and unit of that torque"

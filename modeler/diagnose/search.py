@@ -25,10 +25,11 @@ from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
+from modeler.scoring.gains import all_columns_about, is_gain, likeliest, settled
 from modeler.scoring.orders import counted
 from modeler.scoring.polish import best_polished
 from modeler.scoring.propose import proposals, ruled_out
-from modeler.scoring.state import Data, State, all_columns_of, columns_of, state_of, visible
+from modeler.scoring.state import Data, State, columns_of, state_of, visible
 
 _T = TypeVar("_T")
 
@@ -200,7 +201,14 @@ def _counted(state: State, best: Judged) -> list[Judged]:
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
-    """The best effect, or its twin of another law where that explains the same with less."""
+    """The best effect, or its twin of another law where that explains the same with less.
+
+    Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
+    """
+    if is_gain(best.candidate):
+        every = proposals(state, best.candidate.effect.id, without)
+        gains = [c for c in every if not _among(c, vetoed)]
+        return _judged_again(state, likeliest(state, gains) or best.candidate)
     other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
     joint = best.candidate.joint
     if other is None or ruled_out(other.id, joint, without):
@@ -208,7 +216,11 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
     pull = constant_force(state, best.candidate, other)
     if pull is None or _among(pull, vetoed):
         return best
-    return judge(state, [pull], [columns_of(state.rows, pull, state.cache)]).ranked[0]
+    return _judged_again(state, pull)
+
+
+def _judged_again(state: State, candidate: Candidate) -> Judged:
+    return judge(state, [candidate], all_columns_about(state, [candidate])).ranked[0]
 
 
 def _started(data: Data, beta: np.ndarray) -> State:
@@ -328,7 +340,7 @@ def surveyed(
 
 def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     """Some candidates in a state; those that show."""
-    columns = all_columns_of(state.rows, found, state.cache)
+    columns = all_columns_about(state, found)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
     order = sift(state, found, columns)
@@ -356,9 +368,10 @@ def _ripples(candidate: Candidate) -> bool:
 
 def extended(state: State, pick: Candidate) -> State:
     """The state with one effect more, linearised about its own parameters."""
-    picks = (*state.picks, pick)
-    once = state_of(state.data, picks, state.beta, state.cache)
-    return state_of(state.data, picks, once.beta, state.cache)
+    picks, about = (*state.picks, pick), settled(state, pick)
+    once = state_of(state.data, picks, state.beta if about is None else about, state.cache)
+    about = settled(once)
+    return state_of(state.data, picks, once.beta if about is None else about, state.cache)
 
 
 def _backward(
@@ -389,5 +402,4 @@ def _beside(state: State, kept: Sequence[Step], step: Step) -> tuple[Judged, Sta
     """One of the effects, judged in the model with the others, and that model."""
     others = [s.pick for s in kept if s is not step]
     less = state_of(state.data, others, state.beta, state.cache)
-    columns = columns_of(less.rows, step.pick, state.cache)
-    return judge(less, [step.pick], [columns]).ranked[0], less
+    return _judged_again(less, step.pick), less

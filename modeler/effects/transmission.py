@@ -176,7 +176,7 @@ TRANSMISSION: tuple[Effect, ...] = (
         look_alikes="the joint's own parameters all scaled; needs other joints that share them, or "
         "a known load",
         needs=(Needs.GAIN,),
-        range="below 30 %",
+        range="mostly below 30 %, up to tenfold; beside the gains of the other joints",
         source="Gautier and Briot 2011, 2014",
     ),
     Effect(

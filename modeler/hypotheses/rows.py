@@ -103,6 +103,14 @@ def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
     return tuple(None if c is None or not c.any() else c for c in columns)
 
 
+def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
+    """(rows, k) columns on joint j; zeros where there are none."""
+    here = columns[j]
+    if here is not None:
+        return here
+    return np.zeros((rows, next(c.shape[1] for c in columns if c is not None)))
+
+
 def rows_of(observation: Observation, reference: Reference) -> Rows:
     """The rows of an observation.
 

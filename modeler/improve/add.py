@@ -28,6 +28,7 @@ from modeler.improve.rows import Logs, Rows, rows_of
 from modeler.improve.sure import with_shapes
 from modeler.improve.unseen import left_of, left_out
 from modeler.robot import robot_from_text
+from modeler.scoring.gains import gain_visible, is_gain
 from modeler.scoring.score import Score, Unseen, errors_of, rms_error, scored, told
 from modeler.scoring.state import Data, State, state_of
 from modeler.scoring.timing import instrumental
@@ -88,10 +89,12 @@ def add_findings(
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
     """The model with the effects of a diagnosis that lower the error; why others are left out.
 
-    One after the other; each is judged beside those that were put in before it, by `scored`. A
-    reason is one line that names the effect and its joint.
+    One after the other; each is judged beside those that were put in before it, by `scored`. Drive
+    gains come first and are judged together where that lowers the error: one of two wrong gains
+    alone may spoil other joints. A reason is one line that names the effect and its joint.
     """
     left, best = [], _Fitted(model, rows_of(compiled, logs, model.processing))
+    best, findings = _with_gains(best, findings)
     for finding in findings:
         try:
             catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
@@ -106,6 +109,28 @@ def add_findings(
         else:
             left.append(f"left out: {finding.effect}, {where(finding.joint)} ({_refused(score)})")
     return model if best.model is model else _finished(best), tuple(left)
+
+
+def _with_gains(
+    before: _Fitted, findings: Sequence["Finding"]
+) -> tuple[_Fitted, Sequence["Finding"]]:
+    """The model with all drive gains, if there are several and it is better; what is left."""
+    gains = [f for f in findings if f.pick is not None and is_gain(f.pick.candidate)]
+    if len(gains) < 2:
+        return before, findings
+    after = before
+    try:
+        for finding in gains:
+            assert finding.pick is not None
+            after = _judged(after, finding.pick)[0]
+    except (DataError, RobotError):
+        return before, findings
+    if not scored(before.unseen(True), after.unseen(True)).better:
+        return before, findings
+    steps = after.model.history
+    done = [dataclasses.replace(step, falls=True) for step in steps[-len(gains) :]]
+    model = dataclasses.replace(after.model, history=(*steps[: -len(gains)], *done))
+    return dataclasses.replace(after, model=model), [f for f in findings if f not in gains]
 
 
 def _refused(score: Score) -> str:
@@ -148,7 +173,8 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
         values = instrumental(state, best.candidate)[0]
         return Pick(best.candidate, values, state, best.visible)
     later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
-    return Pick(best.candidate, later.values[0], later, best.visible)
+    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
+    return Pick(best.candidate, later.values[0], later, visible)
 
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:

@@ -31,14 +31,19 @@ class Fault:
     Attributes:
         line: where, what, and what to do.
         certain: True if no physics can look like it: then nothing can be said of physics.
+        joint: index of the joint whose torque has another scale; -1 for other doubts.
     """
 
     line: str
     certain: bool
+    joint: int = -1
 
 
 def faults(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: "CompiledModel",
+    observation: Observation,
+    beta: np.ndarray,
+    gains: np.ndarray | None = None,
 ) -> tuple[Fault, ...]:
     """Channels with a wrong sign or unit, or in the place of another, by the model's prediction.
 
@@ -50,8 +55,11 @@ def faults(
         compiled: the robot.
         observation: of the logs.
         beta: (c,) base parameters of the model as it was fitted.
+        gains: (J,) what the torques of the model are multiplied by, if drive gains are wrong.
     """
     predicted = model_torque(observation, compiled, beta)
+    if gains is not None:
+        predicted = predicted * gains
     errors = _errors(observation, predicted)
     wrong = [j for j, error in enumerate(errors) if error > WRONG]
     if not wrong:
@@ -62,6 +70,12 @@ def faults(
         if motion is not None:
             return (motion,)
     return tuple(fault for fault in found.values() if fault is not None)
+
+
+def suspects(compiled: "CompiledModel", observation: Observation, beta: np.ndarray) -> list[int]:
+    """Indices of the joints whose torque the model misses by more than half."""
+    errors = _errors(observation, model_torque(observation, compiled, beta))
+    return [j for j, error in enumerate(errors) if error > WRONG]
 
 
 def _errors(observation: Observation, predicted: np.ndarray) -> np.ndarray:
@@ -88,6 +102,7 @@ def _torque(observation: Observation, predicted: np.ndarray, j: int) -> Fault | 
             f"joint {names[j]}: the measured torque {sign} the predicted one; check sign, unit "
             "and drive gain of that channel",
             not 1.0 / SCALE < gain < SCALE,
+            j,
         )
     for k in range(len(names)):
         other = predicted[used, k]
