@@ -16,7 +16,8 @@ from typing import Any
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.judge import Judged, best_shapes, decide, tied
-from modeler.diagnose.search import Search, Step, survey_of
+from modeler.diagnose.search import Search, Step
+from modeler.diagnose.survey import survey_of
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST

@@ -2,36 +2,28 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.diagnose.braking import DRIVES, drives
 from modeler.diagnose.judge import (
+    NEARLY,
     Judged,
     Judgement,
-    Order,
     alternatives,
-    decide,
     judge,
-    judged_at,
-    leading,
-    sift,
 )
 from modeler.diagnose.levers import constant_force
 from modeler.diagnose.plausible import objection
+from modeler.diagnose.survey import Survey, among, surveyed
 from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
-from modeler.hypotheses.rows import Columns
 from modeler.scoring.gains import all_columns_about, is_gain, likeliest, settled
 from modeler.scoring.orders import counted
-from modeler.scoring.polish import best_polished
 from modeler.scoring.propose import proposals, ruled_out
-from modeler.scoring.state import Data, State, columns_of, state_of, visible
-
-_T = TypeVar("_T")
+from modeler.scoring.state import Data, State, columns_of, state_of
 
 MOST = 8
 """Effects named in one diagnosis."""
@@ -39,23 +31,6 @@ MOST = 8
 ASKED = 20
 """Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
 many, it is other motion, or the logs hold nothing that returns."""
-
-STARTS = 4
-"""Grid values from which an effect with two shapes is refined: its fit has several summits."""
-
-NEAR = 0.95
-"""Share of the best fall with which another fixed shape of an effect is refined too."""
-
-CLOSE = 0.7
-"""Rivals with this share of the best fall are refined before the best is chosen: up to `MANY`."""
-
-MANY = 5
-
-BETTER = 0.5
-"""What a vetoed effect may leave, over what it left then, to be asked for again."""
-
-WORTH = 0.02
-"""Gain below which nothing is refined."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,31 +107,19 @@ def search(
         if len(vetoed) + len(refused) == ASKED:
             break
         first = judgement.best
-        accepted = put_in(state, _named(state, first, refused, without), veto)
-        if isinstance(accepted, Refused):
-            refused.append(accepted.judged)
-            judgement = survey.judged(refused, tick)
+        asked = put_in(state, _named(state, first, refused, without), veto)
+        best, later = asked.judged, asked.later
+        other = _instead(survey, refused, asked, tick)
+        if other is not None or later is None:
+            refused, judgement = [*refused, best], other or Judgement((), None)
             continue
-        (best, later), survey = accepted, surveyed(accepted[1], without)
+        survey = surveyed(later, without)
         vetoed, refused = [*vetoed, *refused], survey.still(refused)
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
-    if not steps and (described := _description(start, refused, judgement, veto)):
-        steps, state = [described], extended(start, described.pick)
     kept, state = _backward(state, steps, veto, tick)
     return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
-
-
-def _description(
-    start: State, refused: Sequence[Judged], last: Judgement, veto: Veto | None
-) -> Step | None:
-    """Where nothing was named, what describes the logs best though it cannot be the cause."""
-    doubted = [judged for judged in refused if judged.why not in ("", DRIVES)]
-    for best in sorted(doubted, key=lambda judged: -judged.share):
-        if veto is None or not veto(start, extended(start, best.candidate), best):
-            return Step(best, last.others(best), start)
-    return None
 
 
 def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
@@ -164,23 +127,43 @@ def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgeme
 
 
 @dataclass(frozen=True, eq=False)
-class Refused:
-    """An effect that was not put in; `judged.why` says why if physics refused it."""
+class Asked:
+    """An effect that led, with what speaks against its values, and the state with it.
+
+    `later` is None where it was refused: `judged.why` says why, if it is not by held-out motion.
+    """
 
     judged: Judged
+    later: State | None
 
 
-def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | Refused:
-    """The effect, or a ripple with its order counted, and the state with it."""
+def put_in(state: State, best: Judged, veto: Veto | None) -> Asked:
+    """The effect, or a ripple with its order counted."""
     for judged in (best, *_counted(state, best)):
         later = extended(state, judged.candidate)
         if drives(state, later, judged.candidate):
-            return Refused(dataclasses.replace(judged, possible=False, why=DRIVES))
-        if why := _objection(later):
-            return Refused(dataclasses.replace(judged, possible=False, why=why))
+            return Asked(dataclasses.replace(judged, possible=False, why=DRIVES), None)
         if veto is None or not veto(state, later, judged):
-            return judged, later
-    return Refused(best)
+            why = _objection(later)
+            return Asked(dataclasses.replace(judged, why=why) if why else judged, later)
+    return Asked(best, None)
+
+
+def _instead(
+    survey: Survey, refused: Sequence[Judged], asked: Asked, tick: Callable[[], None]
+) -> Judgement | None:
+    """What leads without an effect that was refused, or is doubted while another explains as much.
+
+    None where the effect is put in.
+    """
+    doubted = asked.judged
+    if asked.later is not None and not doubted.why:
+        return None
+    without = survey.judged([*refused, doubted], tick)
+    best = without.best
+    if asked.later is None or (best is not None and best.share > NEARLY * doubted.share):
+        return without
+    return None
 
 
 def _objection(later: State) -> str:
@@ -193,7 +176,7 @@ def _objection(later: State) -> str:
 def _counted(state: State, best: Judged) -> list[Judged]:
     """A ripple of which the order is no whole number, with the one next to it."""
     candidate = best.candidate
-    if not _ripples(candidate) or candidate.order == counted(candidate.order):
+    if not candidate.effect.several or candidate.order == counted(candidate.order):
         return []
     whole = candidate.of_order(counted(candidate.order))
     found = judge(state, [whole], [columns_of(state.rows, whole, state.cache)]).best
@@ -207,14 +190,14 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
     """
     if is_gain(best.candidate):
         every = proposals(state, best.candidate.effect.id, without)
-        gains = [c for c in every if not _among(c, vetoed)]
+        gains = [c for c in every if not among(c, vetoed)]
         return _judged_again(state, likeliest(state, gains) or best.candidate)
     other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
     joint = best.candidate.joint
     if other is None or ruled_out(other.id, joint, without):
         return best
     pull = constant_force(state, best.candidate, other)
-    if pull is None or _among(pull, vetoed):
+    if pull is None or among(pull, vetoed):
         return best
     return _judged_again(state, pull)
 
@@ -227,143 +210,6 @@ def _started(data: Data, beta: np.ndarray) -> State:
     """Without any effect, linearised about its own parameters."""
     given = state_of(data, (), beta)
     return state_of(data, (), given.beta, given.cache)
-
-
-@dataclass(frozen=True, eq=False)
-class Survey:
-    """Every candidate in a state.
-
-    Attributes:
-        state: it.
-        found: candidates that show.
-        columns: theirs.
-        best: every effect on every joint at the best of its shapes, none refined, best first.
-        order: what chooses among the shapes of `found`.
-        refined: effects that were refined, by the shapes that this began with.
-    """
-
-    state: State
-    found: Sequence[Candidate]
-    columns: Sequence[Columns]
-    best: Sequence[Judged]
-    order: Sequence[Order] = ()
-    refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
-
-    def still(self, refused: Sequence[Judged]) -> list[Judged]:
-        """Vetoed effects that have not become far better by the effect put in since."""
-        gains = {judged.candidate.key: judged.gain for judged in self.best}
-        return [
-            j for j in refused
-            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
-        ]  # fmt: skip
-
-    def but(self, vetoed: Sequence[Judged]) -> "Survey":
-        """The same without what was vetoed."""
-        left = [i for i, c in enumerate(self.found) if not _among(c, vetoed)]
-        if len(left) == len(self.found):
-            return self
-        found, columns = _picked(self.found, left), _picked(self.columns, left)
-        order = _picked(self.order, left)
-        touched = {c.key for c in self.found if _among(c, vetoed)}
-        again = [i for i in leading(found, order) if found[i].key in touched]
-        best = [j for j in self.best if j.candidate.key not in touched]
-        best += judged_at(self.state, found, columns, again)
-        best.sort(key=lambda j: -float(j.drop.sum()))
-        return Survey(self.state, found, columns, best, order, self.refined)
-
-    def judged(
-        self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
-    ) -> Judgement:
-        """All but what was vetoed; the leading ones refined, with a tick after each."""
-        left = self.but(vetoed)
-        close = [
-            j for j in left.best[:MANY]
-            if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
-        ]  # fmt: skip
-        # Of effects that were not refined, only the best shapes may win still.
-        refined = {}
-        for item in close:
-            refined[item.candidate.key] = left.at_best(item)
-            tick()
-        best = [refined.get(j.candidate.key, j) for j in left.best]
-        return decide(self.state, sorted(best, key=lambda j: -float(j.drop.sum())))
-
-    def at_best(self, judged: Judged) -> Judged:
-        """An effect with its best shapes refined, or with the next best if these do better."""
-        starts = self.starts(judged.candidate)
-        key = tuple((*c.key, *c.shapes.items()) for c in starts)
-        if key not in self.refined:
-            self.refined[key] = self._refined(judged, starts)
-        return self.refined[key]
-
-    def _refined(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
-        better = best_polished(self.state, starts)
-        if better is judged.candidate:
-            return judged
-        first = judged.candidate
-        others = [i for i, c in enumerate(self.found) if c.key == first.key and c is not first]
-        found = [better, *_picked(self.found, others)]
-        columns = [columns_of(self.state.rows, better, {}), *_picked(self.columns, others)]
-        order = [*sift(self.state, found[:1], columns[:1]), *_picked(self.order, others)]
-        return judged_at(self.state, found, columns, leading(found, order))[0]
-
-    def starts(self, first: Candidate) -> list[Candidate]:
-        """Shapes of one effect from which refining starts, the best first.
-
-        With one shape to refine, the best for each value of the others, if it comes near; with
-        more, the best few.
-        """
-        refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
-        if len(first.form.shapes) < 2 or not refined:
-            return [first]
-        own = [i for i, c in enumerate(self.found) if c.key == first.key]
-        total = np.array([self.order[i][1] for i in own])
-        least = NEAR * float(total.max()) if len(refined) == 1 else -np.inf
-        places = [own[k] for k in np.argsort(-total) if total[k] >= least]
-        order = [first, *(c for c in (self.found[i] for i in places) if c is not first)]
-        if len(refined) > 1:
-            return order[:STARTS]
-        best: dict[tuple[float, ...], Candidate] = {}
-        for c in order:
-            best.setdefault(tuple(v for n, v in c.shapes.items() if n != refined[0]), c)
-        return list(best.values())
-
-
-def surveyed(
-    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
-) -> Survey:
-    """All candidates in a state, or those of one effect, or of one joint."""
-    return survey_of(
-        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
-    )
-
-
-def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
-    """Some candidates in a state; those that show."""
-    columns = all_columns_about(state, found)
-    seen = [i for i, c in enumerate(columns) if visible(c)]
-    found, columns = _picked(found, seen), _picked(columns, seen)
-    order = sift(state, found, columns)
-    best = judged_at(state, found, columns, leading(found, order))
-    return Survey(state, found, columns, best, order)
-
-
-def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
-    return [items[i] for i in places]
-
-
-def _among(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
-    """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
-    others = [judged.candidate for judged in vetoed]
-    if not _ripples(candidate):
-        return any(c.key == candidate.key for c in others if not _ripples(c))
-    order = candidate.order
-    orders = [c.order for c in others if _ripples(c)]
-    return any(abs(order - m) < 0.1 * m for m in orders)
-
-
-def _ripples(candidate: Candidate) -> bool:
-    return candidate.effect.several
 
 
 def extended(state: State, pick: Candidate) -> State:

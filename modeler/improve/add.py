@@ -15,8 +15,9 @@ from modeler.diagnose.analyse import analysed
 from modeler.diagnose.diagnosis import kept_parameters
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.result import Pick
-from modeler.diagnose.search import extended, survey_of, surveyed
+from modeler.diagnose.search import extended
 from modeler.diagnose.sentences import where
+from modeler.diagnose.survey import survey_of, surveyed
 from modeler.effects import Acts, Effect
 from modeler.fit import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.hypotheses.candidates import Known

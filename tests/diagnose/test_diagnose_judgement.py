@@ -12,8 +12,8 @@ from modeler.diagnose.braking import DRIVES
 from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
-from modeler.diagnose.search import Survey
 from modeler.diagnose.sentences import other_names, refused_lines
+from modeler.diagnose.survey import Survey
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, candidates, scales_of
 from tests.diagnose.conftest import Case
@@ -147,7 +147,7 @@ def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
     monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
     monkeypatch.setattr(search, "_objection", lambda later: "")
     found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
-    named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
+    named = None if found.later is None else found.judged.candidate.shapes["m"]
     assert named == order
 
 
@@ -155,9 +155,9 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     """With a tenth around every order of a ripple banned, there is always another one to ask."""
     asked = []
 
-    def refused(state: object, best: object, veto: object) -> search.Refused:
+    def refused(state: object, best: object, veto: object) -> search.Asked:
         asked.append(best)
-        return search.Refused(SimpleNamespace(why=""))  # type: ignore[arg-type]
+        return search.Asked(SimpleNamespace(why=""), None)  # type: ignore[arg-type]
 
     class Endless:
         def judged(self, vetoed: object = (), tick: object = None) -> SimpleNamespace:
@@ -179,32 +179,21 @@ def at_its_best(effect_id: str, share: float) -> Judged:
     return Judged(candidate, share, share, np.ones(40), one, one, 11.0, 0.1, 0.5, possible=True)
 
 
-@pytest.mark.parametrize("doubt", ["", "too heavy"])
-def test_what_belongs_to_no_such_robot_is_not_put_in(
-    monkeypatch: pytest.MonkeyPatch, doubt: str
+@pytest.mark.parametrize(("share", "taken"), [(0.49, True), (0.3, False)])
+def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
+    share: float, taken: bool
 ) -> None:
-    item = at_its_best("elasticity", 0.5)
-    monkeypatch.setattr(search, "extended", lambda state, candidate: "later")
-    monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
-    monkeypatch.setattr(search, "_objection", lambda later: doubt)
-    found = search.put_in(None, item, None)  # type: ignore[arg-type]
-    assert isinstance(found, search.Refused) is bool(doubt)
-    if isinstance(found, search.Refused):
-        assert found.judged.why == doubt and not found.judged.possible
-
-
-def test_where_nothing_is_named_the_best_of_what_was_doubted_describes() -> None:
-    refused = [
-        dataclasses.replace(at_its_best(name, share), why=why)
-        for name, share, why in (
-            ("elasticity", 0.5, "too heavy"), ("drift", 0.9, DRIVES), ("spring", 0.8, ""),
-            ("payload", 0.6, "no mass"),
-        )
-    ]  # fmt: skip
-    last = search.Judgement((), None)
-    described = search._description(None, refused, last, None)  # type: ignore[arg-type]
-    assert described is not None and described.pick.effect.id == "payload"
-    assert search._description(None, refused[1:3], last, None) is None  # type: ignore[arg-type]
+    doubted = dataclasses.replace(at_its_best("elasticity", 0.5), why="too heavy")
+    rival = search.Judgement((), at_its_best("spring", share))
+    survey = SimpleNamespace(judged=lambda vetoed, tick: rival)
+    instead = lambda judged: search._instead(  # noqa: E731
+        survey,
+        [],
+        search.Asked(judged, SimpleNamespace()),
+        print,  # type: ignore[arg-type]
+    )
+    assert (instead(doubted) is rival) is taken
+    assert instead(dataclasses.replace(doubted, why="")) is None
 
 
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
