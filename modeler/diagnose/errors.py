@@ -59,6 +59,9 @@ def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:
     return float(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
 
 
+KEPT = 0.2
+"""Share of the expected gain that must come true on held-out motion, which may excite it less."""
+
 TOUCHED = 0.1
 """Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
 
@@ -82,8 +85,8 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
 def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
     """A veto by held-out logs: True if a state with an effect more is not the better one there.
 
-    The error of the joints that it touches must fall by what is worth a name, and by more than
-    chance (`scored`).
+    The error of the joints that it touches must fall by what is worth a name, by a good part of
+    what the effect lets expect, and by more than chance (`scored`).
 
     Args:
         data: held-out logs.
@@ -95,7 +98,7 @@ def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
             over(before, touched, relative(*held_out_squares(state, data)))
             for state in (before, after)
         )
-        if 1.0 - (new / max(old, 1e-300)) ** 2 < GATE:
+        if 1.0 - (new / max(old, 1e-300)) ** 2 < max(GATE, KEPT * judged.gain):
             return True
         return not scored(*(_unseen(state, data) for state in (before, after))).better
 

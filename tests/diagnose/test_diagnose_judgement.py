@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known, search
+from modeler.diagnose import Known, errors, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.braking import DRIVES
 from modeler.diagnose.judge import Judged, decide, possible
@@ -216,3 +216,22 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     assert "(elasticity), joint 2, explains 60 %" in first and "errors of timing" in first
     assert "(spring), joint 1, explains 50 %" in second and "held-out motion" in second
     assert "(drift), joint 2, explains 40 %" in third and "would drive" in third
+
+
+@pytest.mark.parametrize(
+    ("after", "expected", "refused"),
+    [(0.5, 0.9, False), (0.985, 0.02, True), (0.92, 0.9, True), (0.92, 0.3, False)],
+)
+def test_an_effect_keeps_on_other_motion_what_it_promises(
+    monkeypatch: pytest.MonkeyPatch, after: float, expected: float, refused: bool
+) -> None:
+    """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
+    seen = {"before": np.ones(1), "after": np.array([after**2])}
+    monkeypatch.setattr(errors, "held_out_squares", lambda state, data: (seen[state], np.ones(1)))
+    monkeypatch.setattr(errors, "touched_joints", lambda judged, before, after: [0])
+    monkeypatch.setattr(errors, "over", lambda state, joints, error: float(error[0]))
+    monkeypatch.setattr(errors, "_unseen", lambda state, data: state)
+    monkeypatch.setattr(errors, "scored", lambda *a: SimpleNamespace(better=True))
+    veto = errors.vetoing(None)  # type: ignore[arg-type]
+    judged_at = SimpleNamespace(gain=expected)
+    assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]
