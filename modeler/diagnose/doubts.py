@@ -2,12 +2,17 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from modeler.diagnose.data_checks import data_lines
 from modeler.diagnose.late import late_lines
 from modeler.diagnose.search import Search
 from modeler.fit import IdentifiedModel
 from modeler.observation.channels import Fault
 from modeler.scoring.state import Data, State
+
+MENDED = 0.25
+"""Share of a joint's squared residual: with less of it left, its torque has the scale it should."""
 
 
 def doubts(
@@ -21,7 +26,7 @@ def doubts(
         other: held-out logs.
         faults: channels that contradict the model.
     """
-    lines = [fault.line for fault in faults]
+    lines = [fault.line for fault in faults if fault.certain or not _explained(found, fault.joint)]
     if not any(fault.certain for fault in faults):
         lines += late_lines(found)
     lines += [*_moved(model, found.start.data), *data_lines(found.start)]
@@ -29,6 +34,14 @@ def doubts(
         lines += [f"held out: {line}" for line in other.observation.report.doubts()]
         lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
+
+
+def _explained(found: Search, j: int) -> bool:
+    """True if the effects named explain most of what a joint's torque differs by."""
+    if j < 0 or not found.start.residual[j].size:
+        return False
+    before, after = (float(np.mean(s.residual[j] ** 2)) for s in (found.start, found.end))
+    return after < MENDED * before
 
 
 def _moved(model: IdentifiedModel, data: Data) -> list[str]:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known, errors, search
+from modeler.diagnose import Known, doubts, errors, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.braking import DRIVES
 from modeler.diagnose.judge import Judged, decide, possible
@@ -16,6 +16,7 @@ from modeler.diagnose.sentences import other_names, refused_lines
 from modeler.diagnose.survey import Survey
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, candidates, scales_of
+from modeler.observation.channels import Fault
 from tests.diagnose.conftest import Case
 
 TURNING = ("counterbalance", "constant_force_spring", "encoder_eccentricity")
@@ -235,3 +236,17 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
     veto = errors.vetoing(None)  # type: ignore[arg-type]
     judged_at = SimpleNamespace(gain=expected)
     assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("left", "certain", "told"), [(0.4, False, 0), (0.6, False, 1), (0.4, True, 1)]
+)
+def test_what_an_effect_explains_is_no_matter_of_the_channel(
+    monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
+) -> None:
+    start, end = (SimpleNamespace(residual=[np.full(10, size)], data=None) for size in (1.0, left))
+    for name in ("late_lines", "_moved", "data_lines"):
+        monkeypatch.setattr(doubts, name, lambda *a: [])
+    faults = [Fault("torque 1 is 0.7 times the predicted", certain, 0)]
+    found = SimpleNamespace(start=start, end=end)
+    assert len(doubts.doubts(None, found, None, faults)) == told  # type: ignore[arg-type]
