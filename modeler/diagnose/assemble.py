@@ -130,7 +130,7 @@ def _findings(
         squares = [left for left, _ in seen[k:]] if seen else None
         closed = closure(chain[k:], touched, systematic, squares)
         finding = _finding(found, step, touched, errors[k : k + 2], closed)
-        if finding.error_after <= LOST:
+        if finding.error_after <= min(LOST, finding.error_before):
             findings.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
         tick()
     return detected(found, window, errors[-1], findings)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from modeler.diagnose.judge import GATE, Judged
+from modeler.diagnose.judge import Judged
 from modeler.scoring.score import Unseen, scored
 from modeler.scoring.state import Data, State, picked_columns
 
@@ -85,8 +85,8 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
 def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
     """A veto by held-out logs: True if a state with an effect more is not the better one there.
 
-    The error of the joints that it touches must fall by what is worth a name, by a good part of
-    what the effect lets expect, and by more than chance (`scored`).
+    The error of the joints that it touches must fall by a good part of what the effect lets expect,
+    and by more than chance (`scored`).
 
     Args:
         data: held-out logs.
@@ -98,7 +98,7 @@ def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
             over(before, touched, relative(*held_out_squares(state, data)))
             for state in (before, after)
         )
-        if 1.0 - (new / max(old, 1e-300)) ** 2 < max(GATE, KEPT * judged.gain):
+        if 1.0 - (new / max(old, 1e-300)) ** 2 < KEPT * judged.gain:
             return True
         return not scored(*(_unseen(state, data) for state in (before, after))).better
 

@@ -221,7 +221,7 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
 
 @pytest.mark.parametrize(
     ("after", "expected", "refused"),
-    [(0.5, 0.9, False), (0.985, 0.02, True), (0.92, 0.9, True), (0.92, 0.3, False)],
+    [(0.5, 0.9, False), (0.999, 0.04, True), (0.92, 0.9, True), (0.92, 0.3, False)],
 )
 def test_an_effect_keeps_on_other_motion_what_it_promises(
     monkeypatch: pytest.MonkeyPatch, after: float, expected: float, refused: bool
