@@ -156,6 +156,8 @@ def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
     columns = all_columns_about(state, found)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
+    if not found:
+        return Survey(state, (), (), (), ())
     order = sift(state, found, columns)
     best = judged_at(state, found, columns, leading(found, order))
     return Survey(state, found, columns, best, order)

@@ -34,7 +34,7 @@ def proposals(
         return not ruled_out(effect, joint, without)
 
     found = candidates(spec, state.scales, temperature, present, known, allowed)
-    found = [c for c in found if _lasts(state, c)]
+    found = [c for c in found if only is not None or _lasts(state, c)]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         found += ripple_candidates(state, allowed, waves)

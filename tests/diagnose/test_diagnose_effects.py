@@ -235,17 +235,16 @@ def test_a_joint_that_never_moves_is_said(case: Case) -> None:
 
 
 def test_friction_that_would_drive_is_not_named(case: Case) -> None:
-    """What fades to less than nothing is no warm-up, though the column of one describes it."""
+    """A torque that follows the direction and helps the motor at half of the poses."""
 
-    def fading(log: Log) -> np.ndarray:
-        _, v = motion(log)
-        fall = 14.0 * (np.exp(-log.time / 12.0) - 1.0)
-        return on_joint(log, 1, fall * np.tanh(v[:, 1] / 0.002))
+    def helping(log: Log) -> np.ndarray:
+        q, v = motion(log)
+        return on_joint(log, 1, 60.0 * np.cos(q[:, 1]) * np.tanh(v[:, 1] / 0.002))
 
-    diagnosis = found(case, fading)
-    assert not any(f.effect == "temperature_friction" for f in diagnosis.effects)
+    diagnosis = found(case, helping)
+    assert not any(f.effect == "position_friction" for f in diagnosis.effects)
     assert any(
-        "temperature_friction" in line and "would drive" in line for line in diagnosis.sentences
+        "position_friction" in line and "would drive" in line for line in diagnosis.sentences
     )
 
 
