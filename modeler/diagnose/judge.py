@@ -23,12 +23,6 @@ SURE = 4.5
 """Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
 chance with one candidate in a hundred thousand."""
 
-STRONG = 0.15
-"""Gain from which on an effect may show in few moments: noise never explains as much elsewhere."""
-
-RARE = 3.0
-"""Least of that ratio then."""
-
 TIED = 2.0
 """Paired differences over blocks below this many standard errors do not decide."""
 
@@ -98,8 +92,7 @@ class Judged:
     @property
     def significant(self) -> bool:
         """True if it is worth a name."""
-        surely = self.sure > SURE or (self.gain > STRONG and self.sure > RARE)
-        big = self.gain > GATE and surely and self.felt > FELT
+        big = self.gain > GATE and self.sure > SURE and self.felt > FELT
         return big and self.possible and self.confirmed and self.visible > VISIBLE
 
 
