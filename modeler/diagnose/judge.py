@@ -32,9 +32,6 @@ SAME = 0.3
 NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
 
-MORE = 1.3
-"""What that one may leave of the squared residuals, at most, over what the best leaves."""
-
 
 @dataclass(frozen=True, eq=False)
 class Judged:
@@ -186,7 +183,6 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         other for other in tied(best, judged)
         if other.significant and (timing or not other.candidate.effect.timing)
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
-        and (best.mends or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
 
     def place(j: Judged) -> tuple[bool, bool, float, float]:
@@ -272,11 +268,6 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
         difference = best.drop - other.drop
         spread = float(np.sqrt(np.sum((difference - difference.mean()) ** 2)))
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        near = (
-            best.gain < NEARLY
-            and other.candidate.joint == best.candidate.joint
-            and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
-        )
-        if float(difference.sum()) < TIED * spread or same or near:
+        if float(difference.sum()) < TIED * spread or same:
             found.append(other)
     return found
