@@ -47,9 +47,6 @@ CLOSE = 0.7
 
 MANY = 5
 
-BETTER = 0.5
-"""What a vetoed effect may leave, over what it left then, to be asked for again."""
-
 WORTH = 0.02
 """Gain below which nothing is refined."""
 
@@ -120,11 +117,11 @@ def search(
         tick: called whenever something is done.
     """
     start = state = _started(data, beta)
-    steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # in this state
+    steps, refused = list[Step](), list[Judged]()
     survey = surveyed(state, without) if most else None
     judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
-        if len(vetoed) + len(refused) == ASKED:
+        if len(refused) == ASKED:
             break
         first = judgement.best
         accepted = put_in(state, _named(state, first, refused, without), veto)
@@ -133,14 +130,13 @@ def search(
             judgement = survey.judged(refused, tick)
             continue
         (best, later), survey = accepted, surveyed(accepted[1], without)
-        vetoed, refused = [*vetoed, *refused], survey.still(refused)
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
     if not steps and (described := _description(start, refused, judgement)):
         steps, state = [described], extended(start, described.pick)
     kept, state = _backward(state, steps, veto, tick)
-    return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
+    return Search(start, tuple(kept), state, judgement, tuple(refused), tuple(without))
 
 
 def _description(start: State, refused: Sequence[Judged], last: Judgement) -> Step | None:
@@ -230,14 +226,6 @@ class Survey:
     best: Sequence[Judged]
     order: Sequence[Order] = ()
     refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
-
-    def still(self, refused: Sequence[Judged]) -> list[Judged]:
-        """Vetoed effects that have not become far better by the effect put in since."""
-        gains = {judged.candidate.key: judged.gain for judged in self.best}
-        return [
-            j for j in refused
-            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
-        ]  # fmt: skip
 
     def but(self, vetoed: Sequence[Judged]) -> "Survey":
         """The same without what was vetoed."""

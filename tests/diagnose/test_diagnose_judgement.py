@@ -12,7 +12,6 @@ from modeler.diagnose.braking import DRIVES
 from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
-from modeler.diagnose.search import Survey
 from modeler.diagnose.sentences import other_names, refused_lines
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, candidates, scales_of
@@ -54,22 +53,6 @@ def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be:
     assert found is not None
     candidate = Candidate(found, found.forms[0], "1", 0)
     assert possible(candidate, np.array([value])) is may_be
-
-
-def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
-    candidate = SimpleNamespace(key=(effect, "1"))
-    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends, possible=True)
-
-
-@pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
-def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
-    before: float, now: float, again: bool
-) -> None:
-    survey = Survey(None, (), (), (judged("spring", now),))  # type: ignore[arg-type]
-    refused = [judged("spring", before), judged("stribeck", 0.2, mends=True)]
-    kept = survey.still(refused)  # type: ignore[arg-type]
-    assert (refused[0] not in kept) is again
-    assert refused[1] in kept, "what only mends a law stays refused"
 
 
 @pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])
