@@ -25,7 +25,6 @@ from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
-from modeler.scoring.orders import counted
 from modeler.scoring.polish import best_polished
 from modeler.scoring.propose import proposals, ruled_out
 from modeler.scoring.state import Data, State, all_columns_of, columns_of, state_of, visible
@@ -160,16 +159,12 @@ class Refused:
 
 
 def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State] | Refused:
-    """The effect, or a ripple with its order counted, and the state with it."""
-    for judged in (best, *_counted(state, best)):
-        later = extended(state, judged.candidate)
-        if drives(state, later, judged.candidate):
-            return Refused(dataclasses.replace(judged, possible=False, why=DRIVES))
-        if why := _objection(later):
-            return Refused(dataclasses.replace(judged, possible=False, why=why))
-        if veto is None or not veto(state, later):
-            return judged, later
-    return Refused(best)
+    """The effect, and the state with it."""
+    later = extended(state, best.candidate)
+    why = DRIVES if drives(state, later, best.candidate) else _objection(later)
+    if why:
+        return Refused(dataclasses.replace(best, possible=False, why=why))
+    return Refused(best) if veto is not None and veto(state, later) else (best, later)
 
 
 def _objection(later: State) -> str:
@@ -177,16 +172,6 @@ def _objection(later: State) -> str:
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     return objection(later, pick, named.value | dict(pick.shapes))
-
-
-def _counted(state: State, best: Judged) -> list[Judged]:
-    """A ripple of which the order is no whole number, with the one next to it."""
-    candidate = best.candidate
-    if not _ripples(candidate) or candidate.order == counted(candidate.order):
-        return []
-    whole = candidate.of_order(counted(candidate.order))
-    found = judge(state, [whole], [columns_of(state.rows, whole, state.cache)]).best
-    return [] if found is None else [found]
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:

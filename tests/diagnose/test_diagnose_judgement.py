@@ -9,7 +9,7 @@ import pytest
 from modeler.diagnose import Known, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.braking import DRIVES
-from modeler.diagnose.judge import Judged, decide, possible
+from modeler.diagnose.judge import Judged, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
 from modeler.diagnose.sentences import other_names, refused_lines
@@ -92,28 +92,6 @@ def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: s
     assert (other_names(first) == "") is agrees
     if not agrees:
         assert "1 of 2 other looks only, not before stribeck on joint 1 (low)" in other_names(first)
-
-
-@pytest.mark.parametrize(("refuse", "order"), [((), 36.3), ((36.3,), 36.0), ((36.3, 36.0), None)])
-def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
-    monkeypatch: pytest.MonkeyPatch, refuse: tuple[float, ...], order: float | None
-) -> None:
-    effect = effect_named("joint_ripple")
-    assert effect is not None
-
-    def at(waves: float) -> SimpleNamespace:
-        return SimpleNamespace(candidate=Candidate(effect, effect.forms[0], "1", 0, {"m": waves}))
-
-    monkeypatch.setattr(search, "columns_of", lambda rows, candidate, cache: ())
-    monkeypatch.setattr(search, "extended", lambda state, candidate: candidate)
-    judged = lambda s, found, c: SimpleNamespace(best=at(found[0].shapes["m"]))  # noqa: E731
-    monkeypatch.setattr(search, "judge", judged)
-    state = SimpleNamespace(rows=None, cache={})
-    monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
-    monkeypatch.setattr(search, "_objection", lambda later: "")
-    found = search.put_in(state, at(36.3), lambda a, later: later.shapes["m"] in refuse)
-    named = None if isinstance(found, search.Refused) else found[0].candidate.shapes["m"]
-    assert named == order
 
 
 def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
