@@ -39,7 +39,10 @@ ASKED = 20
 many, it is other motion, or the logs hold nothing that returns."""
 
 STARTS = 4
-"""Grid values from which an effect with two shapes to refine is: its fit has several summits."""
+"""Grid values from which an effect with two shapes is refined: its fit has several summits."""
+
+NEAR = 0.95
+"""Share of the best fall with which another fixed shape of an effect is refined too."""
 
 CLOSE = 0.7
 """Rivals with this share of the best fall are refined before the best is chosen: up to `MANY`."""
@@ -263,12 +266,25 @@ class Survey:
         return judged_at(self.state, found, columns, leading(found, order))[0]
 
     def starts(self, first: Candidate) -> list[Candidate]:
-        """Shapes from which refining an effect starts: the best, or with several the best few."""
-        if sum(s.smooth and len(s.grid) > 1 for s in first.form.shapes) < 2:
+        """Shapes of one effect from which refining starts, the best first.
+
+        With one shape to refine, the best for each value of the others, if it comes near; with
+        more, the best few.
+        """
+        refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
+        if len(first.form.shapes) < 2 or not refined:
             return [first]
         own = [i for i, c in enumerate(self.found) if c.key == first.key]
-        order = [self.found[i] for i in sorted(own, key=lambda i: -self.order[i][1])]
-        return [first, *(c for c in order if c is not first)][:STARTS]
+        total = np.array([self.order[i][1] for i in own])
+        least = NEAR * float(total.max()) if len(refined) == 1 else -np.inf
+        places = [own[k] for k in np.argsort(-total) if total[k] >= least]
+        order = [first, *(c for c in (self.found[i] for i in places) if c is not first)]
+        if len(refined) > 1:
+            return order[:STARTS]
+        best: dict[tuple[float, ...], Candidate] = {}
+        for c in order:
+            best.setdefault(tuple(v for n, v in c.shapes.items() if n != refined[0]), c)
+        return list(best.values())
 
 
 def surveyed(
