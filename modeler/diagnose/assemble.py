@@ -32,9 +32,6 @@ from modeler.scoring.timing import instrumental
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
 
-SMALLER = 0.4
-"""Torque of an effect over that of one of its family before, below which it only mends that."""
-
 
 SAME_WAVES = 0.1
 """Orders that differ by less than this share are one."""
@@ -207,7 +204,7 @@ def _same(judged: Judged, found: Search) -> list[Key]:
 def _refines(found: Search, step: Step) -> bool:
     """True if it mends a law in the model, or an effect of its family named before on its joint.
 
-    Those are far smaller than what they mend. What moves the links is felt next to its joint too.
+    Those are smaller than what they mend. What moves the links is felt next to its joint too.
     """
     if _mends(found, step):
         return True
@@ -222,7 +219,7 @@ def _refines(found: Search, step: Step) -> bool:
         alike = first.joint == later.joint and first.effect.family == later.effect.family
         moves = first.effect is later.effect and first.effect.acts is Acts.POSITION
         beside = moves and abs(first.index - later.index) <= 1
-        if (alike or beside) and step.judged.felt < SMALLER * earlier.judged.felt:
+        if (alike or beside) and step.judged.felt < earlier.judged.felt:
             return True
     return False
 

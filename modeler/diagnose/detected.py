@@ -8,7 +8,7 @@ import numpy as np
 from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.contact import Window
 from modeler.diagnose.errors import over
-from modeler.diagnose.judge import GATE, RARE, SURE, Judged
+from modeler.diagnose.judge import GATE, SURE, Judged
 from modeler.diagnose.result import Finding, finite
 from modeler.diagnose.search import Search
 from modeler.effects import Acts, Effect
@@ -24,9 +24,6 @@ FAINT = 4.0
 
 BESIDE = 5.0
 """The same beside other effects, which may leave bursts of their own."""
-
-HINT = 0.02
-"""Least gain of the column of play that counts beside faint bursts."""
 
 AGAIN = 5.0
 """Held-out error over that of the rest of the training logs from which on it came again."""
@@ -161,15 +158,15 @@ def _faint(found: Search, errors: np.ndarray, least: float, knocks: bool) -> lis
         least: ratio of the bursts.
         knocks: False where something else may knock.
     """
-    seen = {
-        j: judged for j, judged in _columns(found).items()
-        if j in _asked(found) and judged.gain > HINT and judged.sure > RARE
+    shares = {
+        j: judged.share for j, judged in _columns(found).items()
+        if j in _asked(found) and judged.gain > GATE and judged.sure > SURE
     }  # fmt: skip
-    for j, judged in sorted(seen.items(), key=lambda entry: -entry[1].share):
+    for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
-        if ratio > least and judged.sure > SURE:
+        if ratio > least:
             return [_backlash(found, errors, [j], _bursts(ratio))]
-        if knocks and share > KNOCKS and judged.gain > GATE:
+        if knocks and share > KNOCKS:
             text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
             return [_backlash(found, errors, [j], text, doubt)]

@@ -23,12 +23,6 @@ SURE = 4.5
 """Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
 chance with one candidate in a hundred thousand."""
 
-STRONG = 0.15
-"""Gain from which on an effect may show in few moments: noise never explains as much elsewhere."""
-
-RARE = 3.0
-"""Least of that ratio then."""
-
 TIED = 2.0
 """Paired differences over blocks below this many standard errors do not decide."""
 
@@ -37,9 +31,6 @@ SAME = 0.3
 
 NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
-
-MORE = 1.3
-"""What that one may leave of the squared residuals, at most, over what the best leaves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,16 +81,9 @@ class Judged:
         return self.candidate.effect.mends(float(self.values[0]))
 
     @property
-    def unlikely(self) -> bool:
-        """True if it is possible, but rare, or its sign is."""
-        effect = self.candidate.effect
-        return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
-
-    @property
     def significant(self) -> bool:
         """True if it is worth a name."""
-        surely = self.sure > SURE or (self.gain > STRONG and self.sure > RARE)
-        big = self.gain > GATE and surely and self.felt > FELT
+        big = self.gain > GATE and self.sure > SURE and self.felt > FELT
         return big and self.possible and self.confirmed and self.visible > VISIBLE
 
 
@@ -184,7 +168,7 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
-    What only mends a law in the model comes last, before it what is rare, or has a rare sign.
+    What only mends a law in the model comes last.
 
     A timing-like effect may stand for another timing-like one only.
     """
@@ -193,11 +177,10 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         other for other in tied(best, judged)
         if other.significant and (timing or not other.candidate.effect.timing)
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
-        and (best.mends or 1.0 - other.share < MORE * (1.0 - best.share))
     ]  # fmt: skip
 
-    def place(j: Judged) -> tuple[bool, bool, float, float]:
-        return j.mends, j.unlikely, _numbers(j.candidate), -float(j.drop.sum())
+    def place(j: Judged) -> tuple[bool, float, float]:
+        return j.mends, _numbers(j.candidate), -float(j.drop.sum())
 
     order = sorted([best, *near], key=place)
     return next(
@@ -279,11 +262,6 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
         difference = best.drop - other.drop
         spread = float(np.sqrt(np.sum((difference - difference.mean()) ** 2)))
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        near = (
-            best.gain < NEARLY
-            and other.candidate.joint == best.candidate.joint
-            and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
-        )
-        if float(difference.sum()) < TIED * spread or same or near:
+        if float(difference.sum()) < TIED * spread or same:
             found.append(other)
     return found

@@ -21,9 +21,8 @@ from modeler.diagnose.values import values_of
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate
 from modeler.scoring.gains import all_columns_about, is_gain, likeliest, settled
-from modeler.scoring.orders import counted
 from modeler.scoring.propose import proposals, ruled_out
-from modeler.scoring.state import Data, State, columns_of, state_of
+from modeler.scoring.state import Data, State, state_of
 
 MOST = 8
 """Effects named in one diagnosis."""
@@ -100,11 +99,11 @@ def search(
         tick: called whenever something is done.
     """
     start = state = _started(data, beta)
-    steps, vetoed, refused = list[Step](), list[Judged](), list[Judged]()  # in this state
+    steps, refused, every = list[Step](), list[Judged](), list[Judged]()
     survey = surveyed(state, without) if most else None
     judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
-        if len(vetoed) + len(refused) == ASKED:
+        if len(every) + len(refused) == ASKED:
             break
         first = judgement.best
         asked = put_in(state, _named(state, first, refused, without), veto)
@@ -114,12 +113,12 @@ def search(
             refused, judgement = [*refused, best], other or Judgement((), None)
             continue
         survey = surveyed(later, without)
-        vetoed, refused = [*vetoed, *refused], survey.still(refused)
+        every, refused = [*every, *refused], survey.still(refused)
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
     kept, state = _backward(state, steps, veto, tick)
-    return Search(start, tuple(kept), state, judgement, (*vetoed, *refused), tuple(without))
+    return Search(start, tuple(kept), state, judgement, (*every, *refused), tuple(without))
 
 
 def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
@@ -138,15 +137,14 @@ class Asked:
 
 
 def put_in(state: State, best: Judged, veto: Veto | None) -> Asked:
-    """The effect, or a ripple with its order counted."""
-    for judged in (best, *_counted(state, best)):
-        later = extended(state, judged.candidate)
-        if drives(state, later, judged.candidate):
-            return Asked(dataclasses.replace(judged, possible=False, why=DRIVES), None)
-        if veto is None or not veto(state, later, judged):
-            why = _objection(later)
-            return Asked(dataclasses.replace(judged, why=why) if why else judged, later)
-    return Asked(best, None)
+    """The effect, and the state with it."""
+    later = extended(state, best.candidate)
+    if drives(state, later, best.candidate):
+        return Asked(dataclasses.replace(best, possible=False, why=DRIVES), None)
+    if veto is not None and veto(state, later, best):
+        return Asked(best, None)
+    why = _objection(later)
+    return Asked(dataclasses.replace(best, why=why) if why else best, later)
 
 
 def _instead(
@@ -171,16 +169,6 @@ def _objection(later: State) -> str:
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     return objection(later, pick, named.value | dict(pick.shapes))
-
-
-def _counted(state: State, best: Judged) -> list[Judged]:
-    """A ripple of which the order is no whole number, with the one next to it."""
-    candidate = best.candidate
-    if not candidate.effect.several or candidate.order == counted(candidate.order):
-        return []
-    whole = candidate.of_order(counted(candidate.order))
-    found = judge(state, [whole], [columns_of(state.rows, whole, state.cache)]).best
-    return [] if found is None else [found]
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:

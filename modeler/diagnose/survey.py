@@ -36,7 +36,8 @@ CLOSE = 0.7
 MANY = 5
 
 BETTER = 0.5
-"""What a vetoed effect may leave, over what it left then, to be asked for again."""
+"""What a refused effect may leave, over what it left then, to be asked for again: of two wrong
+drive gains, the second mends the first."""
 
 WORTH = 0.02
 """Gain below which nothing is refined."""
@@ -67,7 +68,7 @@ class Survey:
         gains = {judged.candidate.key: judged.gain for judged in self.best}
         return [
             j for j in refused
-            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
+            if 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
         ]  # fmt: skip
 
     def but(self, vetoed: Sequence[Judged]) -> "Survey":

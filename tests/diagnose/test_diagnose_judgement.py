@@ -9,11 +9,10 @@ import pytest
 from modeler.diagnose import Known, doubts, errors, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.braking import DRIVES
-from modeler.diagnose.judge import Judged, decide, possible
+from modeler.diagnose.judge import Judged, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
 from modeler.diagnose.sentences import other_names, refused_lines
-from modeler.diagnose.survey import Survey
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, candidates, scales_of
 from modeler.observation.channels import Fault
@@ -57,22 +56,6 @@ def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be:
     assert possible(candidate, np.array([value])) is may_be
 
 
-def judged(effect: str, gain: float, mends: bool = False) -> SimpleNamespace:
-    candidate = SimpleNamespace(key=(effect, "1"))
-    return SimpleNamespace(candidate=candidate, gain=gain, mends=mends, possible=True)
-
-
-@pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
-def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
-    before: float, now: float, again: bool
-) -> None:
-    survey = Survey(None, (), (), (judged("spring", now),))  # type: ignore[arg-type]
-    refused = [judged("spring", before), judged("stribeck", 0.2, mends=True)]
-    kept = survey.still(refused)  # type: ignore[arg-type]
-    assert (refused[0] not in kept) is again
-    assert refused[1] in kept, "what only mends a law stays refused"
-
-
 @pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])
 def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
     error: float, said: str
@@ -82,24 +65,6 @@ def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
     start = SimpleNamespace(y=[np.zeros(3000)], data=SimpleNamespace(observation=observation))
     joints = {"1": SimpleNamespace(error_after=error, unexplained=False)}
     assert verdict((), joints, SimpleNamespace(start=start)) == said  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(("stiffness", "named"), [(2.0, "spring"), (-2.0, "counterbalance")])
-def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named: str) -> None:
-    """A spring has fewer numbers than a lever, but pushes away from its rest in cables only."""
-    drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
-
-    def at(effect_id: str, value: float) -> Judged:
-        effect = effect_named(effect_id)
-        assert effect is not None
-        shapes = {shape.name: 0.123 for shape in effect.forms[0].shapes}
-        candidate = Candidate(effect, effect.forms[0], "1", 0, shapes)
-        values, part = np.full(len(effect.columns), value), np.full(len(effect.columns), 0.01)
-        return Judged(candidate, 0.9, 0.9, drop, values, part, 20.0, 0.05, 0.5, possible=True)
-
-    both = [at("spring", stiffness), at("counterbalance", 1.0)]
-    best = decide(None, both).best  # type: ignore[arg-type]
-    assert best is not None and best.candidate.effect.id == named
 
 
 @pytest.mark.parametrize(
@@ -128,28 +93,6 @@ def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: s
     assert (other_names(first) == "") is agrees
     if not agrees:
         assert "1 of 2 other looks only, not before stribeck on joint 1 (low)" in other_names(first)
-
-
-@pytest.mark.parametrize(("refuse", "order"), [((), 36.3), ((36.3,), 36.0), ((36.3, 36.0), None)])
-def test_a_ripple_that_held_out_motion_refuses_is_tried_with_its_waves_counted(
-    monkeypatch: pytest.MonkeyPatch, refuse: tuple[float, ...], order: float | None
-) -> None:
-    effect = effect_named("joint_ripple")
-    assert effect is not None
-
-    def at(waves: float) -> SimpleNamespace:
-        return SimpleNamespace(candidate=Candidate(effect, effect.forms[0], "1", 0, {"m": waves}))
-
-    monkeypatch.setattr(search, "columns_of", lambda rows, candidate, cache: ())
-    monkeypatch.setattr(search, "extended", lambda state, candidate: candidate)
-    judged = lambda s, found, c: SimpleNamespace(best=at(found[0].shapes["m"]))  # noqa: E731
-    monkeypatch.setattr(search, "judge", judged)
-    state = SimpleNamespace(rows=None, cache={})
-    monkeypatch.setattr(search, "drives", lambda before, after, pick: False)
-    monkeypatch.setattr(search, "_objection", lambda later: "")
-    found = search.put_in(state, at(36.3), lambda a, b, j: j.candidate.shapes["m"] in refuse)
-    named = None if found.later is None else found.judged.candidate.shapes["m"]
-    assert named == order
 
 
 def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -83,7 +83,7 @@ def test_faint_bursts_count_where_the_column_of_play_explains_something(
 
 
 def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
-    knocks, columns = (0.0, 0.9, 0.0), {1: (0.1, 0.1, 4.0)}
+    knocks, columns = (0.0, 0.9, 0.0), {1: (0.1, 0.1, 5.0)}
     found = searched(monkeypatch, QUIET, QUIET, knocks, columns)
     (play,) = detected(found, None, ERRORS, [])
     assert (play.effect, play.joint) == ("backlash", "2")

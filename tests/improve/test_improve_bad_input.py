@@ -137,12 +137,24 @@ def test_held_out_rows_are_not_fitted_too(arm: Path, run: Run, tmp_path: Path) -
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_temperature_that_was_not_logged_is_told(arm: Path, run: Run, tmp_path: Path) -> None:
-    """Time stands in for it; and as the machine has no such effect, the error does not fall."""
+def test_a_warm_up_takes_longer_than_a_short_log(arm: Path, run: Run, tmp_path: Path) -> None:
     logs = (arm / "train.parquet", "--holdout", arm / "other.parquet")
     line = ("add", arm / "m.json", "temperature_friction", "--joint", "1", *logs)
-    status, out, _ = run(*line, "--out", tmp_path / "m2.json")
-    assert status == 0
+    status, _, err = run(*line, "--out", tmp_path / "m2.json")
+    assert status == 1 and "cannot be told from what the model has on these logs" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_temperature_that_was_not_logged_is_told(run: Run, tmp_path: Path) -> None:
+    """Time stands in for it; and as the machine has no such effect, the error does not fall."""
+    for name, seed in (("train", 1), ("other", 2)):
+        long = ("--duration", 120, "--rate", 50, "--seed", seed)
+        run("simulate", "emps", *long, "--out", tmp_path / f"{name}.parquet")
+    run("fit", "emps", tmp_path / "train.parquet", "--out", tmp_path / "m.json")
+    logs = (tmp_path / "train.parquet", "--holdout", tmp_path / "other.parquet")
+    line = ("add", tmp_path / "m.json", "temperature_friction", "--joint", "1", *logs)
+    status, out, err = run(*line, "--out", tmp_path / "m2.json")
+    assert status == 0, err
     assert "temperature_friction, joint 1: the logs have no column temperature1 or temperature" in (
         out
     )
