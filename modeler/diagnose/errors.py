@@ -98,11 +98,21 @@ def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
             over(before, touched, relative(*held_out_squares(state, data)))
             for state in (before, after)
         )
-        if 1.0 - (new / max(old, 1e-300)) ** 2 < KEPT * judged.gain:
+        expected = judged.gain if judged.alone else _fall(touched, before, after)
+        if 1.0 - (new / max(old, 1e-300)) ** 2 < KEPT * expected:
             return True
         return not scored(*(_unseen(state, data) for state in (before, after))).better
 
     return veto
+
+
+def _fall(joints: Sequence[int], before: State, after: State) -> float:
+    """Share of the squared residual of some joints that is gone, in units of the first one."""
+    sums = [
+        sum(float(np.sum((s.residual[j] / before.base.sigma[j]) ** 2)) for j in joints)
+        for s in (before, after)
+    ]
+    return 1.0 - sums[1] / max(sums[0], 1e-300)
 
 
 def _unseen(state: State, data: Data) -> Unseen:

@@ -117,7 +117,7 @@ def search(
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
-    kept, state = _backward(state, steps, veto, tick)
+    kept, state = _backward(state, steps, tick)
     return Search(start, tuple(kept), state, judgement, (*every, *refused), tuple(without))
 
 
@@ -209,7 +209,7 @@ def extended(state: State, pick: Candidate) -> State:
 
 
 def _backward(
-    state: State, steps: Sequence[Step], veto: Veto | None, tick: Callable[[], None]
+    state: State, steps: Sequence[Step], tick: Callable[[], None]
 ) -> tuple[list[Step], State]:
     """Drops effects that the others made unnecessary, the weakest first.
 
@@ -217,23 +217,22 @@ def _backward(
     """
     kept = list(steps)
     while len(kept) > 1:
-        idle = {}
-        for k, step in enumerate(kept):
-            judged, less = _beside(state, kept, step)
-            if not judged.significant or (veto is not None and veto(less, state, judged)):
-                idle[k] = judged.gain
+        judged = []
+        for step in kept:
+            judged.append(_beside(state, kept, step))
             tick()
-        if not idle:
+        weakest = int(np.argmin([j.gain for j in judged]))
+        if judged[weakest].significant:
             break
-        del kept[min(idle, key=lambda k: idle[k])]
+        del kept[weakest]
         state = state_of(state.data, [s.pick for s in kept], state.beta, state.cache)
     if len(kept) < len(steps):
-        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)[0]) for s in kept]
+        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
     return kept, state
 
 
-def _beside(state: State, kept: Sequence[Step], step: Step) -> tuple[Judged, State]:
-    """One of the effects, judged in the model with the others, and that model."""
+def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
+    """One of the effects, judged in the model with the others."""
     others = [s.pick for s in kept if s is not step]
     less = state_of(state.data, others, state.beta, state.cache)
-    return _judged_again(less, step.pick), less
+    return _judged_again(less, step.pick)

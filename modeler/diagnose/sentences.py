@@ -61,7 +61,10 @@ def evidence(step: Step, before: float, after: float) -> str:
         f"{judged.candidate.effect.title}: error {percent(before)} -> {percent(after)} on motion "
         "that was held out"
     )
-    rivals = [r for r in step.rivals if r.possible and r.candidate.key != judged.candidate.key]
+    rivals = [
+        r for r in step.rivals
+        if r.possible and r.confirmed and r.candidate.key != judged.candidate.key
+    ]  # fmt: skip
     if rivals and rivals[0].share > 0.0 and judged.share > 0.0:
         other = rivals[0]
         text += (

@@ -68,7 +68,7 @@ class Survey:
         gains = {judged.candidate.key: judged.gain for judged in self.best}
         return [
             j for j in refused
-            if 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
+            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
         ]  # fmt: skip
 
     def but(self, vetoed: Sequence[Judged]) -> "Survey":

@@ -177,7 +177,7 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
     monkeypatch.setattr(errors, "_unseen", lambda state, data: state)
     monkeypatch.setattr(errors, "scored", lambda *a: SimpleNamespace(better=True))
     veto = errors.vetoing(None)  # type: ignore[arg-type]
-    judged_at = SimpleNamespace(gain=expected)
+    judged_at = SimpleNamespace(gain=expected, alone=True)
     assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]
 
 
