@@ -103,22 +103,23 @@ def search(
     survey = surveyed(state, without) if most else None
     judgement = survey.judged((), tick) if survey else Judgement((), None)
     while survey is not None and judgement.best is not None and len(steps) < most:
-        if len(every) + len(refused) == ASKED:
+        if len(every) == ASKED:
             break
         first = judgement.best
         asked = put_in(state, _named(state, first, refused, without), veto)
         best, later = asked.judged, asked.later
         other = _instead(survey, refused, asked, tick)
         if other is not None or later is None:
-            refused, judgement = [*refused, best], other or Judgement((), None)
+            refused, every = [*refused, best], [*every, best]
+            judgement = other or Judgement((), None)
             continue
         survey = surveyed(later, without)
-        every, refused = [*every, *refused], survey.still(refused)
+        refused = survey.still(refused)
         after = survey.judged(refused, tick)
         steps.append(_step(state, best, judgement.others(first), after))
         state, judgement = later, after
     kept, state = _backward(state, steps, tick)
-    return Search(start, tuple(kept), state, judgement, (*every, *refused), tuple(without))
+    return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))
 
 
 def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
