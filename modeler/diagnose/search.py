@@ -114,16 +114,28 @@ def search(
             judgement = other or Judgement((), None)
             continue
         survey = surveyed(later, without)
-        refused = survey.still(refused)
+        doubted, refused = _doubted(refused, best), survey.still(refused)
         after = survey.judged(refused, tick)
-        steps.append(_step(state, best, judgement.others(first), after))
+        steps.append(_step(state, best, judgement.others(first), after, doubted))
         state, judgement = later, after
     kept, state = _backward(state, steps, tick)
     return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))
 
 
-def _step(state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement) -> Step:
-    return Step(best, rivals, state, tuple(alternatives(best, rivals, after)))
+def _step(
+    state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement,
+    doubted: Sequence[Judged],
+) -> Step:  # fmt: skip
+    return Step(best, rivals, state, (*alternatives(best, rivals, after), *doubted))
+
+
+def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
+    """What gave way to an effect that explains as much: for the data it is a tie."""
+    return [
+        judged for judged in refused
+        if judged.why not in ("", DRIVES)
+        and NEARLY * judged.share < best.share < judged.share / NEARLY
+    ]  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

@@ -193,3 +193,15 @@ def test_what_an_effect_explains_is_no_matter_of_the_channel(
     faults = [Fault("torque 1 is 0.7 times the predicted", certain, 0)]
     found = SimpleNamespace(start=start, end=end)
     assert len(doubts.doubts(None, found, None, faults)) == told  # type: ignore[arg-type]
+
+
+def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:
+    refused = [
+        dataclasses.replace(at_its_best(name, share), why=why)
+        for name, share, why in (
+            ("counterbalance", 0.51, "no gravity"), ("elasticity", 0.9, "too heavy"),
+            ("drift", 0.5, DRIVES), ("payload", 0.5, ""),
+        )
+    ]  # fmt: skip
+    found = search._doubted(refused, at_its_best("spring", 0.5))
+    assert [judged.candidate.effect.id for judged in found] == ["counterbalance"]
