@@ -27,6 +27,9 @@ from modeler.scoring.state import Data, State, state_of
 MOST = 8
 """Effects named in one diagnosis."""
 
+MUCH = 0.15
+"""Gain from which on an effect whose values are not those of this robot is a description still."""
+
 ASKED = 20
 """Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
 many, it is other motion, or the logs hold nothing that returns."""
@@ -163,18 +166,17 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> Asked:
 def _instead(
     survey: Survey, refused: Sequence[Judged], asked: Asked, tick: Callable[[], None]
 ) -> Judgement | None:
-    """What leads without an effect that was refused, or is doubted while another explains as much.
+    """What leads without an effect that was refused, or is doubted, if another explains as much.
 
-    None where the effect is put in.
+    Or if the doubted one explains little. None where the effect is put in.
     """
     doubted = asked.judged
     if asked.later is not None and not doubted.why:
         return None
     without = survey.judged([*refused, doubted], tick)
     best = without.best
-    if asked.later is None or (best is not None and best.share > NEARLY * doubted.share):
-        return without
-    return None
+    near = best is not None and best.share > NEARLY * doubted.share
+    return without if asked.later is None or doubted.gain < MUCH or near else None
 
 
 def _objection(later: State) -> str:

@@ -123,11 +123,13 @@ def at_its_best(effect_id: str, share: float) -> Judged:
     return Judged(candidate, share, share, np.ones(40), one, one, 11.0, 0.1, 0.5, possible=True)
 
 
-@pytest.mark.parametrize(("share", "taken"), [(0.49, True), (0.3, False)])
+@pytest.mark.parametrize(
+    ("gain", "share", "taken"), [(0.5, 0.49, True), (0.5, 0.3, False), (0.1, 0.05, True)]
+)
 def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
-    share: float, taken: bool
+    gain: float, share: float, taken: bool
 ) -> None:
-    doubted = dataclasses.replace(at_its_best("elasticity", 0.5), why="too heavy")
+    doubted = dataclasses.replace(at_its_best("elasticity", gain), why="too heavy")
     rival = search.Judgement((), at_its_best("spring", share))
     survey = SimpleNamespace(judged=lambda vetoed, tick: rival)
     instead = lambda judged: search._instead(  # noqa: E731
