@@ -175,8 +175,9 @@ def _instead(
         return None
     without = survey.judged([*refused, doubted], tick)
     best = without.best
-    near = best is not None and best.share > NEARLY * doubted.share
-    return without if asked.later is None or doubted.gain < MUCH or near else None
+    if asked.later is None or doubted.gain < MUCH:
+        return without
+    return without if best is not None and best.share > NEARLY * doubted.share else None
 
 
 def _objection(later: State) -> str:
