@@ -81,6 +81,12 @@ class Judged:
         return self.candidate.effect.mends(float(self.values[0]))
 
     @property
+    def unlikely(self) -> bool:
+        """True if it is possible, but rare, or its sign is."""
+        effect = self.candidate.effect
+        return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
+
+    @property
     def significant(self) -> bool:
         """True if it is worth a name."""
         big = self.gain > GATE and self.sure > SURE and self.felt > FELT
@@ -168,7 +174,7 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
-    What only mends a law in the model comes last.
+    What only mends a law in the model comes last, before it what is rare, or has a rare sign.
 
     A timing-like effect may stand for another timing-like one only.
     """
@@ -179,8 +185,8 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
         and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
     ]  # fmt: skip
 
-    def place(j: Judged) -> tuple[bool, float, float]:
-        return j.mends, _numbers(j.candidate), -float(j.drop.sum())
+    def place(j: Judged) -> tuple[bool, bool, float, float]:
+        return j.mends, j.unlikely, _numbers(j.candidate), -float(j.drop.sum())
 
     order = sorted([best, *near], key=place)
     return next(

@@ -38,6 +38,7 @@ BODIES: tuple[Effect, ...] = (
         range="Ks >= 0 for a spring, either sign for cables; h >= 0: springs "
         "harden, and what softens like a sine hangs on a lever",
         source="Wang et al. 2019 (da Vinci arms)",
+        rarely_negative=True,
         needs=(Needs.REST,),
     ),
     Effect(
@@ -114,6 +115,7 @@ BODIES: tuple[Effect, ...] = (
         range="M > 0, inertia of a real body",
         source="Wensing, Kim and Slotine 2018",
         needs=(Needs.MASS,),
+        rare=True,
     ),
     Effect(
         id="base_tilt",

@@ -217,6 +217,8 @@ class Effect:
         negative: what a value below zero means, where that is no missing effect but mends the form
             of one in the model; empty elsewhere.
         turns: True if only a joint that turns can have it.
+        rarely_negative: True if its first parameter seldom is: a rival that explains as much is
+            likelier then.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         shows: the axis on which it does.
@@ -224,6 +226,7 @@ class Effect:
         same_as: ids of effects that no data tell from it.
         twin: id of that of them whose last column is the same with the other sign.
         needs: what must be true of the robot for its values to be believed.
+        rare: True if a rival that explains as much is likelier.
         several: True if a joint may have it several times, with other shapes.
         orders: of waves that are proposed for it, least and largest; None: those of its grid only.
         whole_axis: True if it moves motor and links: the encoder shows both wrongly.
@@ -249,6 +252,7 @@ class Effect:
     same_as: tuple[str, ...] = ()
     twin: str = ""
     needs: tuple[Needs, ...] = ()
+    rare: bool = False
     several: bool = False
     orders: tuple[float, float] | None = None
     whole_axis: bool = False
@@ -256,6 +260,7 @@ class Effect:
     knocks: bool = False
     hindrance: str = ""
     turns: bool = False
+    rarely_negative: bool = False
     timing: bool = False
     negative: str = ""
 

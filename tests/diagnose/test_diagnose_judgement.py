@@ -67,6 +67,24 @@ def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
     assert verdict((), joints, SimpleNamespace(start=start)) == said  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(("stiffness", "named"), [(2.0, "spring"), (-2.0, "counterbalance")])
+def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named: str) -> None:
+    """A spring has fewer numbers than a lever, but pushes away from its rest in cables only."""
+    drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
+
+    def at(effect_id: str, value: float) -> Judged:
+        effect = effect_named(effect_id)
+        assert effect is not None
+        shapes = {shape.name: 0.123 for shape in effect.forms[0].shapes}
+        candidate = Candidate(effect, effect.forms[0], "1", 0, shapes)
+        values, part = np.full(len(effect.columns), value), np.full(len(effect.columns), 0.01)
+        return Judged(candidate, 0.9, 0.9, drop, values, part, 20.0, 0.05, 0.5, possible=True)
+
+    both = [at("spring", stiffness), at("counterbalance", 1.0)]
+    best = decide(None, both).best  # type: ignore[arg-type]
+    assert best is not None and best.candidate.effect.id == named
+
+
 @pytest.mark.parametrize(
     ("effect", "left", "said"),
     [
