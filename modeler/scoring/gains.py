@@ -371,8 +371,9 @@ def _own_gains(state: State) -> dict[int, int]:
     spec = state.data.compiled.spec
     owner = {p.name: (p.effect, p.joint) for p in spec.standard}
     place = {joint.name: j for j, joint in enumerate(spec.joints)}
+    scales = {e.id for e in state.data.known.catalogue if e.forms[0].names == _SCALES}
     return {
         i: place[owner[base.column_of][1]]
         for i, base in enumerate(spec.base)
-        if owner[base.column_of][0] == "drive_gain"
+        if owner[base.column_of][0] in scales
     }
