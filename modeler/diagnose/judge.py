@@ -268,6 +268,6 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
         difference = best.drop - other.drop
         spread = float(np.sqrt(np.sum((difference - difference.mean()) ** 2)))
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        if float(difference.sum()) < TIED * spread or same:
+        if float(difference.sum()) <= TIED * spread or same:
             found.append(other)
     return found

@@ -9,7 +9,7 @@ import pytest
 from modeler.diagnose import Known, doubts, errors, search
 from modeler.diagnose.assemble import verdict
 from modeler.diagnose.braking import DRIVES
-from modeler.diagnose.judge import Judged, possible
+from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
 from modeler.diagnose.sentences import other_names, refused_lines
