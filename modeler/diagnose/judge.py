@@ -186,7 +186,7 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     ]  # fmt: skip
 
     def place(j: Judged) -> tuple[bool, bool, float, float]:
-        return j.mends, j.unlikely, _numbers(j.candidate), -float(j.drop.sum())
+        return j.mends, j.unlikely, numbers(j.candidate), -float(j.drop.sum())
 
     order = sorted([best, *near], key=place)
     return next(
@@ -196,7 +196,7 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     )
 
 
-def _numbers(candidate: Candidate) -> float:
+def numbers(candidate: Candidate) -> float:
     """Free numbers: parameters, and shapes that are refined."""
     shapes = candidate.form.shapes
     free = sum(s.smooth or candidate.shapes[s.name] not in s.grid for s in shapes)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.diagnose.analyse import analysed
-from modeler.diagnose.judge import Judged, best_shapes, decide, tied
+from modeler.diagnose.judge import Judged, best_shapes, decide, numbers, tied
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.survey import survey_of
 from modeler.hypotheses.candidates import Candidate
@@ -108,12 +108,20 @@ def looked_again(
 
 
 def _ruled_out(found: Search, step: Step) -> list[Look]:
-    """What would have been named had the user ruled nothing out."""
+    """What would have been named had the user ruled nothing out, or explains as much as simply."""
     state = step.before
     barred = [c for c in proposals(state) if ruled_out(*c.key, found.without)]
     if not barred:
         return []
-    best = survey_of(state, [step.pick, *barred]).judged().best
+    asked = survey_of(state, [step.pick, *barred]).judged()
+    own = [j for j in asked.ranked if j.candidate.key == step.pick.key]
+    least = float(own[0].drop.sum()) if own else 0.0
+    alike = (
+        j for j in asked.ranked
+        if j not in own and j.significant and float(j.drop.sum()) >= least
+        and numbers(j.candidate) <= numbers(step.pick)
+    )  # fmt: skip
+    best = next(alike, asked.best)
     if best is None or best.candidate.key == step.pick.key:
         return []
     return [Look("ruled out", best.candidate.key, False)]
