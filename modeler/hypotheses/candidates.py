@@ -1,6 +1,5 @@
 """What could be missing: every effect on every joint, over its grid of shapes."""
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
@@ -84,11 +83,6 @@ class Candidate:
         """Waves per turn, or per 2 pi m; 0 if it has none."""
         waves = [self.shapes[shape.name] for shape in self.form.shapes if shape.scale == "waves"]
         return waves[0] if waves else 0.0
-
-    def of_order(self, waves: float) -> "Candidate":
-        """The same with another order."""
-        names = [shape.name for shape in self.form.shapes if shape.scale == "waves"]
-        return dataclasses.replace(self, shapes={**self.shapes, **dict.fromkeys(names, waves)})
 
     @property
     def local(self) -> bool:

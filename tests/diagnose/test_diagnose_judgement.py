@@ -13,6 +13,7 @@ from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
 from modeler.diagnose.result import Finding
 from modeler.diagnose.sentences import other_names, refused_lines
+from modeler.diagnose.survey import Survey
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, candidates, scales_of
 from modeler.observation.channels import Fault
@@ -225,3 +226,16 @@ def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:
     ]  # fmt: skip
     found = search._doubted(refused, at_its_best("spring", 0.5))
     assert [judged.candidate.effect.id for judged in found] == ["counterbalance"]
+
+
+@pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
+def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
+    before: float, now: float, again: bool
+) -> None:
+    better = dataclasses.replace(at_its_best("spring", now))
+    survey = Survey(None, (), (), (better,))  # type: ignore[arg-type]
+    mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))
+    refused = [at_its_best("spring", before), mending]
+    kept = survey.still(refused)
+    assert (refused[0] not in kept) is again
+    assert mending in kept, "what only mends a law stays refused"
