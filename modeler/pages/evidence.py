@@ -20,9 +20,9 @@ from modeler.compare.picture import (
     Series,
     Style,
 )
-from modeler.diagnose.search import Search, Step
+from modeler.diagnose.search import Step
 from modeler.pages.bins import bins_of
-from modeler.pages.shown import Shown, shown
+from modeler.pages.shown import Shown
 from modeler.pages.view import View, view_of
 from modeler.scoring.orders import order_spectrum
 
@@ -34,18 +34,8 @@ LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
 _DOTS = 1500
 
 
-def evidence_picture(found: Search, step: Step) -> Picture:
-    """Residual on the axis where the effect shows itself, without the effect and with it.
-
-    Args:
-        found: the search.
-        step: of the effect.
-    """
-    return picture_of(shown(found, step))
-
-
-def picture_of(item: Shown) -> Picture:
-    """The same of what is shown."""
+def evidence_picture(item: Shown) -> Picture:
+    """Residual on the axis where the effect shows itself, without the effect and with it."""
     pick, view = item.step.pick, view_of(item)
     panels = [_without(item, view), _with(item, view)]
     if item.axis.shows == "waves":

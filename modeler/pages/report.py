@@ -10,7 +10,7 @@ from modeler.diagnose import Diagnosis, Finding
 from modeler.diagnose.sentences import blind_spots, percent, unit, where
 from modeler.effects import effect_named
 from modeler.pages.event_pictures import play_picture, push_picture
-from modeler.pages.evidence import picture_of, rivals_picture
+from modeler.pages.evidence import evidence_picture, rivals_picture
 from modeler.pages.sheet import page, section
 from modeler.pages.shown import figures, shown
 
@@ -83,7 +83,7 @@ def _sections(diagnosis: Diagnosis) -> list[str]:
     for step in diagnosis.search.steps:
         item = shown(diagnosis.search, step)
         pictures = f'<p class="lead">{html.escape(figures(item))}</p>\n'
-        pictures += figure_html(picture_of(item))
+        pictures += figure_html(evidence_picture(item))
         if step is diagnosis.search.steps[0]:
             pictures += figure_html(rivals_picture(step))
         found.append(section(_name(step.pick.effect.id, step.pick.joint), pictures))

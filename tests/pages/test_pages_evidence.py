@@ -71,7 +71,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     search = found(case, load_friction(case) if effect == "load_friction" else torque).search
     step = search.steps[0]
     assert step.pick.effect.id == effect
-    picture = evidence_picture(search, step)
+    picture = evidence_picture(shown(search, step))
     drawn = panels(picture)
     without, full = drawn["without the effect"], drawn["with it"]
     assert without.x_label == full.x_label == label
@@ -95,7 +95,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
 def test_the_law_is_drawn_as_it_is(case: Case) -> None:
     """What the model imitates of a spring is not seen in residuals, but it is in its law."""
     search = found(case, spring).search
-    law = panels(evidence_picture(search, search.steps[0]))["its law"]
+    law = panels(evidence_picture(shown(search, search.steps[0])))["its law"]
     means = series(law, Means, "mean")
     slope, rest = np.polyfit(means.x, means.y, 1)
     assert slope == pytest.approx(1.5, rel=0.02)
@@ -104,7 +104,7 @@ def test_the_law_is_drawn_as_it_is(case: Case) -> None:
 
 def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
     search = found(case, motor_ripple).search
-    spectrum = panels(evidence_picture(search, search.steps[0]))["order spectrum"]
+    spectrum = panels(evidence_picture(shown(search, search.steps[0])))["order spectrum"]
     before, after = spectrum.series
     place = np.argmax(before.y)
     assert before.x[place] == pytest.approx(101.0, rel=0.01)
@@ -114,7 +114,7 @@ def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
 @pytest.mark.parametrize("effect", ["stribeck", "motor_ripple"])
 def test_captions_name_the_colours_that_are_drawn(case: Case, effect: str) -> None:
     search = found(case, HIDDEN[effect][0]).search
-    assert_named(evidence_picture(search, search.steps[0]))
+    assert_named(evidence_picture(shown(search, search.steps[0])))
     assert_named(play_picture(search.end, 0))
 
 
@@ -153,7 +153,7 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
         return torque
 
     quiet, loud = (found(case, torque).search for torque in (stribeck, torn))
-    pictures = [evidence_picture(s, s.steps[0]) for s in (quiet, loud)]
+    pictures = [evidence_picture(shown(s, s.steps[0])) for s in (quiet, loud)]
     assert "in no mean" in pictures[1].caption
     spans = [np.ptp(panels(p)["without the effect"].y_range) for p in pictures]
     assert spans[1] < 1.5 * spans[0]
