@@ -143,9 +143,11 @@ def _changes(
     """What each change of the channels leaves; only those that describe every joint."""
     found = [*_torques(observation, rows, joints)]
     if compiled.spec.closure is None:  # positions that do not close the loops have no torque
-        for line, turn in turns(observation):
-            errors = _errors(rows.turned(compiled, turn), rows.tau, rows.used, joints)
-            found.append(_change(line, errors))
+        for turn in turns(observation):
+            W, tau = rows.turned(compiled, turn.motion), rows.tau[:, turn.torque]
+            used = rows.used & rows.used[:, turn.torque]
+            if used[:, joints].sum(axis=0).min() >= _LEAST:
+                found.append(_change(turn.line, _errors(W, tau, used, joints)))
     return [change for change in found if change.worst < WRONG]
 
 

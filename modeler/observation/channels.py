@@ -78,12 +78,20 @@ def suspects(compiled: "CompiledModel", observation: Observation, beta: np.ndarr
     return [j for j, error in enumerate(errors) if error > WRONG]
 
 
-def _errors(observation: Observation, predicted: np.ndarray) -> np.ndarray:
-    """(J,) relative error of every joint; 0 where there is nothing to compare."""
+def _errors(
+    observation: Observation, predicted: np.ndarray, order: np.ndarray | None = None
+) -> np.ndarray:
+    """(J,) relative error of every joint; 0 where there is nothing to compare.
+
+    Args:
+        observation: of the logs.
+        predicted: (s, J).
+        order: (J,) column in which the torque of each joint is; each in its own if not given.
+    """
     errors = np.zeros(len(observation.joints))
-    for j in range(len(errors)):
-        used = observation.used[:, j]
-        y = observation.torque[used, j]
+    for j, measured in enumerate(range(len(errors)) if order is None else order):
+        used = observation.used[:, measured]
+        y = observation.torque[used, measured]
         size = float(np.linalg.norm(y))
         if y.size >= _ROWS and size > 0.0:
             errors[j] = float(np.linalg.norm(y - predicted[used, j])) / size
@@ -124,34 +132,55 @@ def _motion(
     if compiled.spec.closure is not None:
         return None  # positions that do not close the loops have no torque
     best, size = None, 0.5 * float(np.linalg.norm(errors))
-    for line, turn in turns(observation):
-        predicted = model_torque(observation, compiled, beta, turn)
-        left = _errors(observation, predicted)
+    for turn in turns(observation):
+        predicted = model_torque(observation, compiled, beta, turn.motion)
+        left = _errors(observation, predicted, turn.torque)
         if float(np.linalg.norm(left)) < size and left.max() < WRONG:
-            best, size = Fault(line, True), float(np.linalg.norm(left))
+            best, size = Fault(turn.line, True), float(np.linalg.norm(left))
     return best
 
 
-def turns(observation: Observation) -> Iterator[tuple[str, np.ndarray]]:
-    """What may be wrong with positions, and the (J, J) matrix that mends it: q = measured turn."""
+@dataclass(frozen=True)
+class Turn:
+    """What may be wrong with channels, and what mends it.
+
+    Attributes:
+        line: what, and what to do.
+        motion: (J, J) q = measured motion.
+        torque: (J,) tau_j = measured tau[torque[j]].
+    """
+
+    line: str
+    motion: np.ndarray
+    torque: np.ndarray
+
+
+def turns(observation: Observation) -> Iterator[Turn]:
+    """Positions in other units, reversed, exchanged, and exchanged together with the torques."""
     joints = observation.joints
     names = [joint.name for joint in joints]
     small = np.array([np.pi / 180.0 if joint.unit == "rad" else 1e-3 for joint in joints])
     units = ["degrees" if joint.unit == "rad" else "mm" for joint in joints]
     expected = "expected rad and m; convert the position, and the speeds if they are logged"
-    yield f"the positions look like {' or '.join(dict.fromkeys(units))}; {expected}", np.diag(small)
+    same = np.arange(len(joints))
+    line = f"the positions look like {' or '.join(dict.fromkeys(units))}; {expected}"
+    yield Turn(line, np.diag(small), same)
     for j in range(len(joints)):
         one = np.ones(len(joints))
         one[j] = small[j]
-        yield f"joint {names[j]}: its position looks like {units[j]}; {expected}", np.diag(one)
+        line = f"joint {names[j]}: its position looks like {units[j]}; {expected}"
+        yield Turn(line, np.diag(one), same)
+        one = one.copy()
         one[j] = -1.0
         line = f"joint {names[j]}: its position seems to be counted the other way; check its sign"
-        yield line, np.diag(one)
+        yield Turn(line, np.diag(one), same)
         for k in range(j):
-            swap = np.eye(len(joints))
-            swap[[j, k]] = swap[[k, j]]
-            line = (
-                f"joints {names[k]} and {names[j]}: their positions look exchanged; check the "
-                "order of the columns"
-            )
-            yield line, swap
+            order = same.copy()
+            order[[j, k]] = order[[k, j]]
+            swap = np.eye(len(joints))[order]
+            for what, torque in (("positions", same), ("columns, torques too,", order)):
+                line = (
+                    f"joints {names[k]} and {names[j]}: their {what} look exchanged; check the "
+                    "order of the columns"
+                )
+                yield Turn(line, swap, torque)
