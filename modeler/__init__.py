@@ -3,7 +3,7 @@
 Data flows one way::
 
     effects -> robot -> symbolic -> base -> codegen => C + manifest
-            => compiled -> observation -> fit -> compare
+            => compiled -> observation -> estimate -> fit -> compare
 
 The stages before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
 A robot names effects of the catalogue; `terms` stands beside codegen and writes for people;

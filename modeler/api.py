@@ -33,8 +33,8 @@ from modeler.derivation import generate as generate
 from modeler.derivation import load as load
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
+from modeler.estimate.least_squares import Method
 from modeler.fit import FitResult, IdentifiedModel, identify, provenance, with_verdict
-from modeler.fit.least_squares import Method
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart

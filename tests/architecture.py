@@ -7,8 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "compiled", "observation", "fit", "residuals", "compare", "hypotheses", "scoring", "diagnose",
-    "pages",
+    "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses", "scoring",
+    "diagnose", "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -44,7 +44,8 @@ PACKAGES: dict[str, set[str]] = {
     "codegen": {"numpy", "sympy", "jinja2"},
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},
-    "fit": {"numpy", "scipy", "clarabel"},
+    "estimate": {"numpy", "scipy", "clarabel"},
+    "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
     "hypotheses": {"numpy", "scipy"},
@@ -65,7 +66,7 @@ ONLY_IN = {
     "jinja2": ("codegen/render.py",),
     "cffi": ("compiled/bind.py",),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
-    "clarabel": ("fit/possible.py",),
+    "clarabel": ("estimate/possible.py",),
     "flint": ("symbolic/balls.py",),
 }
 

@@ -109,7 +109,7 @@ ALLOWED = {
     "cli/main.py": "from modeler.fit import X\nfrom modeler.simulate import Y\nprint('done')",
     "fit/long.py": "x = 1\n" * MODULE_LINES,
     "fit/function.py": "def f():\n" + "    x = 1\n" * (FUNCTION_LINES - 1),
-    "fit/words.py": '"""print("a"), import sympy"""\nimport json\nimport modeler.fit.rank',
+    "fit/words.py": '"""print("a"), import sympy"""\nimport json\nimport modeler.estimate.rank',
     "api.py": "from modeler import compare",
     "cli/version.py": "from modeler import __version__, api",
 }

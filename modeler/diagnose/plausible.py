@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.diagnose.braking import largest_friction
 from modeler.effects import Needs
-from modeler.fit.possible import body, nearest_possible
+from modeler.estimate.possible import body, nearest_possible
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import body_parameters
 from modeler.scoring.gains import TENFOLD

@@ -1,8 +1,8 @@
 """Estimates of the base parameters, their certainty, and the model file."""
 
+from modeler.estimate.least_squares import Method as Method
 from modeler.fit.essential import Essential as Essential
 from modeler.fit.identify import identify as identify
-from modeler.fit.least_squares import Method as Method
 from modeler.fit.model_file import Addition as Addition
 from modeler.fit.model_file import IdentifiedModel as IdentifiedModel
 from modeler.fit.model_file import LogProvenance as LogProvenance

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.fit.compressed import triangle
+from modeler.estimate.compressed import triangle
 from modeler.observation import Observation
 
 FOLDS = 8

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import f as fisher
 
-from modeler.fit.compressed import Compressed, triangle
-from modeler.fit.least_squares import Estimate, Method, least_squares, solve_by_qr
+from modeler.estimate.compressed import Compressed, triangle
+from modeler.estimate.least_squares import Estimate, Method, least_squares, solve_by_qr
 
 LEVEL = 0.05
 

@@ -7,10 +7,10 @@ from typing import get_args
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.fit.coloured import coloured
-from modeler.fit.compressed import Compressed, compress
+from modeler.estimate.coloured import coloured
+from modeler.estimate.compressed import Compressed, compress
+from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate, Method, least_squares
 from modeler.fit.essential import Essential, essential_parameters
-from modeler.fit.least_squares import MAX_ITERATIONS, Estimate, Method, least_squares
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
 

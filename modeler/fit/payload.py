@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.estimate.least_squares import Method
 from modeler.fit.identify import Equations, base_equations, fit_equations
-from modeler.fit.least_squares import Method
 from modeler.fit.result import FitResult
 from modeler.observation import Observation, Segment
 from modeler.observation.signals import signals_of

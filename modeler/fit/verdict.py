@@ -9,9 +9,11 @@ import numpy as np
 from scipy.stats import chi2
 
 from modeler.core.contract import ModuleSpec
+from modeler.estimate.coloured import autocorrelation
+from modeler.estimate.compressed import Compressed, compress
+from modeler.estimate.least_squares import solve_by_qr
+from modeler.estimate.possible import Nearest, carried_by, machine_of, nearest_possible
 from modeler.fit.clock import time_doubts
-from modeler.fit.coloured import autocorrelation
-from modeler.fit.compressed import Compressed, compress
 from modeler.fit.crossed import Crossed, crossed
 from modeler.fit.doubts import (
     LITTLE,
@@ -25,8 +27,6 @@ from modeler.fit.doubts import (
     undetermined,
 )
 from modeler.fit.identify import dead_joints
-from modeler.fit.least_squares import solve_by_qr
-from modeler.fit.possible import Nearest, carried_by, machine_of, nearest_possible
 from modeler.fit.result import FitResult, Verdict
 from modeler.observation import Observation
 

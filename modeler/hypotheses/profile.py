@@ -25,7 +25,7 @@ from functools import cached_property
 import numpy as np
 
 from modeler.effects import Shape
-from modeler.fit.coloured import autocorrelation, repeated
+from modeler.estimate.coloured import autocorrelation, repeated
 from modeler.hypotheses.candidates import Candidate, JointScale
 from modeler.hypotheses.conditional import Point, Problem
 

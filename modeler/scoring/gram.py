@@ -289,8 +289,8 @@ def sigma_of(rows: Rows | Reduced, beta: np.ndarray | None = None) -> np.ndarray
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
-    fit (see `fit.least_squares`): their sigma beside the torques that cancel in them is at least
-    that of the others beside the torques that are measured.
+    fit (see `estimate.least_squares`): their sigma beside the torques that cancel in them is at
+    least that of the others beside the torques that are measured.
 
     Args:
         rows: of the analysis.

@@ -8,8 +8,8 @@ from scipy.signal import lfilter
 from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
+from modeler.estimate.coloured import autocorrelation
 from modeler.fit import identify
-from modeler.fit.coloured import autocorrelation
 from modeler.observation import Processing, observe
 
 RUNS = 40

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from modeler.fit.compressed import compress
+from modeler.estimate.compressed import compress
+from modeler.estimate.least_squares import least_squares
+from modeler.estimate.rank import independent_columns
 from modeler.fit.essential import essential_parameters, relative_error
-from modeler.fit.least_squares import least_squares
-from modeler.fit.rank import independent_columns
 
 NAMES = ("A", "B", "C", "D")
 

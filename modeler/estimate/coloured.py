@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.fit.least_squares import Estimate
+from modeler.estimate.least_squares import Estimate
 from modeler.observation import Observation
 
 _WORTH = 1.2  # a factor above it is said

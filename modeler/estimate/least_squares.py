@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.choices import Method as Method
-from modeler.fit.compressed import Compressed
-from modeler.fit.rank import Rank, independent_columns
+from modeler.estimate.compressed import Compressed
+from modeler.estimate.rank import Rank, independent_columns
 
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights
