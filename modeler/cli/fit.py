@@ -11,6 +11,7 @@ from modeler.compare import Comparison, compare, verdict, write_pictures, write_
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
+from modeler.core.estimators import titled
 from modeler.fit import (
     IdentifiedModel,
     Payload,
@@ -62,7 +63,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
-        result = identify(observation, args.method)
+        result = identify(observation, args.method, compiled)
     with working("judging the fit"):
         told = findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
@@ -139,8 +140,8 @@ def judged(
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
     lines = [
-        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {model.fit.method} least "
-        f"squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {titled(model.fit.method)} "
+        f"on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

@@ -3,7 +3,7 @@
 from typing import Literal
 
 Method = Literal["weighted", "ordinary"]
-"""Least squares with one weight per joint, iterated, or without weights."""
+"""Estimators; `core.estimators` says what each is."""
 
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""

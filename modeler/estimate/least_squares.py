@@ -14,6 +14,19 @@ _LEAST = 1e-9  # a joint's standard deviation is at least this share of its torq
 
 
 @dataclass(frozen=True, eq=False)
+class Influence:
+    """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
+
+    Attributes:
+        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted.
+        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
+    """
+
+    pull: np.ndarray
+    residual: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class Estimate:
     """The solution; c columns, n joints. Columns set aside have value 0 and no variance.
 
@@ -27,6 +40,10 @@ class Estimate:
         condition_number: of W, kept columns.
         condition_scaled: with columns of length one.
         degrees: rows less parameters.
+        sentences: what a reader must know of this estimate.
+        influence: of the rows; None for least squares over W with weights 1/sigma.
+        whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
+            for those of the data with weights 1/sigma.
     """
 
     beta: np.ndarray
@@ -38,6 +55,9 @@ class Estimate:
     condition_number: float
     condition_scaled: float
     degrees: int
+    sentences: tuple[str, ...] = ()
+    influence: Influence | None = None
+    whole: np.ndarray | None = None
 
 
 def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:

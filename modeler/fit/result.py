@@ -102,7 +102,7 @@ class FitResult:
 
     Attributes:
         robot: name.
-        method: "ordinary" | "weighted".
+        method: id of the estimator, see `core.estimators`.
         status: "ok" | "rank deficient" | "not settled".
         samples: after decimation.
         rows: of W.
