@@ -42,6 +42,16 @@ _EVERY = (
         "where joints differ in torque or noise: the loudest joint decides, and one sigma for all "
         "is too small for it and too large for the others",
     ),
+    About(
+        "consistent",
+        "physically consistent least squares",
+        "min 1/2 |R (K chi - beta)|^2 + sum_j gamma_j D(P_j, P0_j), every pseudo-inertia P_j "
+        "positive definite, friction and rotor inertias not negative; ends in all standard "
+        "parameters chi",
+        "Sousa and Cortesao 2014, IJRR 33(6); Lee, Wensing and Park 2020, IEEE T-RO 36(2)",
+        "to see what is wrong: it hides a missing effect in the nearest machine; look at the "
+        "doubts of weighted first",
+    ),
 )
 ABOUT: dict[str, About] = {about.id: about for about in _EVERY}
 """By id, in the order in which they are told."""

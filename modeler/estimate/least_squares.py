@@ -1,6 +1,7 @@
 """Ordinary and weighted least squares with their covariance."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -44,6 +45,7 @@ class Estimate:
         influence: of the rows; None for least squares over W with weights 1/sigma.
         whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
             for those of the data with weights 1/sigma.
+        standard: all standard parameters by name, SI, where the estimator ends in them.
     """
 
     beta: np.ndarray
@@ -58,6 +60,7 @@ class Estimate:
     sentences: tuple[str, ...] = ()
     influence: Influence | None = None
     whole: np.ndarray | None = None
+    standard: Mapping[str, float] = field(default_factory=dict)
 
 
 def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.core.estimators import ABOUT, About
+from modeler.estimate.buildable import buildable
 from modeler.estimate.least_squares import Estimate, least_squares
 from modeler.estimate.problem import Problem
 
@@ -50,6 +51,7 @@ def _ordinary(problem: Problem) -> Estimate:
 _FUNCTIONS: dict[Method, Callable[[Problem], Estimate]] = {
     "weighted": _weighted,
     "ordinary": _ordinary,
+    "consistent": buildable,
 }
 METHODS: dict[str, Estimator] = {id: Estimator(ABOUT[id], _FUNCTIONS[id]) for id in _FUNCTIONS}
 """By id, in the order in which they are told."""

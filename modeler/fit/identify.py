@@ -98,6 +98,7 @@ def fit_equations(
         sentences=(*equations.sentences, *_dead_sentences(observation, dead), *estimate.sentences,
                    *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
+        standard=estimate.standard,
     )  # fmt: skip
 
 

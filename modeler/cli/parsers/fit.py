@@ -32,6 +32,12 @@ def add_fit(commands: Commands) -> None:
         help="estimator, and where it is the wrong one; default: %(default)s. "
         + " ".join(f"{about.id}: {about.title}; not {about.avoid}." for about in ABOUT.values()),
     )
+    parser.add_argument(
+        "--robot-out",
+        metavar="FILE.toml",
+        type=Output,
+        help="write the robot file with the values found, for simulators (--method consistent)",
+    )
     _add_processing(parser)
     _add_load(parser)
     add_json(parser, "write the result for machines")
