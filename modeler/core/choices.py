@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-Method = Literal["weighted", "ordinary"]
+Method = Literal["weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim"]
 """Estimators; `core.estimators` says what each is."""
 
 Derivatives = Literal["auto", "log", "position"]

@@ -117,6 +117,7 @@ class FitResult:
         sentences: what a reader must know, plain text.
         processing: with all choices filled in; use it for held-out logs.
         verdict: usable or not; None if nobody has judged it.
+        own: those of the sentences that the estimator says of itself; not kept in model files.
     """
 
     robot: str
@@ -135,6 +136,7 @@ class FitResult:
     sentences: tuple[str, ...]
     processing: Processing
     verdict: Verdict | None = None
+    own: tuple[str, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
