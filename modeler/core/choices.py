@@ -2,7 +2,9 @@
 
 from typing import Literal
 
-Method = Literal["weighted", "ordinary", "consistent"]
+Method = Literal[
+    "weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim", "consistent",
+]  # fmt: skip
 """Estimators; `core.estimators` says what each is."""
 
 Derivatives = Literal["auto", "log", "position"]

@@ -99,6 +99,7 @@ def fit_equations(
                    *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
         standard=estimate.standard,
+        own=estimate.sentences,
     )  # fmt: skip
 
 
@@ -197,7 +198,7 @@ def _status(estimate: Estimate) -> str:
 
 def _sentences(estimate: Estimate, essential: Essential) -> list[str]:
     said = [tangle.sentence() for tangle in estimate.rank.aside]
-    if not estimate.settled:
+    if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
         said.append(
             f"the joint weights still change after {MAX_ITERATIONS} iterations; "
             'record more rows, or use method "ordinary"'

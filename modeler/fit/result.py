@@ -119,6 +119,7 @@ class FitResult:
         processing: with all choices filled in; use it for held-out logs.
         verdict: usable or not; None if nobody has judged it.
         standard: all standard parameters by name, SI, of an estimator that ends in them.
+        own: those of the sentences that the estimator says of itself; not kept in model files.
     """
 
     robot: str
@@ -138,6 +139,7 @@ class FitResult:
     processing: Processing
     verdict: Verdict | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
+    own: tuple[str, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
