@@ -15,11 +15,13 @@ from modeler.fit import (
     IdentifiedModel,
     Payload,
     identify,
+    identify_energy,
     identify_with_payloads,
     load_model,
     save_model,
     with_verdict,
 )
+from modeler.fit.reduced import with_essential_only
 from modeler.observation import Log, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
@@ -47,6 +49,7 @@ def _processing(args: argparse.Namespace) -> Processing:
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
     _check_load(args)
+    _check_model(args)
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
@@ -58,7 +61,12 @@ def run_fit(args: argparse.Namespace) -> Json:
         loaded = read_logs(compiled, args.payload_log)
         _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
         observation = observe(compiled, [*logs, *loaded], processing)
-    if loaded:
+    refit = None
+    if args.model == "energy":
+        with working("integrating the work of the motors"):
+            energy = identify_energy(compiled, observation, args.window, args.method)
+        result, refit = energy.result, energy.without
+    elif loaded:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
@@ -66,7 +74,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     with working("judging the fit"):
         told = findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
-        result = with_verdict(compiled, observation, result, told, bare)
+        result = with_verdict(compiled, observation, result, told, bare, refit)
     save_model(args.out, identified(derivation, emitted, observation, result))
     for line in (*observation.report.summary(), "", *result.summary()):
         say(line)
@@ -83,6 +91,15 @@ def _check_load(args: argparse.Namespace) -> None:
         if getattr(args, option) is not None and not args.payload_log:
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
+
+
+def _check_model(args: argparse.Namespace) -> None:
+    if args.model != "energy" and args.window is not None:
+        raise DataError("--window: only windows of --model energy have a length; add that option")
+    if args.model == "energy" and args.payload_log:
+        raise DataError(
+            "--payload-log: the energy model takes logs without load; leave out --model energy"
+        )
 
 
 def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
@@ -107,6 +124,8 @@ def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
     model = load_model(args.model)
+    if args.essential:
+        model = with_essential_only(model, args.model)
     with working("predicting"):
         compiled = model.compile() if args.run_embedded_c else recompile(model)
         comparison, lines, found = judged(model, args.logs, compiled)

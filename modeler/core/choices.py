@@ -5,6 +5,9 @@ from typing import Literal
 Method = Literal["weighted", "ordinary"]
 """Least squares with one weight per joint, iterated, or without weights."""
 
+ModelKind = Literal["torque", "energy"]
+"""What a row of the fit states: a joint's torque, or the energy balance of a window."""
+
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""
 

@@ -23,6 +23,7 @@ class Essential:
         error_after: with the essential ones.
         ratio: F statistic of all dropped parameters together.
         limit: the F quantile that it stays under.
+        reduced: the estimate of the essential parameters alone, columns as `names`.
     """
 
     names: tuple[str, ...]
@@ -32,6 +33,7 @@ class Essential:
     error_after: float
     ratio: float
     limit: float
+    reduced: Estimate
 
     def sentence(self) -> str:
         """What was found."""
@@ -71,6 +73,7 @@ def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Es
         error_after=relative_error(data, beta),
         ratio=float(ratio),
         limit=limit,
+        reduced=reduced,
     )
 
 

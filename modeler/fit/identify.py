@@ -11,6 +11,7 @@ from modeler.estimate.coloured import coloured
 from modeler.estimate.compressed import Compressed, compress
 from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate, Method, least_squares
 from modeler.fit.essential import Essential, essential_parameters
+from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
 
@@ -94,7 +95,20 @@ def fit_equations(observation: Observation, equations: Equations, method: Method
         sentences=(*equations.sentences, *_dead_sentences(observation, dead),
                    *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
+        essential=_reduced(observation, equations, alive, essential),
     )  # fmt: skip
+
+
+def _reduced(
+    observation: Observation, equations: Equations, alive: np.ndarray, essential: Essential
+) -> Reduced | None:
+    """The essential parameters alone, as sure as their own residuals let them be."""
+    at = [equations.names.index(name) for name in essential.names]
+    W, reduced = equations.W[:, at], essential.reduced
+    factors = coloured(observation, W, equations.y, alive, reduced).factors
+    sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    units = dict(zip(equations.names, equations.units, strict=True))
+    return reduced_model(essential, reduced, sigma, units)
 
 
 def _compressed(observation: Observation, equations: Equations, alive: np.ndarray) -> Compressed:

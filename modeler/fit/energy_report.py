@@ -1,0 +1,131 @@
+"""The energy model beside the torque model of the same data: figures, and what they come to."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+SURE = 10.0
+"""%sigma below which a parameter counts as known."""
+
+_WORTH = 1.2  # ratio of two uncertainties that is told as a difference
+
+
+@dataclass(frozen=True)
+class ModelFigures:
+    """One model fitted to the data.
+
+    Attributes:
+        model: "torque", "energy, Simpson" or "energy, trapezoid".
+        rows: of its W.
+        condition_scaled: of W with columns of length one.
+        known: parameters with a sigma below 10 % of their value.
+        torque_error: ||tau - W beta|| / ||tau|| with its beta, on the rows of the torque model.
+        torque_sigma: sqrt(tr(W C W^T)) / ||tau||: what its covariance C comes to in the same
+            torques. Noise of the torques themselves is not in it.
+        imbalance: share of the energy that its rule of integration misses, the work of inertia
+            by the rule against the difference of kinetic energy; None for the torque model.
+    """
+
+    model: str
+    rows: int
+    condition_scaled: float
+    known: int
+    torque_error: float
+    torque_sigma: float
+    imbalance: float | None
+
+
+@dataclass(frozen=True)
+class EnergyReport:
+    """How the rows of energy were made, and how they compare.
+
+    Attributes:
+        window: s.
+        relative_error: ||y - W beta|| / ||y|| of the energies.
+        moved: largest |beta| difference, in sigmas, that the trapezoid makes in place of Simpson's
+            rule.
+        moved_name: of that parameter.
+        figures: torque model, energy by Simpson's rule, energy by the trapezoid.
+        parameters: estimated ones.
+    """
+
+    window: float
+    relative_error: float
+    moved: float
+    moved_name: str
+    figures: tuple[ModelFigures, ...]
+    parameters: int
+
+    @property
+    def ratio(self) -> float:
+        """Uncertainty of the torques over that of the torque model."""
+        torque, energy, _ = self.figures
+        return energy.torque_sigma / torque.torque_sigma if torque.torque_sigma > 0.0 else 1.0
+
+    def summary(self) -> list[str]:
+        """Lines of text."""
+        head = (
+            f"{'model':<18}{'rows':>7}{'cond':>10}{'known':>7}{'error':>10}{'sigma':>10}{'rule':>9}"
+        )
+        lines = [
+            f"energy model: windows of {self.window:.4g} s, energies met to "
+            f"{100.0 * self.relative_error:.3g} %; on the same data:",
+            head,
+        ]
+        for item in self.figures:
+            rule = "-" if item.imbalance is None else f"{item.imbalance:.1g}"
+            lines.append(
+                f"{item.model:<18}{item.rows:>7}{item.condition_scaled:>10.4g}{item.known:>7}"
+                f"{100.0 * item.torque_error:>8.3g} %{100.0 * item.torque_sigma:>8.2g} %{rule:>9}"
+            )
+        return [
+            *lines,
+            "cond: columns of length one; known: sigma below 10 %; error: of the torques; sigma: "
+            "of the predicted torques; rule: share of the energy that integration misses",
+            *self.sentences(),
+        ]
+
+    def sentences(self) -> list[str]:
+        """Which of the two models to take, and what the rule of integration does."""
+        torque, energy, _ = self.figures
+        first = (
+            f"the energy model predicts torques {self.ratio:.2g} times less surely than the torque "
+            f"model on the same data and knows {energy.known} parameters where that knows "
+            f"{torque.known}, of {self.parameters}: one equation a window in place of one a joint; "
+            "for torques and values take --model torque"
+            if self.ratio > _WORTH
+            else f"the energy model is about as sure as the torque model ({self.ratio:.2g} times "
+            "its sigma of the torques), and needs no acceleration"
+        )
+        second = (
+            f"the trapezoid in place of Simpson's rule would move {self.moved_name} by "
+            f"{self.moved:.2g} sigma"
+        )
+        return [first, second]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "window": self.window,
+            "relative_error": self.relative_error,
+            "moved": self.moved,
+            "moved_name": self.moved_name,
+            "parameters": self.parameters,
+            "ratio": self.ratio,
+            "figures": [vars(item) for item in self.figures],
+            "sentences": self.sentences(),
+        }
+
+
+def energy_report_from_json(raw: Mapping[str, Any] | None) -> EnergyReport | None:
+    """Read `EnergyReport.to_json` back; None for a fit of the torque model."""
+    if raw is None:
+        return None
+    return EnergyReport(
+        window=float(raw["window"]),
+        relative_error=float(raw["relative_error"]),
+        moved=float(raw["moved"]),
+        moved_name=str(raw["moved_name"]),
+        figures=tuple(ModelFigures(**entry) for entry in raw["figures"]),
+        parameters=int(raw["parameters"]),
+    )
