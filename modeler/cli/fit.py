@@ -157,9 +157,10 @@ def judged(
     _check_logs(_given(logs, read), [])
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
+    what = "" if model.fit.energy is None else "energy model, "
     lines = [
-        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {model.fit.method} least "
-        f"squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {what}{model.fit.method} "
+        f"least squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

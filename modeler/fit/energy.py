@@ -237,10 +237,6 @@ def _report(
     torque = identify(observation, method)
     coarse_rows = energy_rows(model, observation, window, "trapezoid")
     coarse = _estimate(observation, coarse_rows, method)
-    sigma = np.sqrt(np.diag(found.covariance))
-    known = sigma > 0.0
-    moved = np.zeros(len(sigma))
-    moved[known] = np.abs(coarse.beta - found.beta)[known] / sigma[known]
     first = _figures(
         "torque", observation, torque.rows, torque.condition_scaled, torque.beta, torque.covariance
     )
@@ -249,6 +245,7 @@ def _report(
             _figures(name, observation, len(part.y), fit.condition_scaled, fit.beta,
                      fit.covariance),
             imbalance=_imbalance(part, found.beta),
+            bias=_bias(part, fit, found.beta),
         )
         for name, part, fit in (
             ("energy, Simpson", rows, found), ("energy, trapezoid", coarse_rows, coarse),
@@ -257,10 +254,8 @@ def _report(
     return EnergyReport(
         window=rows.window,
         relative_error=float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y)),
-        moved=float(moved.max(initial=0.0)),
-        moved_name=observation.names[int(np.argmax(moved))],
         figures=(first, *others),
-        parameters=int(known.sum()),
+        parameters=len(found.rank.kept),
     )
 
 
@@ -282,10 +277,18 @@ def _figures(
         known=int(np.sum((sigma > 0.0) & (100.0 * sigma < SURE * np.abs(beta)))),
         torque_error=_torque_error(observation, beta),
         torque_sigma=spread / float(np.linalg.norm(observation.y)),
-        imbalance=None,
     )
 
 
 def _imbalance(rows: EnergyRows, beta: np.ndarray) -> float:
     missed = np.linalg.norm((rows.balance - rows.W) @ beta)
     return float(missed / np.linalg.norm(rows.y))
+
+
+def _bias(rows: EnergyRows, found: Unequal, beta: np.ndarray) -> float:
+    """What the energy that integration misses moves at most, in sigmas."""
+    kept = list(found.rank.kept)
+    missed = (rows.balance - rows.W) @ beta
+    weighted = np.column_stack([rows.W[:, kept], missed]) / found.deviation[:, None]
+    sigma = np.sqrt(np.diag(found.covariance)[kept])
+    return float(np.max(np.abs(solved(weighted)) / sigma, initial=0.0))
