@@ -7,6 +7,9 @@ Method = Literal[
 ]  # fmt: skip
 """Estimators; `core.estimators` says what each is."""
 
+ModelKind = Literal["torque", "energy"]
+"""What a row of the fit states: a joint's torque, or the energy balance of a window."""
+
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""
 
