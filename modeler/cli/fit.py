@@ -2,25 +2,31 @@
 
 import argparse
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.drive_gains import check_load, fit_with_gains
 from modeler.cli.robots import robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
+from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
 from modeler.fit import (
     IdentifiedModel,
     Payload,
+    are_currents,
     identify,
     identify_with_payloads,
+    known_doubts,
     load_model,
     save_model,
     with_verdict,
 )
-from modeler.observation import Log, Processing, observe
+from modeler.fit.doubts import Told
+from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
 from modeler.observation.log import shared_rows
@@ -47,31 +53,47 @@ def _processing(args: argparse.Namespace) -> Processing:
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
     _check_load(args)
+    if args.method == GAIN_METHOD:
+        check_load(args)
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
+    save = partial(_written, args)
+    if args.method == GAIN_METHOD:
+        return save(*fit_with_gains(args, derivation, compiled, processing, _check_given))
     with working("building the observation matrix"):
         logs = read_logs(compiled, args.logs)
         loaded = read_logs(compiled, args.payload_log)
-        _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
+        _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
+    told: list[Told] = []
     if loaded:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
+        told += known_doubts(compiled, observation, [payload], are_currents([*logs, *loaded]))
     else:
         result = identify(observation, args.method)
     with working("judging the fit"):
-        told = findings_of_fit(compiled, observation, result.beta)
+        told += findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
         result = with_verdict(compiled, observation, result, told, bare)
-    save_model(args.out, identified(derivation, emitted, observation, result))
-    for line in (*observation.report.summary(), "", *result.summary()):
+    return save(identified(derivation, emitted, observation, result), observation)
+
+
+def _written(args: argparse.Namespace, model: IdentifiedModel, observation: Observation) -> Json:
+    """Saves and prints the model."""
+    save_model(args.out, model)
+    for line in (*observation.report.summary(), "", *model.fit.summary()):
         say(line)
     say(f"written: {args.out}")
-    return result.to_json()
+    return model.fit.to_json()
+
+
+def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
+    _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
 
 
 def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:

@@ -5,6 +5,9 @@ from typing import Literal
 Method = Literal["weighted", "ordinary"]
 """Least squares with one weight per joint, iterated, or without weights."""
 
+GAIN_METHOD = "tls"
+"""Total least squares, for drive gains besides."""
+
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""
 

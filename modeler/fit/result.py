@@ -117,6 +117,8 @@ class FitResult:
         sentences: what a reader must know, plain text.
         processing: with all choices filled in; use it for held-out logs.
         verdict: usable or not; None if nobody has judged it.
+        gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
+        singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
     """
 
     robot: str
@@ -135,6 +137,8 @@ class FitResult:
     sentences: tuple[str, ...]
     processing: Processing
     verdict: Verdict | None = None
+    gains: tuple[ParameterEstimate, ...] = ()
+    singular_values: tuple[float, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
@@ -143,9 +147,10 @@ class FitResult:
 
     def summary(self) -> list[str]:
         """Lines of text: parameters, joints, remarks."""
-        width = max([9, *(len(p.name) for p in (*self.parameters, *self.loads))])
+        every = (*self.gains, *self.parameters, *self.loads)
+        width = max([9, *(len(p.name) for p in every)])
         lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}  unit"]
-        for parameter in (*self.parameters, *self.loads):
+        for parameter in every:
             if parameter.sigma is None:
                 lines.append(f"{parameter.name:<{width}} {'set aside':>13}")
                 continue
@@ -195,6 +200,8 @@ class FitResult:
             },
             "parameters": [parameter.to_json() for parameter in self.parameters],
             "loads": [parameter.to_json() for parameter in self.loads],
+            "gains": [parameter.to_json() for parameter in self.gains],
+            "singular_values": list(self.singular_values),
             "sentences": list(self.sentences),
             "processing": self.processing.to_json(),
             **_verdict_to_json(self.verdict),
@@ -225,6 +232,8 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             sentences=tuple(raw["sentences"]),
             processing=processing_from_json(raw["processing"]),
             verdict=_verdict_from_json(raw),
+            gains=tuple(_parameter(entry) for entry in raw.get("gains", [])),
+            singular_values=tuple(map(float, raw.get("singular_values", []))),
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None

@@ -5,7 +5,7 @@ from typing import get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
-from modeler.core.choices import LOW_SPEED, Derivatives, Method
+from modeler.core.choices import GAIN_METHOD, LOW_SPEED, Derivatives, Method
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -26,9 +26,10 @@ def add_fit(commands: Commands) -> None:
     )
     parser.add_argument(
         "--method",
-        choices=get_args(Method),
+        choices=(*get_args(Method), GAIN_METHOD),
         default="weighted",
-        help="least squares with one weight per joint, iterated, or without weights",
+        help="least squares with one weight per joint, iterated, or without weights; tls: total "
+        "least squares, which finds the drive gains too, from currents and a load of known mass",
     )
     _add_processing(parser)
     _add_load(parser)
