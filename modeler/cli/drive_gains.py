@@ -17,7 +17,9 @@ from modeler.fit import (
     identify_gains,
     with_verdict,
 )
+from modeler.fit.doubts import Doubt, Told
 from modeler.fit.known import deviations
+from modeler.fit.mounting import mounted_differently, remounted
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.findings import findings_of_fit
 from modeler.robot import robot_from_text
@@ -41,8 +43,8 @@ def fit_with_gains(
     """
     check_load(args)
     with working("finding the drive gains"):
-        observation, payload = _observed(args, compiled, processing, check)
-        found = identify_gains(compiled, observation, [payload])
+        observation, payloads = _observed(args, compiled, processing, check)
+        found = identify_gains(compiled, observation, payloads)
     with working("reading the currents with these gains"):
         text = with_drive_gains(derivation.robot.text, found.gains)
         robot = robot_from_text(text, derivation.robot.name)
@@ -50,11 +52,13 @@ def fit_with_gains(
         derivation = dataclasses.replace(derivation, robot=robot, model=model)
         emitted = generate(derivation)
         again = compile_model(emitted)
-        observation, payload = _observed(args, again, observation.report.processing, check)
-        result = identify_gains(again, observation, [payload]).result
+        observation, payloads = _observed(args, again, observation.report.processing, check)
+        result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
-        told = findings_of_fit(again, observation, result.beta)
-        bare = [name for name in observation.logs if name not in payload.logs]
+        told: list[Told] = [*findings_of_fit(again, observation, result.beta)]
+        told += [Doubt(line) for line in mounted_differently(again, observation, payloads)]
+        loaded = {name for payload in payloads for name in payload.logs}
+        bare = [name for name in observation.logs if name not in loaded]
         result = with_verdict(again, observation, result, told, bare)
     said = _deviations(compiled.spec, found)
     result = dataclasses.replace(result, sentences=(*result.sentences, *said))
@@ -81,11 +85,16 @@ def check_load(args: argparse.Namespace) -> None:
 
 def _observed(
     args: argparse.Namespace, compiled: CompiledModel, processing: Processing, check: Checked
-) -> tuple[Observation, Payload]:
+) -> tuple[Observation, list[Payload]]:
     logs, loaded = (read_currents(compiled, p) for p in (args.logs, args.payload_log))
     check(args, logs, loaded)
+    return observe(compiled, [*logs, *loaded], processing), carried(args, loaded)
+
+
+def carried(args: argparse.Namespace, loaded: Sequence[Log]) -> list[Payload]:
+    """The load of the loaded logs; one for each if it was taken off in between."""
     payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
-    return observe(compiled, [*logs, *loaded], processing), payload
+    return remounted(payload) if args.payload_moved else [payload]
 
 
 def _deviations(spec: ModuleSpec, found: GainFit) -> list[str]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.drive_gains import check_load, fit_with_gains
+from modeler.cli.drive_gains import carried, check_load, fit_with_gains
 from modeler.cli.robots import robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
 from modeler.compare.predict import predict
@@ -16,7 +16,6 @@ from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
 from modeler.fit import (
     IdentifiedModel,
-    Payload,
     are_currents,
     identify,
     identify_with_payloads,
@@ -71,9 +70,9 @@ def run_fit(args: argparse.Namespace) -> Json:
         observation = observe(compiled, [*logs, *loaded], processing)
     told: list[Told] = []
     if loaded:
-        payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
-        result = identify_with_payloads(compiled, observation, [payload], args.method)
-        told += known_doubts(compiled, observation, [payload], are_currents([*logs, *loaded]))
+        payloads = carried(args, loaded)
+        result = identify_with_payloads(compiled, observation, payloads, args.method)
+        told += known_doubts(compiled, observation, payloads, are_currents([*logs, *loaded]))
     else:
         result = identify(observation, args.method)
     with working("judging the fit"):
@@ -101,8 +100,8 @@ def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
 
 
 def _check_load(args: argparse.Namespace) -> None:
-    for option in ("payload_mass", "payload_link"):
-        if getattr(args, option) is not None and not args.payload_log:
+    for option in ("payload_mass", "payload_link", "payload_moved"):
+        if getattr(args, option) not in (None, False) and not args.payload_log:
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
 

@@ -14,6 +14,7 @@ from modeler.estimate.compressed import compress
 from modeler.estimate.least_squares import Estimate
 from modeler.estimate.tls import MAX_ITERATIONS, GainEstimate, mixed_tls
 from modeler.fit.identify import Equations, dead_joints, fit_equations
+from modeler.fit.mounting import mounted_differently
 from modeler.fit.payload import Loaded, Payload, loaded_equations
 from modeler.fit.result import FitResult, ParameterEstimate
 from modeler.observation import Log, Observation
@@ -103,7 +104,11 @@ def identify_gains(
     equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
     fit = fit_equations(scaled, equations, "weighted")
     colour = _colour(scaled, equations, estimate)
-    _check_told(observation, estimate, colour)
+    try:
+        _check_told(observation, estimate, colour)
+    except DataError as error:
+        moved = mounted_differently(model, observation, payloads)
+        raise DataError("; ".join([str(error), *moved])) from None
     return _result(model.spec, fit, estimate, colour, loaded)
 
 

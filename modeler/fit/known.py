@@ -11,6 +11,7 @@ from modeler.core.errors import DataError
 from modeler.fit.doubts import Doubt
 from modeler.fit.drive_gains import GainFit, identify_gains
 from modeler.fit.identify import fit_equations
+from modeler.fit.mounting import mounted_differently
 from modeler.fit.payload import Loaded, Payload, loaded_equations
 from modeler.fit.result import ParameterEstimate
 from modeler.observation import Observation
@@ -33,6 +34,8 @@ def known_doubts(
 ) -> list[Doubt]:
     """Known quantities that the logs contradict, each with the factor.
 
+    First that a load sits alike in all its logs; if not, nothing else is asked of it.
+
     Each is set free with all parameters: the mass of a load as the factor of its torques, drive
     gains as in `identify_gains`. Its value is doubted if it is farther than FAR of its own standard
     deviations, memory of the residuals included, and WORTH of it, from what was given.
@@ -43,8 +46,9 @@ def known_doubts(
         payloads: of which those of known mass are tested.
         currents: True if the torques are logged currents times the gains of the robot file.
     """
-    if not any(payload.mass is not None for payload in payloads):
-        return []
+    moved = mounted_differently(model, observation, payloads)
+    if moved or not any(payload.mass is not None for payload in payloads):
+        return [Doubt(line, values=True) for line in moved]
     found = _weights(observation, loaded_equations(model, observation, payloads), currents)
     if currents:
         found += _gains(model, observation, payloads)
@@ -61,8 +65,8 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
         mass, sigma = factor.value * payload.mass, factor.sigma * payload.mass
         more = f"{100.0 * abs(factor.value - 1.0):.2g} % {'more' if factor.value > 1.0 else 'less'}"
         gains = (
-            f"or all drive gains are 1/{factor.value:.3g} of what the robot file says; --method "
-            "tls finds the gains"
+            f"or all drive gains are {1.0 / factor.value:.3g} times what the robot file says; "
+            "--method tls finds the gains"
             if currents
             else f"or all torques are logged {factor.value:.3g} times as large as they are: the "
             "drive gains that the controller assumes are wrong by that"

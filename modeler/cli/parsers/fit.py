@@ -84,6 +84,12 @@ def _add_load(parser: argparse.ArgumentParser) -> None:
     )
     add_number(group, "--payload-mass", "KG", float, "its mass, if it is known")
     group.add_argument(
+        "--payload-moved",
+        action="store_true",
+        help="it was taken off between the loaded logs: the same mass, but its own centre and "
+        "inertia in each",
+    )
+    group.add_argument(
         "--payload-link", metavar="J", type=Word,
         help="the link that carries it; default: the last",
     )  # fmt: skip
