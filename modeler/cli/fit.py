@@ -14,6 +14,7 @@ from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
+from modeler.core.files import write_atomically
 from modeler.fit import (
     IdentifiedModel,
     are_currents,
@@ -54,6 +55,10 @@ def run_fit(args: argparse.Namespace) -> Json:
     _check_load(args)
     if args.method == GAIN_METHOD:
         check_load(args)
+    elif args.robot_out is not None:
+        raise DataError(
+            "--robot-out: only --method tls finds drive gains to write; leave it out, or give that"
+        )
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
@@ -88,6 +93,9 @@ def _written(args: argparse.Namespace, model: IdentifiedModel, observation: Obse
     for line in (*observation.report.summary(), "", *model.fit.summary()):
         say(line)
     say(f"written: {args.out}")
+    if args.robot_out is not None:
+        write_atomically(Path(args.robot_out), model.robot_text)
+        say(f"written: {args.robot_out}")
     return model.fit.to_json()
 
 

@@ -33,6 +33,10 @@ def add_fit(commands: Commands) -> None:
     )
     _add_processing(parser)
     _add_load(parser)
+    parser.add_argument(
+        "--robot-out", metavar="ROBOT.toml", type=Output,
+        help="with --method tls: write the robot file with the drive gains found",
+    )  # fmt: skip
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_fit)
 
