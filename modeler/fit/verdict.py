@@ -74,7 +74,7 @@ def with_verdict(
         observation.names,
     )
     seen = crossed(observation, rows, sigma, refit)
-    found = [Doubt(item.line, item.certain) for item in told]
+    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
     found += [*scarce(result, seen), *undescribed(result)]
     found += systematic(result, _lasting(observation, rows, result))
