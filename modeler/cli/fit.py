@@ -14,8 +14,10 @@ from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
+from modeler.core.estimators import titled
 from modeler.core.files import write_atomically
 from modeler.fit import (
+    FitResult,
     IdentifiedModel,
     are_currents,
     identify,
@@ -30,6 +32,8 @@ from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
 from modeler.observation.log import shared_rows
+from modeler.robot import INERTIAL, Robot
+from modeler.robot.edit import with_parameters
 
 _TRAINING = "training only: "
 
@@ -55,17 +59,14 @@ def run_fit(args: argparse.Namespace) -> Json:
     _check_load(args)
     if args.method == GAIN_METHOD:
         check_load(args)
-    elif args.robot_out is not None:
-        raise DataError(
-            "--robot-out: only --method tls finds drive gains to write; leave it out, or give that"
-        )
+    _check_robot_out(args)
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
-    save = partial(_written, args)
+    save = partial(_written, args, robot)
     if args.method == GAIN_METHOD:
         return save(*fit_with_gains(args, derivation, compiled, processing, _check_given))
     with working("building the observation matrix"):
@@ -79,7 +80,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         result = identify_with_payloads(compiled, observation, payloads, args.method)
         told += known_doubts(compiled, observation, payloads, are_currents([*logs, *loaded]))
     else:
-        result = identify(observation, args.method)
+        result = identify(observation, args.method, compiled)
     with working("judging the fit"):
         told += findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
@@ -87,20 +88,43 @@ def run_fit(args: argparse.Namespace) -> Json:
     return save(identified(derivation, emitted, observation, result), observation)
 
 
-def _written(args: argparse.Namespace, model: IdentifiedModel, observation: Observation) -> Json:
+def _written(
+    args: argparse.Namespace, robot: Robot, model: IdentifiedModel, observation: Observation
+) -> Json:
     """Saves and prints the model."""
     save_model(args.out, model)
     for line in (*observation.report.summary(), "", *model.fit.summary()):
         say(line)
     say(f"written: {args.out}")
     if args.robot_out is not None:
-        write_atomically(Path(args.robot_out), model.robot_text)
+        consistent = args.method == "consistent"
+        text = with_parameters(robot.text, _own(robot, model.fit)) if consistent else None
+        write_atomically(Path(args.robot_out), text or model.robot_text)
         say(f"written: {args.robot_out}")
     return model.fit.to_json()
 
 
 def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
     _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
+
+
+def _check_robot_out(args: argparse.Namespace) -> None:
+    if args.robot_out is not None and args.method not in ("consistent", GAIN_METHOD):
+        raise DataError(
+            f"--robot-out: --method {args.method} ends in base parameters, of which many machines "
+            "have the same; use --method consistent, which ends in all standard parameters, or "
+            "--method tls, which ends in drive gains"
+        )
+
+
+def _own(robot: Robot, result: FitResult) -> dict[str, float]:
+    """The standard parameters that the robot file may state."""
+    unfelt = {
+        f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
+        for joint in robot.moving
+        for prefix in INERTIAL
+    }
+    return {name: value for name, value in result.standard.items() if unfelt.get(name, True)}
 
 
 def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
@@ -168,8 +192,8 @@ def judged(
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
     lines = [
-        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {model.fit.method} least "
-        f"squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {titled(model.fit.method)} "
+        f"on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

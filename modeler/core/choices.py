@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-Method = Literal["weighted", "ordinary"]
-"""Least squares with one weight per joint, iterated, or without weights."""
+Method = Literal["weighted", "ordinary", "consistent"]
+"""Estimators; `core.estimators` says what each is."""
 
 GAIN_METHOD = "tls"
 """Total least squares, for drive gains besides."""

@@ -1,6 +1,6 @@
 """Estimates of the base parameters, their certainty, and the model file."""
 
-from modeler.estimate.least_squares import Method as Method
+from modeler.core.choices import Method as Method
 from modeler.fit.drive_gains import GainFit as GainFit
 from modeler.fit.drive_gains import are_currents as are_currents
 from modeler.fit.drive_gains import check_currents as check_currents

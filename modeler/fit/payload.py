@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.core.choices import Method
 from modeler.core.errors import DataError
-from modeler.estimate.least_squares import Method
 from modeler.fit.identify import Equations, base_equations, fit_equations
 from modeler.fit.result import FitResult
 from modeler.observation import Observation, Segment
@@ -65,7 +65,7 @@ def identify_with_payloads(
         DataError: a log or link that is not there, every log loaded, a mass that is not positive.
     """
     return fit_equations(
-        observation, loaded_equations(model, observation, payloads).equations, method
+        observation, loaded_equations(model, observation, payloads).equations, method, model
     )
 
 

@@ -1,12 +1,13 @@
 """What a fit hands back: values, how sure they are, and how much they leave unexplained."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
+from modeler.fit.bodies import bodies_told
 from modeler.observation import Processing, processing_from_json
 
 
@@ -102,7 +103,7 @@ class FitResult:
 
     Attributes:
         robot: name.
-        method: "ordinary" | "weighted".
+        method: id of the estimator, see `core.estimators`.
         status: "ok" | "rank deficient" | "not settled".
         samples: after decimation.
         rows: of W.
@@ -119,6 +120,7 @@ class FitResult:
         verdict: usable or not; None if nobody has judged it.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
+        standard: all standard parameters by name, SI, of an estimator that ends in them.
     """
 
     robot: str
@@ -139,6 +141,7 @@ class FitResult:
     verdict: Verdict | None = None
     gains: tuple[ParameterEstimate, ...] = ()
     singular_values: tuple[float, ...] = ()
+    standard: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def beta(self) -> np.ndarray:
@@ -170,7 +173,7 @@ class FitResult:
             error = joint.relative_error
             share_text = "-" if error is None else f"{100.0 * error:.2f} %"
             lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
-        lines += self.sentences
+        lines += [*bodies_told(self.standard), *self.sentences]
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
             lines += [*(f"doubt: {line}" for line in others), self.verdict.line]
@@ -204,6 +207,7 @@ class FitResult:
             "singular_values": list(self.singular_values),
             "sentences": list(self.sentences),
             "processing": self.processing.to_json(),
+            "standard": dict(self.standard),
             **_verdict_to_json(self.verdict),
         }
 
@@ -234,6 +238,7 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             verdict=_verdict_from_json(raw),
             gains=tuple(_parameter(entry) for entry in raw.get("gains", [])),
             singular_values=tuple(map(float, raw.get("singular_values", []))),
+            standard={str(k): float(v) for k, v in raw.get("standard", {}).items()},
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None

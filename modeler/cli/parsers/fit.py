@@ -6,6 +6,7 @@ from typing import get_args
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
 from modeler.core.choices import GAIN_METHOD, LOW_SPEED, Derivatives, Method
+from modeler.core.estimators import ABOUT, GAINS
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -28,15 +29,18 @@ def add_fit(commands: Commands) -> None:
         "--method",
         choices=(*get_args(Method), GAIN_METHOD),
         default="weighted",
-        help="least squares with one weight per joint, iterated, or without weights; tls: total "
-        "least squares, which finds the drive gains too, from currents and a load of known mass",
+        help="estimator, and where it is the wrong one; default: %(default)s. "
+        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), GAINS)),
+    )
+    parser.add_argument(
+        "--robot-out",
+        metavar="FILE.toml",
+        type=Output,
+        help="write the robot file with the values found, for simulators (--method consistent), "
+        "or with the drive gains found (--method tls)",
     )
     _add_processing(parser)
     _add_load(parser)
-    parser.add_argument(
-        "--robot-out", metavar="ROBOT.toml", type=Output,
-        help="with --method tls: write the robot file with the drive gains found",
-    )  # fmt: skip
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_fit)
 
