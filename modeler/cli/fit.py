@@ -69,7 +69,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
-    save = partial(_written, args)
+    save = partial(_written, args, robot)
     if args.method == GAIN_METHOD:
         return save(*fit_with_gains(args, derivation, compiled, processing, _check_given))
     with working("building the observation matrix"):
@@ -96,7 +96,9 @@ def run_fit(args: argparse.Namespace) -> Json:
     return save(identified(derivation, emitted, observation, result), observation)
 
 
-def _written(args: argparse.Namespace, model: IdentifiedModel, observation: Observation) -> Json:
+def _written(
+    args: argparse.Namespace, robot: Robot, model: IdentifiedModel, observation: Observation
+) -> Json:
     """Saves and prints the model."""
     save_model(args.out, model)
     for line in (*observation.report.summary(), "", *model.fit.summary()):

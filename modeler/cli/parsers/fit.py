@@ -6,7 +6,7 @@ from typing import get_args
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
 from modeler.core.choices import GAIN_METHOD, LOW_SPEED, Derivatives, Method, ModelKind
-from modeler.core.estimators import ABOUT
+from modeler.core.estimators import ABOUT, GAINS
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -30,16 +30,14 @@ def add_fit(commands: Commands) -> None:
         choices=(*get_args(Method), GAIN_METHOD),
         default="weighted",
         help="estimator, and where it is the wrong one; default: %(default)s. "
-        + " ".join(f"{about.id}: {about.title}; not {about.avoid}." for about in ABOUT.values())
-        + f" {GAIN_METHOD}: total least squares, which finds the drive gains too, from currents "
-        "and a load of known mass.",
+        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), GAINS)),
     )
     parser.add_argument(
         "--robot-out",
         metavar="FILE.toml",
         type=Output,
-        help="write the robot file with the values found: all standard parameters, for simulators "
-        "(--method consistent), or the drive gains (--method tls)",
+        help="write the robot file with the values found, for simulators (--method consistent), "
+        "or with the drive gains found (--method tls)",
     )
     _add_model(parser)
     _add_processing(parser)
