@@ -8,7 +8,7 @@ one in a million, and the count is repeated at another point with another prime.
 """
 
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, islice
 from math import comb
@@ -18,6 +18,7 @@ import numpy as np
 from modeler.core.errors import ModelerError
 from modeler.terms.identifiability import SEED
 from modeler.terms.physical_system import PhysicalSystem
+from modeler.terms.spanning import BLOCK, components, reduced_by, span, spanning_sets
 
 EASE: Mapping[str, int] = {
     "mass": 0, "length": 0, "rotor inertia": 1, "centre": 2, "inertia": 3,
@@ -25,7 +26,6 @@ EASE: Mapping[str, int] = {
 """How hard a parameter is to measure: scales and ruler, data sheet, balancing, pendulum."""
 
 MOST = 30_000_000  # sets of one component that are looked at
-_BLOCK = 4000
 
 
 @dataclass(frozen=True)
@@ -68,13 +68,14 @@ def easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
     """
     kernel, prime = _kernel(system, seed)
     order = sorted(range(len(system.letters)), key=lambda k: _trouble(system, k))
-    chosen, work = [], kernel.copy()
+    chosen: list[int] = []
+    work = kernel.copy()
     for k in order:
         if len(chosen) == len(kernel):
             break
         if work[:, k].any():
             chosen.append(k)
-            work = _taken(work[None], np.array([k]), prime)[0]
+            work = reduced_by(work[None], np.array([k]), prime)[0]
     return tuple(system.letters[k] for k in sorted(chosen))
 
 
@@ -168,21 +169,6 @@ def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
     return kernel, prime
 
 
-def _components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
-    """(rows, columns) of the parts that share no entry; a column of zeros is its own part."""
-    label = list(range(len(kernel)))
-    for k in range(kernel.shape[1]):
-        rows = np.flatnonzero(kernel[:, k])
-        merged = {label[r] for r in rows}
-        label = [min(merged) if x in merged else x for x in label]
-    parts = []
-    for x in sorted(set(label)):
-        rows = [r for r, y in enumerate(label) if y == x]
-        parts.append((rows, [int(k) for k in np.flatnonzero(kernel[rows].any(axis=0))]))
-    loops = [([], [int(k)]) for k in np.flatnonzero(~kernel.any(axis=0))]
-    return parts + loops
-
-
 Entry = tuple[int, tuple[int, ...]]
 Table = dict[tuple[int, int, int], Entry]
 """{class: (number of sets, per letter the number of them with it)}."""
@@ -196,7 +182,7 @@ class _Counted:
     ) -> None:
         self.system, self.size, self.tell = system, size, tell
         self.kernel, self.prime = _kernel(system, seed)
-        self.parts = _components(self.kernel)
+        self.parts = components(self.kernel)
 
     def table(self) -> Table:
         """Counts of sets of the wanted size."""
@@ -235,7 +221,7 @@ class _Counted:
         ease = np.array([EASE[self.system.kinds[self.system.letters[k]]] for k in columns])
         for more in range(min(spare, len(columns) - len(rows)) + 1):
             counts: dict[tuple[int, int, int], np.ndarray] = {}
-            for at, sets in _spanning(matrix, len(rows) + more, self.prime):
+            for at, sets in spanning_sets(matrix, len(rows) + more, self.prime):
                 kinds = ease[sets]
                 easy, centres, hard = ((kinds < 2).sum(1), (kinds == 2).sum(1), (kinds == 3).sum(1))
                 keys = (easy * 1000 + centres) * 1000 + hard
@@ -270,78 +256,6 @@ def _product(a: Mapping[int, Table], b: Mapping[int, Table], spare: int) -> dict
     return found
 
 
-def _spanning(
-    matrix: np.ndarray, size: int, prime: int
-) -> Iterator[tuple[float, np.ndarray]]:
-    """(share done, sets of `size` columns that span the rows), in blocks.
-
-    Elimination grows with the set: a column joins a set that comes before it, and the rest of the
-    matrix is reduced by it; all sets of a block at once.
-    """
-    rows, n = matrix.shape
-    start = (matrix[None], np.zeros((1, 0), dtype=np.int64), np.zeros(1, dtype=np.int64))
-    stack = [start]
-    done = 0.0
-    total = float(comb(n, size))
-    while stack:
-        work, sets, rank = stack.pop()
-        k = sets.shape[1]
-        if k == size:
-            done += len(sets)
-            yield done / total, sets
-            continue
-        if k == size - 1 and rows:
-            sets = _last(work, sets, rank, rows)
-            done += len(sets)
-            yield min(1.0, done / total), sets
-            continue
-        grown = _grown(work, sets, rank, size, prime)
-        for at in range(0, len(grown[0]), _BLOCK):
-            part = slice(at, at + _BLOCK)
-            stack.append((grown[0][part], grown[1][part], grown[2][part]))
-
-
-def _last(work: np.ndarray, sets: np.ndarray, rank: np.ndarray, rows: int) -> np.ndarray:
-    """Sets made full by one column more, those that span."""
-    n = work.shape[2]
-    after = np.arange(n)[None] > (sets[:, -1:] if sets.shape[1] else -1)
-    joins = work.any(axis=1)
-    fits = after & np.where((rank == rows)[:, None], True, joins & (rank == rows - 1)[:, None])
-    which, column = np.nonzero(fits)
-    return np.concatenate([sets[which], column[:, None]], axis=1)
-
-
-def _grown(
-    work: np.ndarray, sets: np.ndarray, rank: np.ndarray, size: int, prime: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Every set with every later column, if it can still span in the end."""
-    rows, n = work.shape[1:]
-    k = sets.shape[1]
-    columns = np.arange(n)[None]
-    after = (columns > (sets[:, -1:] if k else -1)) & (columns <= n - size + k)
-    joins = work.any(axis=1)
-    reach = rank[:, None] + joins + (size - k - 1) >= rows
-    which, column = np.nonzero(after & reach)
-    joined = joins[which, column]
-    grown = work[which]
-    grown[joined] = _taken(grown[joined], column[joined], prime)
-    return grown, np.concatenate([sets[which], column[:, None]], axis=1), rank[which] + joined
-
-
-def _taken(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
-    """Matrices reduced by one of their columns, its pivot row set to zero."""
-    at = np.arange(len(work))
-    entries = work[at, :, column]
-    pivot = (entries != 0).argmax(axis=1)
-    row = work[at, pivot]
-    # No inverse is needed: rows times the pivot have the same zeros.
-    scale = entries[at, pivot]
-    reduced = (work * scale[:, None, None] % prime - entries[:, :, None] * row[:, None, :] % prime)
-    reduced %= prime
-    reduced[at, pivot] = 0
-    return reduced
-
-
 def _members(
     system: PhysicalSystem, size: int, wanted: tuple[int, int, int], seed: int, most: int = 100_000
 ) -> tuple[tuple[str, ...], ...]:
@@ -363,20 +277,8 @@ def _members(
         for c in combinations(groups[2], wanted[2])
     )
     found = []
-    while block := list(islice(candidates, _BLOCK)):
+    while block := list(islice(candidates, BLOCK)):
         sets = np.array(block, dtype=np.int64).reshape(len(block), size)
-        for members in sets[_spans(kernel, sets, prime)]:
+        for members in sets[span(kernel, sets, prime)]:
             found.append(tuple(system.letters[k] for k in members))
     return tuple(sorted(found, key=lambda s: [system.letters.index(x) for x in s]))
-
-
-def _spans(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray:
-    """Which sets of columns have the rank of the matrix."""
-    work = np.broadcast_to(kernel, (len(sets), *kernel.shape)).copy()
-    rank = np.zeros(len(sets), dtype=np.int64)
-    at = np.arange(len(sets))
-    for k in range(sets.shape[1]):
-        joins = work[at, :, sets[:, k]].any(axis=1)
-        work[joins] = _taken(work[joins], sets[joins, k], prime)
-        rank += joins
-    return rank == len(kernel)

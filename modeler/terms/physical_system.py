@@ -1,9 +1,8 @@
 """What a fit tells of physical parameters: base parameters, or coefficients, as polynomials."""
 
 import random
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -213,31 +212,48 @@ def _of_coefficients(
     to_data = np.zeros((len(table.map.rows), len(table.map.columns)))
     for at, factor in table.map.entries.items():
         to_data[at] = float(poly_value(factor, static))
-    return _system(
-        model, physical, algebra, "coefficients", definitions, {}, {}, free,
-        table.map.columns, to_data,
-    )  # fmt: skip
+    geometry = _Geometry(algebra, physical, model.robot.symbol_values())
+    return _system(model.robot.name, geometry, definitions, free, table.map.columns, to_data)
+
+
+@dataclass
+class _Geometry:
+    """What is known of the geometry, as generators; quotients of lengths get names of their own."""
+
+    algebra: TrigRing
+    physical: PhysicalParameters
+    given: Mapping[str, float]
+    quotients: dict[str, str] = field(default_factory=dict)
+    values: dict[str, float] = field(default_factory=dict)
+
+    def factor(self, value: sympy.Expr) -> tuple[Poly, str]:
+        """(polynomial of the geometry, name of a further factor or "")."""
+        number, rest = sympy.sympify(value).as_coeff_Mul()
+        try:
+            static = self.algebra.split(self.algebra.static(value))
+            return self.physical.lifted(static[(0,) * self.algebra.moving]), ""
+        except (DerivationError, KeyError):
+            told = {text: name for name, text in self.quotients.items()}
+            name = told.get(str(rest), f"k{len(self.quotients) + 1}")
+            self.quotients[name] = str(rest)
+            self.values[name] = float(rest.subs({x: self.given[x.name] for x in rest.free_symbols}))
+            return self.physical.ring(QQ(int(number.p), int(number.q))), name
 
 
 def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
     algebra = TrigRing(model.geometry)
     physical = physical_parameters(model, algebra)
+    geometry = _Geometry(algebra, physical, model.robot.symbol_values())
     columns = {column.name: i for i, column in enumerate(base.columns)}
-    known = {name: x for name, x in zip(physical.names, physical.ring.gens, strict=True)}
-    quotients: dict[str, str] = {}
-    values: dict[str, float] = {}
     parts: dict[str, list[tuple[Poly, str, Poly]]] = {}
     for parameter in base.parameters:
-        terms = []
-        for term in parameter.terms:
-            standard = physical.standard.get(columns[term.parameter])
-            if standard is None:
-                break
-            factor = _factor(term.coefficient, algebra, physical, model, quotients, values)
-            terms.append((*factor, standard))
-        else:
-            parts[parameter.name] = terms
-    ring = PolyRing([*known, *quotients], QQ, lex)
+        places = [columns[term.parameter] for term in parameter.terms]
+        if all(place in physical.standard for place in places):
+            parts[parameter.name] = [
+                (*geometry.factor(term.coefficient), physical.standard[place])
+                for term, place in zip(parameter.terms, places, strict=True)
+            ]
+    ring = PolyRing([*physical.names, *geometry.quotients], QQ, lex)
     lift = _lift(physical.ring, ring)
     gens = dict(zip((str(s) for s in ring.symbols), ring.gens, strict=True))
     definitions = {}
@@ -246,31 +262,10 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
         for factor, quotient, standard in terms:
             term = lift(factor) * lift(standard)
             total = total + (term * gens[quotient] if quotient else term)
-        definitions[name] = total
-    used = tuple(name for name, poly in definitions.items() if poly)
-    return _system(
-        model, physical, algebra, "base", {n: definitions[n] for n in used},
-        {k: text for text, k in ((v, n) for n, v in quotients.items())}, values, (),
-        used, np.eye(len(used)),
-    )  # fmt: skip
-
-
-def _factor(
-    value: sympy.Expr, algebra: TrigRing, physical: PhysicalParameters, model: SymbolicModel,
-    quotients: dict[str, str], values: dict[str, float],
-) -> tuple[Poly, str]:  # fmt: skip
-    """(polynomial of the geometry, name of a factor that is none or "")."""
-    number, rest = sympy.sympify(value).as_coeff_Mul()
-    try:
-        static = algebra.split(algebra.static(value))
-        return physical.lifted(static[(0,) * algebra.moving]), ""
-    except (DerivationError, KeyError):
-        text = str(rest)
-        name = next((n for n, told in quotients.items() if told == text), f"k{len(quotients) + 1}")
-        quotients[name] = text
-        given = model.robot.symbol_values()
-        values[name] = float(rest.subs({x: given[x.name] for x in rest.free_symbols}))
-        return physical.ring(QQ(int(number.p), int(number.q))), name
+        if total:
+            definitions[name] = total
+    used = tuple(definitions)
+    return _system(model.robot.name, geometry, definitions, None, used, np.eye(len(used)))
 
 
 def _lift(old: PolyRing, new: PolyRing) -> Callable[[Poly], Poly]:
@@ -293,31 +288,33 @@ def _lift(old: PolyRing, new: PolyRing) -> Callable[[Poly], Poly]:
 
 
 def _system(
-    model: SymbolicModel, physical: PhysicalParameters, algebra: TrigRing, source: str,
-    definitions: Mapping[str, Poly], quotients: Mapping[str, str], values: Mapping[str, float],
-    free: Sequence[str], base: Sequence[str], to_data: np.ndarray,
-) -> PhysicalSystem:  # fmt: skip
-    """The ring with what the definitions use, and all of them in it."""
+    robot: str,
+    geometry: _Geometry,
+    definitions: Mapping[str, Poly],
+    free: Sequence[str] | None,
+    base: Sequence[str],
+    to_data: np.ndarray,
+) -> PhysicalSystem:
+    """The ring with what the definitions use, and all of them in it; None: of base parameters."""
+    physical = geometry.physical
     some = next(iter(definitions.values()), physical.ring.zero).ring
-    names = [str(symbol) for symbol in some.symbols]
-    used = {names[i] for poly in definitions.values() for at in poly for i, e in enumerate(at) if e}
-    used |= {"sin" + x[3:] for x in used if x.startswith("cos(")}
-    used |= {"cos" + x[3:] for x in used if x.startswith("sin(")}
-    candidates = [x for x in physical.letters if physical.kinds[x] != "length" or x in free]
+    used = _used(definitions.values(), [str(symbol) for symbol in some.symbols])
+    candidates = [x for x in physical.letters if physical.kinds[x] != "length" or x in (free or ())]
     letters = tuple(x for x in candidates if x in used)
-    static = algebra.static_values(model.robot.symbol_values())
-    geometry = dict(zip(map(str, algebra.static_ring.symbols), static, strict=True)) | dict(values)
-    constants = {x: v for x, v in geometry.items() if x in used and x not in letters}
+    static = geometry.algebra.static_values(geometry.given)
+    names = map(str, geometry.algebra.static_ring.symbols)
+    known = dict(zip(names, static, strict=True)) | geometry.values
+    constants = {x: v for x, v in known.items() if x in used and x not in letters}
     for name in {*letters, *constants} & set(definitions):
         raise RobotError(
-            f"robot {model.robot.name}: the letter {name} is also the name of an identified "
-            "quantity; rename it in [physical] or [symbols]"
+            f"robot {robot}: the letter {name} is also the name of an identified quantity; rename "
+            "it in [physical] or [symbols]"
         )
     ring = PolyRing([*definitions, *letters, *constants], QQ, lex)
     lift = _lift(some, ring)
     return PhysicalSystem(
-        model.robot.name,
-        source,
+        robot,
+        "base" if free is None else "coefficients",
         ring,
         tuple(definitions),
         letters,
@@ -325,11 +322,18 @@ def _system(
         tuple(x for x in physical.masses if x in letters),
         tuple(x for x in physical.letters if x not in used and _stands(x, physical)),
         constants,
-        dict(quotients),
+        geometry.quotients,
         {name: lift(poly) for name, poly in definitions.items()},
         tuple(base),
         to_data,
     )
+
+
+def _used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:
+    """Generators that occur, an angle with both its cosine and its sine."""
+    used = {names[i] for poly in polys for at in poly for i, e in enumerate(at) if e}
+    used |= {"sin" + x[3:] for x in used if x.startswith("cos(")}
+    return used | {"cos" + x[3:] for x in used if x.startswith("sin(")}
 
 
 def _stands(letter: str, physical: PhysicalParameters) -> bool:
@@ -338,8 +342,3 @@ def _stands(letter: str, physical: PhysicalParameters) -> bool:
         return True
     at = physical.names.index(letter)
     return any(e[at] for poly in physical.standard.values() for e in poly)
-
-
-def as_rational(value: float) -> Fraction:
-    """The number as it is printed."""
-    return Fraction(repr(float(value)))

@@ -164,10 +164,10 @@ def derive_values(
     slopes = gradient[at]
     parts = slopes * (slopes @ C)
     variance = np.maximum(parts.sum(axis=1), 0.0)
-    shares = np.divide(parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0)
-    return Derived(
-        solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful
+    shares = np.divide(
+        parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
     )
+    return Derived(solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful)
 
 
 def _advance(

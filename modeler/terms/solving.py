@@ -235,8 +235,8 @@ class _Elimination:
             letters = self._unknowns(poly)
             for letter in letters - {wanted}:
                 if _degree(poly, self.place[letter]) == 1:
-                    choices.append((*self._cost(poly, letter), at, letter))
-        for *_, at, letter in sorted(choices):
+                    choices.append((self._cost(poly, letter), at, letter))
+        for _, at, letter in sorted(choices):
             step = self._quotient(self.equations[at], letter)
             if step is None:
                 continue
