@@ -11,6 +11,7 @@ from modeler.compare import Comparison, compare, verdict, write_pictures, write_
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
+from modeler.estimate.alone import Directions
 from modeler.fit import (
     IdentifiedModel,
     Payload,
@@ -18,12 +19,14 @@ from modeler.fit import (
     identify_with_payloads,
     load_model,
     save_model,
+    two_step,
     with_verdict,
 )
 from modeler.observation import Log, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
 from modeler.observation.log import shared_rows
+from modeler.robot.motors import joint_directions
 
 _TRAINING = "training only: "
 
@@ -58,7 +61,13 @@ def run_fit(args: argparse.Namespace) -> Json:
         loaded = read_logs(compiled, args.payload_log)
         _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
         observation = observe(compiled, [*logs, *loaded], processing)
-    if loaded:
+    told_first: list[str] = []
+    extra: Json = {}
+    if args.method == two_step.METHOD:
+        ways = Directions(joint_directions(robot))
+        steps = two_step.identify_in_two_steps(compiled, observation, ways)
+        result, told_first, extra = steps.result, steps.summary(), {"two_step": steps.to_json()}
+    elif loaded:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
@@ -68,10 +77,10 @@ def run_fit(args: argparse.Namespace) -> Json:
         bare = [log.name for log in logs]
         result = with_verdict(compiled, observation, result, told, bare)
     save_model(args.out, identified(derivation, emitted, observation, result))
-    for line in (*observation.report.summary(), "", *result.summary()):
+    for line in (*observation.report.summary(), "", *told_first, *result.summary()):
         say(line)
     say(f"written: {args.out}")
-    return result.to_json()
+    return result.to_json() | extra
 
 
 def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
@@ -83,6 +92,11 @@ def _check_load(args: argparse.Namespace) -> None:
         if getattr(args, option) is not None and not args.payload_log:
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
+    if args.payload_log and args.method == two_step.METHOD:
+        raise DataError(
+            f"--payload-log: got it with --method {args.method}, which knows no loads; expected "
+            "--method weighted or ordinary"
+        )
 
 
 def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:

@@ -26,9 +26,10 @@ def add_fit(commands: Commands) -> None:
     )
     parser.add_argument(
         "--method",
-        choices=get_args(Method),
+        choices=(*get_args(Method), "two-step"),
         default="weighted",
-        help="least squares with one weight per joint, iterated, or without weights",
+        help="least squares with one weight per joint, iterated, or without weights; two-step: "
+        "inertia and gravity of each joint that moves alone, then the parameters from these",
     )
     _add_processing(parser)
     _add_load(parser)
