@@ -70,8 +70,8 @@ def moves_alone(observation: Observation, directions: Directions) -> Moves:
     """All pieces in which one joint moves and the others stand.
 
     A joint stands while its speed is below `STANDS` times the top speed of the fastest joint of
-    its unit. A piece begins and ends where its joint moves; it may pause and turn back in between,
-    and another joint that moves ends it.
+    its unit. A piece begins and ends at standstill of all; its joint may pause and turn back in
+    between, and any motion of another one ends it.
 
     Args:
         observation: of the logs.
@@ -85,14 +85,35 @@ def moves_alone(observation: Observation, directions: Directions) -> Moves:
         labels = _labels(segment, floors, directions)
         several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
         total += segment.step * float(np.sum(segment.whole))
-        moving = np.flatnonzero(labels != _NONE)
-        cuts = np.flatnonzero(np.diff(labels[moving])) + 1
-        for run in np.split(moving, cuts):
-            if run.size and labels[run[0]] >= 0:
-                found.append(
-                    Move(int(labels[run[0]]), number, slice(int(run[0]), int(run[-1]) + 1))
-                )
+        found += [Move(i, number, window) for i, window in _merged(_episodes(labels))]
     return Moves(tuple(found), several, total)
+
+
+def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
+    """(joint, samples) from standstill to standstill; several where they move at any time of it.
+
+    Joints that come to rest together do so one after the other, and the last is not alone.
+    """
+    moving = np.flatnonzero(labels != _NONE)
+    cuts = np.flatnonzero(np.diff(moving) > 1) + 1
+    found = []
+    for run in np.split(moving, cuts) if moving.size else []:
+        joint = int(labels[run[0]]) if np.ptp(labels[run]) == 0 else _SEVERAL
+        found.append((joint, slice(int(run[0]), int(run[-1]) + 1)))
+    return found
+
+
+def _merged(episodes: list[tuple[int, slice]]) -> list[tuple[int, slice]]:
+    """Episodes of one joint alone, those that follow each other as one."""
+    found: list[tuple[int, slice]] = []
+    before = _SEVERAL
+    for joint, window in episodes:
+        if joint != _SEVERAL and joint == before:
+            found[-1] = (joint, slice(found[-1][1].start, window.stop))
+        elif joint != _SEVERAL:
+            found.append((joint, window))
+        before = joint
+    return found
 
 
 def _floors(
