@@ -100,10 +100,13 @@ def along(model: CompiledModel, alone: Alone, felt: np.ndarray) -> tuple[Along |
 
 
 def _along(matrix: np.ndarray, values: np.ndarray) -> Along | None:
-    """values (t, c) = matrix (t, functions) V, functions without weight left out."""
+    """values (t, c) = matrix (t, functions) V, functions without weight left out.
+
+    None where other functions are needed, and where nothing is felt.
+    """
     weights = np.linalg.lstsq(matrix, values, rcond=None)[0]
     size = np.abs(values).max()
-    if np.abs(matrix @ weights - values).max() > _EXACT * size:
+    if size == 0.0 or np.abs(matrix @ weights - values).max() > _EXACT * size:
         return None
     kept = np.flatnonzero(np.abs(weights).max(axis=1) > _EXACT * size)
     return Along(tuple(np.array([*FUNCTIONS])[kept].tolist()), weights[kept])

@@ -141,12 +141,28 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
             W, y = _whitened(configuration, noise)
             rows.append(W)
             values.append(y)
-    W, y = np.vstack(rows), np.concatenate(values)
-    data = compress(W, y, np.zeros(len(y), dtype=int), 1, observation.names)
-    return TwoStep(
-        directions, tuple(configurations), left_out, moves.several, data,
-        least_squares(data, "ordinary"),
-    )  # fmt: skip
+    data, estimate = _second_step(observation, configurations, np.vstack(rows), np.hstack(values))
+    return TwoStep(directions, tuple(configurations), left_out, moves.several, data, estimate)
+
+
+def _second_step(
+    observation: Observation, configurations: list[Configuration], W: np.ndarray, y: np.ndarray
+) -> tuple[Compressed, Estimate]:
+    """The base parameters from rows of standard deviation 1, and their covariance.
+
+    Its scale is 1 as far as the residuals of step 1 tell, which stand in the data as one row. It
+    is raised where the configurations contradict each other by more.
+    """
+    spare = sum(len(f.residual) - len(f.projected) for c in configurations for f in c.felt)
+    last = np.zeros((1, W.shape[1]))
+    every, where = np.append(y, np.sqrt(spare)), np.zeros(len(y) + 1, dtype=int)
+    data = compress(np.vstack([W, last]), every, where, 1, observation.names)
+    data = dataclasses.replace(data, rows=np.array([len(y) + spare]))
+    estimate = least_squares(data, "ordinary")
+    degrees = len(y) - len(estimate.rank.kept)
+    misfit = float(np.sum((y - W @ estimate.beta) ** 2)) / max(1, degrees)
+    raised = max(1.0, misfit / float(estimate.sigma[0] ** 2))
+    return data, dataclasses.replace(estimate, covariance=raised * estimate.covariance)
 
 
 def _nothing(observation: Observation, moves: Moves, left_out: dict[str, int]) -> str:
@@ -189,7 +205,7 @@ def _first_step(
                 felt.append(solved)
         if k == i and not felt:
             return (
-                "other functions than those of one turning body"
+                "other functions than those of one body that turns"
                 if found is None
                 else "too short to tell inertia, gravity and friction apart"
             )

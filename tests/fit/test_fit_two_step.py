@@ -16,6 +16,7 @@ from modeler.fit.two_step import identify_in_two_steps
 from modeler.observation import Log, Processing, observe
 from modeler.robot import Limits, read_robot
 from modeler.robot.motors import joint_directions
+from modeler.simulate import SimulationSettings, simulate
 from modeler.simulate.trajectory import one_joint_reference, point_to_point_reference
 from tests.modules import compiled, module
 
@@ -94,15 +95,21 @@ def test_step_one_finds_the_inertia_gravity_and_friction_of_the_paper(exact):
 
 def test_the_sigmas_of_both_fits_are_those_of_many_runs():
     """Monte Carlo with the truth: rms z about 1, and 95 % of |z| below 1.96."""
-    model, ways, truth = compiled("wrist-coupled"), _directions("wrist-coupled"), None
-    z = []
+    model, ways, truth = (
+        compiled("wrist-coupled"),
+        _directions("wrist-coupled"),
+        _beta("wrist-coupled"),
+    )
+    z = np.empty((2, _SEEDS, len(truth)))
     for seed in range(_SEEDS):
         observation = _observed("wrist-coupled", _log("wrist-coupled", 70.0, 0.02, seed))
         estimate = two_steps(model, observation, ways).estimate
-        truth = _beta("wrist-coupled") if truth is None else truth
-        z.append((estimate.beta - truth) / np.sqrt(np.diag(estimate.covariance)))
-    assert 0.9 < np.sqrt(np.mean(np.square(z))) < 1.15
-    assert 0.9 < np.mean(np.abs(z) < 1.96) < 0.98
+        z[0, seed] = (estimate.beta - truth) / np.sqrt(np.diag(estimate.covariance))
+        one = identify(observation)
+        z[1, seed] = (one.beta - truth) / np.sqrt(np.diag(one.covariance))
+    for which in z:
+        assert 0.9 < np.sqrt(np.mean(which**2)) < 1.1
+        assert 0.92 < np.mean(np.abs(which) < 1.96) < 0.98
 
 
 def test_moves_of_the_first_joint_tell_16_of_17():
@@ -157,6 +164,32 @@ def test_pieces_of_several_joints_are_left_out(exact):
         assert others.max() < 0.03 * speeds.max()
     assert 0.0 < moves.several < 0.4 * moves.total
     assert exact.steps.several == moves.several
+
+
+@pytest.mark.parametrize("name", ["scara", "emps"])
+def test_joints_that_feel_nothing_of_each_other(name):
+    """A slider beside a turning column, a single joint: fewer functions, honest sigmas."""
+    model, spec = compiled(name), module(name).emitted.spec
+    reference = one_joint_reference(_LIMITS[:1] * len(spec.joints), 100.0, 50.0, 1)
+    beta = np.random.default_rng(1).uniform(0.5, 2.0, len(spec.base))
+    tau = model.inverse_dynamics(reference.q, reference.qd, reference.qdd, beta)
+    tau += 0.1 * np.random.default_rng(2).normal(size=tau.shape)
+    joints = tuple(joint.name for joint in spec.joints)
+    log = Log("one.csv", joints, reference.time, reference.q, tau, reference.qd, reference.qdd)
+    estimate = two_steps(model, _observed(name, log), _directions(name)).estimate
+    assert not estimate.rank.aside
+    z = (estimate.beta - beta) / np.sqrt(np.diag(estimate.covariance))
+    assert 0.2 < np.sqrt(np.mean(z**2)) < 2.0
+
+
+def test_links_that_turn_in_a_parallelogram_of_changing_inertia_are_left_out():
+    robot = read_robot("orthoglide-2003")
+    model, ways = compiled("orthoglide-2003"), _directions("orthoglide-2003")
+    settings = SimulationSettings(motion="one-joint", duration=10.0, rate=100.0)
+    run = simulate(robot, settings)
+    log = Log("one.csv", run.joints, run.time, run.q, run.tau)
+    with pytest.raises(DataError, match="other functions than those of one body that turns"):
+        two_steps(model, observe(model, [log]), ways)
 
 
 def test_logs_without_such_a_piece_are_refused():
