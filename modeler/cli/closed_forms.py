@@ -4,11 +4,13 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from modeler.base import BaseParameters
 from modeler.cli.console import Json, say
 from modeler.cli.parsers.derive import FEW_JOINTS, Form
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation
+from modeler.symbolic import SymbolicModel
 from modeler.terms import (
     ClosedForm,
     CoefficientTable,
@@ -24,6 +26,7 @@ from modeler.terms import (
     coefficients_text,
     determinant_text,
     independent_coefficients,
+    nonzero_base,
     regressor_form,
     sheet_json,
     sheet_latex,
@@ -63,17 +66,19 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
     Raises:
         ModelerError: loops, and coefficients or expanded forms asked for.
     """
-    model = derivation.model
+    model, base = derivation.model, derivation.base
     _check_loops(args, derivation)
+    if args.nonzero:
+        base = nonzero_base(model, base)
     added: Json = {}
     if args.closed_form:
         if args.expanded:
             say()
-            say(_CLOSED_FORMS[args.format](closed_form(model, derivation.base)))
+            say(_CLOSED_FORMS[args.format](closed_form(model, base)))
         else:
-            added["closed_form"] = _say_short_form(args.format, derivation)
+            added["closed_form"] = _say_short_form(args.format, model, base)
     if args.regressor:
-        added["regressor"] = _say_regressor(args.format, derivation)
+        added["regressor"] = _say_regressor(args.format, model, base)
     few = model.closure is None and len(model.robot.coordinates) <= FEW_JOINTS
     asked = args.closed_form or args.regressor
     if args.terms or (args.terms is None and few and args.format == "text" and not asked):
@@ -95,8 +100,8 @@ def _check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
         )
 
 
-def _say_short_form(form: Form, derivation: Derivation) -> Json:
-    found = short_form(derivation.model, derivation.base)
+def _say_short_form(form: Form, model: SymbolicModel, base: BaseParameters) -> Json:
+    found = short_form(model, base)
     left = "t_u" if found.loops else "tau_i"
     words = [
         f"{left} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + g_i, without friction; "
@@ -107,8 +112,8 @@ def _say_short_form(form: Form, derivation: Derivation) -> Json:
     return _say_sheet(form, words, found.sheet)
 
 
-def _say_regressor(form: Form, derivation: Derivation) -> Json:
-    found = regressor_form(derivation.model, derivation.base)
+def _say_regressor(form: Form, model: SymbolicModel, base: BaseParameters) -> Json:
+    found = regressor_form(model, base)
     left = "t" if found.loops else "tau"
     words = [f"{left} = phi beta, phi<joint>_<parameter>; what is not listed is 0"]
     if found.loops:

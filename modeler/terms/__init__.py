@@ -14,6 +14,7 @@ from modeler.terms.loop_form import LoopForm as LoopForm
 from modeler.terms.map_render import backward_lines as backward_lines
 from modeler.terms.map_render import determinant_text as determinant_text
 from modeler.terms.map_render import forward_lines as forward_lines
+from modeler.terms.nominal import nonzero_base as nonzero_base
 from modeler.terms.regressor_form import RegressorForm as RegressorForm
 from modeler.terms.regressor_form import regressor_form as regressor_form
 from modeler.terms.relations import BaseMap as BaseMap

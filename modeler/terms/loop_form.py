@@ -12,7 +12,7 @@ the rows of L that belong to the motors are the inverse Jacobian of the robot, K
 with the torques t of the opened tree, those along p being the force f_p of the platform
 (Guegan, Khalil and Lemoine 2003, eqs. 11 and 23 to 30; their G of eq. 42 is what the relations
 say). Without a platform the actuated joints are given at once and J_t = -B^-1 A. Blocks of up to
-three equations are inverted by cofactors, so that only singular postures divide by 0.
+four equations are inverted by cofactors, so that only singular postures divide by 0.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from modeler.symbolic import Closure, Expr, SymbolicModel
 from modeler.terms.sheet import SheetWriter
 
-_SOLVED = 3
+_SOLVED = 4
 """Equations up to which a block is inverted by cofactors."""
 
 Matrix = list[list[Expr]]
@@ -152,8 +152,15 @@ def _inverse(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
 
 def _cofactor(B: Matrix, i: int, j: int) -> Expr:
     rest = [[x for k, x in enumerate(line) if k != j] for r, line in enumerate(B) if r != i]
-    minor = rest[0][0] if len(rest) == 1 else rest[0][0] * rest[1][1] - rest[0][1] * rest[1][0]
+    minor = _determinant(rest)
     return minor if (i + j) % 2 == 0 else -minor
+
+
+def _determinant(B: Matrix) -> Expr:
+    """By the first row; the graph shares minors."""
+    if len(B) == 1:
+        return B[0][0]
+    return _along(B[0], [_cofactor(B, 0, j) for j in range(len(B))])
 
 
 def _write_platform(

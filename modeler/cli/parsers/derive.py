@@ -45,6 +45,12 @@ def add_derive(commands: Commands) -> None:
         "coefficients, those that follow from others too",
     )
     parser.add_argument(
+        "--nonzero",
+        action="store_true",
+        help="with --closed-form and --regressor: leave out base parameters that are 0 at the "
+        "values of [parameters]",
+    )
+    parser.add_argument(
         "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
     )
     add_json(parser, "write the result for machines")
