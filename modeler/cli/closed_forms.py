@@ -57,6 +57,18 @@ _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "% ", "markdown": "* "}
 
 
+def check_request(args: argparse.Namespace) -> None:
+    """Refuses options that would do nothing.
+
+    Raises:
+        ModelerError: they stand without what they change.
+    """
+    if args.nonzero and not (args.closed_form or args.regressor):
+        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
+    if args.expanded and not (args.closed_form or args.terms):
+        raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
+
+
 def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
     """Prints what was asked for; for few joints the coefficients unasked.
 

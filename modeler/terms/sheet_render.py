@@ -71,7 +71,7 @@ def sheet_latex(sheet: Sheet) -> str:
     for label, ref in sheet.angles.items():
         for letter, function in (("s", r"\sin"), ("c", r"\cos")):
             if letter + label in known:
-                name = printer.style.name(letter + label)
+                name = printer.style.trig(letter + label)
                 line = f"{name} ={{}}& {function}({printer.sum(ref)})"
                 blocks["sines and cosines"].append(line)
     for definition in sheet.definitions:

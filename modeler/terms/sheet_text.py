@@ -14,7 +14,16 @@ Factor = tuple[int, str]
 """(where it stands in a product, text)."""
 
 _LETTER, _NAMED, _TRIG, _BRACKET = range(4)
-_DOTS = {"qd": r"\dot", "qdd": r"\ddot"}
+_LATEX_NAMES = (
+    (r"qdd(\w+)", r"\\ddot{q}_{\1}"),
+    (r"qd(\w+)", r"\\dot{q}_{\1}"),
+    (r"w([xyz])_(\w+)", r"\\omega_{\1,\2}"),
+    (r"wd([xyz])_(\w+)", r"\\dot{\\omega}_{\1,\2}"),
+    (r"vd([xyz])_(\w+)", r"\\dot{v}_{\1,\2}"),
+    (r"([Ug])([xyz]+)_(\w+)", r"\1_{\2,\3}"),
+    (r"J([pt])(\w+)_(\w+)", r"J^{\1}_{\2,\3}"),
+)
+"""Names of speeds and of vectors, by frame."""
 
 
 @dataclass(frozen=True)
@@ -36,13 +45,20 @@ class SheetStyle:
         """A letter: q, qd, qdd with dots, an underscore as a comma of the index."""
         if not self.latex:
             return name
-        speed = re.fullmatch(r"(qdd?)(\d\w*)", name)
-        if speed:
-            return f"{_DOTS[speed[1]]}{{q}}_{{{_index(speed[2])}}}"
+        for pattern, latex in _LATEX_NAMES:
+            if re.fullmatch(pattern, name):
+                return re.sub(pattern, latex, name)
         split = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
         if split:
             return f"{latex_name(split[1])}_{{{_index(split[2])}}}"
         return latex_name(name)
+
+    def trig(self, name: str) -> str:
+        """A sine or cosine, m and p of its angle as signs."""
+        if self.latex:
+            signs = re.sub(r"(?<=\d)p(?=\d)", "+", re.sub(r"(?<=\d)m(?=\d)", "-", name[1:]))
+            return f"{name[0]}_{{{signs}}}"
+        return name
 
     def call(self, function: str, argument: str) -> str:
         """A function of one argument."""
@@ -104,7 +120,8 @@ class SheetPrinter:
         for number, text in self._terms(ref, Fraction(1), opened):
             terms[text] = terms.get(text, Fraction(0)) + number
         kept = [(number, text) for text, number in terms.items() if number]
-        return signed_sum(sorted(kept, key=lambda term: term[0] < 0), self.style.style)
+        kept.sort(key=lambda term: (term[0] < 0, not term[1]))
+        return signed_sum(kept, self.style.style)
 
     def _terms(self, ref: int, factor: Fraction, opened: int) -> list[tuple[Fraction, str]]:
         node, number = abs(ref), factor if ref > 0 else -factor
@@ -156,7 +173,7 @@ class SheetPrinter:
         if found.op == "sym":
             return self.style.name(self.sheet.letters.get(found.args[0], found.args[0]))
         if node in self.sheet.trig:
-            return self.style.name(self.sheet.trig[node])
+            return self.style.trig(self.sheet.trig[node])
         if found.op == "pi":
             return r"\pi" if self.style.latex else "pi"
         if found.op == "pow":

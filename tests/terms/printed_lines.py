@@ -12,15 +12,17 @@ from modeler.compiled import CompiledModel
 from modeler.derivation import Derivation
 from modeler.robot import robot_from_text
 from modeler.terms.closed_form import function_name
-from tests.terms.cases import TEXTS
+from tests.terms.cases import TEXTS, TIED
 
+SAMPLES = 5
 FUNCTIONS = {"sin": sin, "cos": cos, "sqrt": sqrt, "pi": pi, "sign": np.sign, "abs": abs}
 
 
 @cache
 def derived(name: str | Path) -> Derivation:
     """A robot of `cases`, or built in, or of a file."""
-    return derive(robot_from_text(TEXTS[name], name) if name in TEXTS else load(name))
+    text = {**TEXTS, **TIED}.get(str(name))
+    return derive(robot_from_text(text, str(name)) if text else load(name))
 
 
 @cache
@@ -46,9 +48,9 @@ def known(
     values = dict(derivation.model.geometry.values)
     names = [joint.name for joint in derivation.model.robot.free]
     for kind, numbers in (("q", u), ("qd", ud), ("qdd", udd)):
-        values |= {f"{kind}{n}": float(x) for n, x in zip(names, numbers, strict=bool(numbers))}
+        values |= {f"{kind}{n}": float(x) for n, x in zip(names, numbers, strict=len(numbers) > 0)}
     bases = [parameter.name for parameter in derivation.base.parameters]
-    return values | {n: float(x) for n, x in zip(bases, beta, strict=bool(len(beta)))}
+    return values | {n: float(x) for n, x in zip(bases, beta, strict=len(beta) > 0)}
 
 
 def torque(
