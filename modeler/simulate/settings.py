@@ -4,10 +4,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits
 from modeler.simulate.hidden import HiddenEffect
+
+if TYPE_CHECKING:
+    from modeler.simulate.trajectory import Reference
 
 MOTIONS = ("exciting", "point-to-point")
 """What the commanded motion may be."""
@@ -46,6 +50,7 @@ class SimulationSettings:
         process_noise: standard deviation of a random torque on the machine itself, correlated over
             30 ms, as a share of the rms torque that the commanded motion needs.
         hidden: effects that the machine has and the robot file lacks.
+        commanded: the motion itself, at `rate`, in place of `motion` and `duration`.
     """
 
     motion: str = "exciting"
@@ -63,6 +68,7 @@ class SimulationSettings:
     torque_limits: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     process_noise: float = 0.0
     hidden: tuple[HiddenEffect, ...] = ()
+    commanded: "Reference | None" = None
 
 
 def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:
