@@ -1,0 +1,20 @@
+"""Which paper has which method."""
+
+from collections.abc import Callable, Mapping
+
+from modeler.methods.guegan import guegan_methods
+from modeler.methods.report import MethodTable
+from modeler.papers import Paper
+
+Report = Callable[[float], None]
+"""Told how much is done, 0 to 1."""
+
+METHODS: Mapping[str, Callable[[Paper, Report], list[MethodTable]]] = {
+    "guegan-2003": guegan_methods,
+}
+
+
+def run_methods(paper: Paper, report: Report) -> list[MethodTable]:
+    """The paper's identification, run again in simulation; nothing for a paper without one."""
+    method = METHODS.get(paper.name)
+    return method(paper, report) if method is not None else []
