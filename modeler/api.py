@@ -24,6 +24,7 @@ from modeler.compare import compare as compare_prediction
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
+from modeler.core.choices import Method
 from modeler.core.contract import Emitted, ModuleSpec
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.window import file_and_window
@@ -33,7 +34,6 @@ from modeler.derivation import generate as generate
 from modeler.derivation import load as load
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
-from modeler.estimate.least_squares import Method
 from modeler.fit import FitResult, IdentifiedModel, identify, provenance, with_verdict
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
@@ -126,7 +126,8 @@ def fit(
             f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
             f"{', '.join(names)}; expected the same; observe with this C"
         )
-    compiled, result = compile_model(emitted), identify(observation, method)
+    compiled = compile_model(emitted)
+    result = identify(observation, method, compiled)
     told = findings_of_fit(compiled, observation, result.beta)
     result = with_verdict(compiled, observation, result, told)
     return identified(derivation, emitted, observation, result)

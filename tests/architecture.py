@@ -44,7 +44,7 @@ PACKAGES: dict[str, set[str]] = {
     "codegen": {"numpy", "sympy", "jinja2"},
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},
-    "estimate": {"numpy", "scipy", "clarabel"},
+    "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
@@ -52,7 +52,7 @@ PACKAGES: dict[str, set[str]] = {
     "scoring": {"numpy", "scipy"},
     "diagnose": {"numpy", "threadpoolctl"},
     "pages": {"numpy", "scipy"},
-    "simulate": {"numpy", "scipy", "pyarrow", "casadi"},
+    "simulate": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "show": {"numpy", "matplotlib"},
     "derivation": set(),
     "showing": set(),
@@ -67,6 +67,7 @@ ONLY_IN = {
     "cffi": ("compiled/bind.py",),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),
+    "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
     "flint": ("symbolic/balls.py",),
 }
 

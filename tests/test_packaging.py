@@ -16,7 +16,7 @@ from packaging.version import Version
 import modeler
 from tests.repository import ROOT, kept_files
 
-_PIN = re.compile(r"([a-z0-9]+(?:-[a-z0-9]+)*)==([0-9]+(?:\.[0-9]+)*)(?: ; (.+))?")
+_PIN = re.compile(r"([a-z0-9]+(?:-[a-z0-9]+)*)==([0-9]+(?:\.[0-9]+)*(?:\.post[0-9]+)?)(?: ; (.+))?")
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,10 @@ from modeler.compare import Comparison, compare, verdict, write_pictures, write_
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
+from modeler.core.estimators import titled
+from modeler.core.files import write_atomically
 from modeler.fit import (
+    FitResult,
     IdentifiedModel,
     Payload,
     identify,
@@ -24,6 +27,8 @@ from modeler.observation import Log, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
 from modeler.observation.log import shared_rows
+from modeler.robot import INERTIAL, Robot
+from modeler.robot.edit import with_parameters
 
 _TRAINING = "training only: "
 
@@ -47,6 +52,7 @@ def _processing(args: argparse.Namespace) -> Processing:
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
     _check_load(args)
+    _check_robot_out(args)
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
@@ -62,7 +68,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
-        result = identify(observation, args.method)
+        result = identify(observation, args.method, compiled)
     with working("judging the fit"):
         told = findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
@@ -71,7 +77,28 @@ def run_fit(args: argparse.Namespace) -> Json:
     for line in (*observation.report.summary(), "", *result.summary()):
         say(line)
     say(f"written: {args.out}")
+    if args.robot_out is not None:
+        write_atomically(Path(args.robot_out), with_parameters(robot.text, _own(robot, result)))
+        say(f"written: {args.robot_out}")
     return result.to_json()
+
+
+def _check_robot_out(args: argparse.Namespace) -> None:
+    if args.robot_out is not None and args.method != "consistent":
+        raise DataError(
+            f"--robot-out: --method {args.method} ends in base parameters, of which many machines "
+            "have the same; use --method consistent, which ends in all standard parameters"
+        )
+
+
+def _own(robot: Robot, result: FitResult) -> dict[str, float]:
+    """The standard parameters that the robot file may state."""
+    unfelt = {
+        f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
+        for joint in robot.moving
+        for prefix in INERTIAL
+    }
+    return {name: value for name, value in result.standard.items() if unfelt.get(name, True)}
 
 
 def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
@@ -139,8 +166,8 @@ def judged(
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
     lines = [
-        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {model.fit.method} least "
-        f"squares on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {titled(model.fit.method)} "
+        f"on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-Method = Literal["weighted", "ordinary"]
-"""Least squares with one weight per joint, iterated, or without weights."""
+Method = Literal["weighted", "ordinary", "consistent"]
+"""Estimators; `core.estimators` says what each is."""
 
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""

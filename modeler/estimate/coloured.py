@@ -50,8 +50,8 @@ def coloured(
     w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
     sum over k ends with the first r_j below one standard deviation of that of white noise; the
     first lag always counts, rows of one parallel filter correlate by 0.1).
-    Each standard deviation is multiplied by the square root of the ratio of the diagonals, never
-    by less than 1.
+    An estimator with an influence has pull_t sigma_j in place of C w_t / sigma_j. Each sigma is
+    multiplied by the square root of the ratio of the diagonals, never by less than 1.
 
     Args:
         observation: says which row is which sample and joint.
@@ -60,16 +60,16 @@ def coloured(
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
     """
-    C = estimate.covariance
-    residual = y - W @ estimate.beta
-    extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
+    C, own_way, memory = estimate.covariance, estimate.influence, []
+    residual = y - W @ estimate.beta if own_way is None else own_way.residual
+    extra = np.zeros(len(C))  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
-        own = counted & (observation.row_joint == j)
-        if not own.any():
+        if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
         r = autocorrelation(residual[own], sample, observation.segment)
-        rows = W[own] @ C / estimate.sigma[j]
+        sigma = estimate.sigma[j]
+        rows = W[own] @ C / sigma if own_way is None else own_way.pull[own] * sigma
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:

@@ -1,6 +1,7 @@
 """Ordinary and weighted least squares with their covariance."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +12,19 @@ from modeler.estimate.rank import Rank, independent_columns
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights
 _LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
+
+
+@dataclass(frozen=True, eq=False)
+class Influence:
+    """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
+
+    Attributes:
+        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted.
+        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
+    """
+
+    pull: np.ndarray
+    residual: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +41,11 @@ class Estimate:
         condition_number: of W, kept columns.
         condition_scaled: with columns of length one.
         degrees: rows less parameters.
+        sentences: what a reader must know of this estimate.
+        influence: of the rows; None for least squares over W with weights 1/sigma.
+        whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
+            for those of the data with weights 1/sigma.
+        standard: all standard parameters by name, SI, where the estimator ends in them.
     """
 
     beta: np.ndarray
@@ -38,6 +57,10 @@ class Estimate:
     condition_number: float
     condition_scaled: float
     degrees: int
+    sentences: tuple[str, ...] = ()
+    influence: Influence | None = None
+    whole: np.ndarray | None = None
+    standard: Mapping[str, float] = field(default_factory=dict)
 
 
 def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:

@@ -19,7 +19,7 @@ from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
 from modeler.core.contract import ModuleSpec, ParameterSpec
 
-_PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 _CORNER = {  # upper triangle of P, column after column: {prefix: factor}
     (0, 0): {"XX": -0.5, "YY": 0.5, "ZZ": 0.5},
     (0, 1): {"XY": -1.0},
@@ -77,7 +77,7 @@ def machine_of(spec: ModuleSpec) -> Machine:
         if parameter.effect == "rigid_body":
             links.setdefault(parameter.joint, {})
     for joint, own in links.items():
-        for prefix in _PREFIXES:
+        for prefix in PREFIXES:
             own[prefix] = place.get(f"{prefix}{joint}", count)
             count += own[prefix] == count
     K = np.zeros((len(spec.base), count))
@@ -93,7 +93,7 @@ def machine_of(spec: ModuleSpec) -> Machine:
 def body(felt: Sequence[ParameterSpec]) -> Machine:
     """The unknowns of one body; beta are those of its parameters that are felt."""
     place = {p.name.removesuffix(p.joint): i for i, p in enumerate(felt)}
-    unfelt = [prefix for prefix in _PREFIXES if prefix not in place]
+    unfelt = [prefix for prefix in PREFIXES if prefix not in place]
     place |= {prefix: len(felt) + i for i, prefix in enumerate(unfelt)}
     return Machine(np.eye(len(felt), len(place)), {"body": place}, {})
 
@@ -113,7 +113,7 @@ def nearest_possible(
     if size == 0.0 or not np.isfinite(root).all():
         return None
     matrix = root @ machine.K / size
-    scale = _scales(machine, matrix)
+    scale = scales(machine, matrix)
     bounds, cones = _bounds(machine, scale, set(free))
     x = _solved(matrix * scale, root @ beta / size, bounds, cones)
     if x is None:
@@ -147,18 +147,18 @@ def _solved(
     return np.array(found.x[:unknowns]) if str(found.status) in _ANSWERS else None
 
 
-def _scales(machine: Machine, matrix: np.ndarray) -> np.ndarray:
+def scales(machine: Machine, matrix: np.ndarray) -> np.ndarray:
     """(m,) one mass and one length per link: P = D P' D with a diagonal D keeps its sign."""
     length = np.linalg.norm(matrix, axis=0)
     scale = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), 1.0)
     for own in machine.links.values():
         inertia, moment = (
-            max(length[own[p]] for p in prefixes) for prefixes in (_PREFIXES[:6], _PREFIXES[6:9])
+            max(length[own[p]] for p in prefixes) for prefixes in (PREFIXES[:6], PREFIXES[6:9])
         )
         metre = moment / inertia if moment > 0.0 and inertia > 0.0 else 1.0
         largest = max(inertia * metre**2, moment * metre, length[own["M"]])
         kilogram = 1.0 / largest if largest > 0.0 else 1.0
-        for power, prefixes in ((2, _PREFIXES[:6]), (1, _PREFIXES[6:9]), (0, ("M",))):
+        for power, prefixes in ((2, PREFIXES[:6]), (1, PREFIXES[6:9]), (0, ("M",))):
             scale[[own[p] for p in prefixes]] = kilogram * metre**power
     return scale
 

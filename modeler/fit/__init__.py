@@ -1,6 +1,6 @@
 """Estimates of the base parameters, their certainty, and the model file."""
 
-from modeler.estimate.least_squares import Method as Method
+from modeler.core.choices import Method as Method
 from modeler.fit.essential import Essential as Essential
 from modeler.fit.identify import identify as identify
 from modeler.fit.model_file import Addition as Addition

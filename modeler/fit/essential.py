@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import f as fisher
 
+from modeler.core.choices import Method
 from modeler.estimate.compressed import Compressed, triangle
-from modeler.estimate.least_squares import Estimate, Method, least_squares, solve_by_qr
+from modeler.estimate.least_squares import Estimate, least_squares, solve_by_qr
 
 LEVEL = 0.05
 
@@ -50,19 +51,23 @@ def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Es
     The parameter of the largest relative standard deviation leaves, one after the other, as long
     as F = ((S_r - S) / k) / (S / (rows - c)) stays below the 95 % quantile of F(k, rows - c): S
     and S_r are the weighted sums of squares of the full model and without k parameters, with the
-    weights of the full model (Gautier and Khalil 1991; Janot, Vandanjon and Gautier 2014).
+    weights of the full model (Gautier and Khalil 1991; Janot, Vandanjon and Gautier 2014). An
+    estimator that is the least squares of equations of its own is reduced in these.
 
     Args:
         data: compressed rows.
         full: the estimate with all parameters.
         method: how the reduced model is estimated at the end.
     """
-    kept, dropped, ratio, limit = _eliminate(data.whole(full.sigma), full)
+    whole = data.whole(full.sigma) if full.whole is None else full.whole
+    kept, dropped, ratio, limit = _eliminate(whole, full)
     left = tuple(data.names[i] for i in dropped)
-    aside = [tangle.name for tangle in full.rank.aside]
-    reduced = least_squares(data.without([*left, *aside]), method)
     beta = np.zeros(len(data.names))
-    beta[kept] = reduced.beta
+    if method in ("weighted", "ordinary"):
+        aside = [tangle.name for tangle in full.rank.aside]
+        beta[kept] = least_squares(data.without([*left, *aside]), method).beta
+    elif kept:
+        beta[kept], _ = solve_by_qr(whole[:, kept], whole[:, -1])
     return Essential(
         names=tuple(data.names[i] for i in kept),
         dropped=left,

@@ -2,17 +2,23 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import get_args
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.coloured import coloured
 from modeler.estimate.compressed import Compressed, compress
-from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate, Method, least_squares
+from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
+from modeler.estimate.methods import method_of
+from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,21 +40,23 @@ class Equations:
     sentences: tuple[str, ...] = ()
 
 
-def identify(observation: Observation, method: Method = "weighted") -> FitResult:
-    """The least-squares fit of the base parameters to an observation.
+def identify(
+    observation: Observation, method: Method = "weighted", model: "CompiledModel | None" = None
+) -> FitResult:
+    """The fit of the base parameters to an observation.
 
     Parameters that the data cannot tell are set aside by name; the essential ones are marked.
 
     Args:
         observation: of one or several logs.
-        method: "weighted" (per joint, iterated) or "ordinary".
+        method: the estimator, see `estimate.methods`.
+        model: the compiled robot, for estimators that simulate it or know its nominal values.
 
     Raises:
-        DataError: fewer rows than parameters, no torque at all, or no such method.
+        DataError: fewer rows than parameters, no torque at all, no such method, or one that these
+            logs or this robot give nothing to work on.
     """
-    if method not in get_args(Method):
-        raise DataError(f'method is "{method}"; expected {" or ".join(get_args(Method))}')
-    return fit_equations(observation, base_equations(observation), method)
+    return fit_equations(observation, base_equations(observation), method, model)
 
 
 def base_equations(observation: Observation) -> Equations:
@@ -56,24 +64,20 @@ def base_equations(observation: Observation) -> Equations:
     return Equations(observation.W, observation.y, observation.names, observation.units)
 
 
-def fit_equations(observation: Observation, equations: Equations, method: Method) -> FitResult:
-    """The fit of y = W beta.
-
-    Args:
-        observation: says which row is which joint.
-        equations: row for row those of the observation.
-        method: as for `identify`.
-
-    Raises:
-        DataError: fewer rows than parameters, or no torque at all.
-    """
+def fit_equations(
+    observation: Observation,
+    equations: Equations,
+    method: Method,
+    model: "CompiledModel | None" = None,
+) -> FitResult:
+    """The fit of y = W beta; equations row for row those of the observation, else as `identify`."""
+    estimator = method_of(method)
     dead = dead_joints(observation)
     alive = ~np.isin(observation.row_joint, dead)
     _check_enough_rows(observation, equations, int(alive.sum()))
-    data = _compressed(observation, equations, alive)
-    count = len(observation.names)
-    estimate = least_squares(data, method)
-    essential = essential_parameters(data, estimate, method)
+    problem, count = _problem(observation, equations, alive, model), len(observation.names)
+    estimate = estimator.estimate(problem)
+    essential = essential_parameters(problem.data, estimate, method)
     colour = coloured(observation, equations.W, equations.y, alive, estimate)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
     every = _parameters(estimate, essential, equations, np.sqrt(np.diag(covariance)))
@@ -87,24 +91,33 @@ def fit_equations(observation: Observation, equations: Equations, method: Method
         condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before,
         essential_error=essential.error_after,
-        joints=_joints(observation, data, estimate),
+        joints=_joints(observation, problem.data, estimate),
         parameters=every[:count],
         covariance=covariance[:count, :count],
         loads=every[count:],
-        sentences=(*equations.sentences, *_dead_sentences(observation, dead),
+        sentences=(*equations.sentences, *_dead_sentences(observation, dead), *estimate.sentences,
                    *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
+        standard=estimate.standard,
     )  # fmt: skip
 
 
-def _compressed(observation: Observation, equations: Equations, alive: np.ndarray) -> Compressed:
-    return compress(
+def _problem(
+    observation: Observation,
+    equations: Equations,
+    alive: np.ndarray,
+    model: "CompiledModel | None",
+) -> Problem:
+    data = compress(
         equations.W[alive],
         equations.y[alive],
         observation.row_joint[alive],
         len(observation.joints),
         equations.names,
         [j for j, joint in enumerate(observation.joints) if not joint.actuated],
+    )
+    return Problem(
+        observation, equations.W, equations.y, alive, equations.names, equations.units, data, model
     )
 
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.core.choices import Method
 from modeler.core.errors import DataError
-from modeler.estimate.least_squares import Method
 from modeler.fit.identify import Equations, base_equations, fit_equations
 from modeler.fit.result import FitResult
 from modeler.observation import Observation, Segment
@@ -68,7 +68,7 @@ def identify_with_payloads(
     equations = base_equations(observation)
     for payload in payloads:
         equations = _with_load(equations, model, observation, payload)
-    return fit_equations(observation, equations, method)
+    return fit_equations(observation, equations, method, model)
 
 
 def _with_load(

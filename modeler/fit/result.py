@@ -1,12 +1,13 @@
 """What a fit hands back: values, how sure they are, and how much they leave unexplained."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
+from modeler.fit.bodies import bodies_told
 from modeler.observation import Processing, processing_from_json
 
 
@@ -102,7 +103,7 @@ class FitResult:
 
     Attributes:
         robot: name.
-        method: "ordinary" | "weighted".
+        method: id of the estimator, see `core.estimators`.
         status: "ok" | "rank deficient" | "not settled".
         samples: after decimation.
         rows: of W.
@@ -117,6 +118,7 @@ class FitResult:
         sentences: what a reader must know, plain text.
         processing: with all choices filled in; use it for held-out logs.
         verdict: usable or not; None if nobody has judged it.
+        standard: all standard parameters by name, SI, of an estimator that ends in them.
     """
 
     robot: str
@@ -135,6 +137,7 @@ class FitResult:
     sentences: tuple[str, ...]
     processing: Processing
     verdict: Verdict | None = None
+    standard: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def beta(self) -> np.ndarray:
@@ -165,7 +168,7 @@ class FitResult:
             error = joint.relative_error
             share_text = "-" if error is None else f"{100.0 * error:.2f} %"
             lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
-        lines += self.sentences
+        lines += [*bodies_told(self.standard), *self.sentences]
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
             lines += [*(f"doubt: {line}" for line in others), self.verdict.line]
@@ -197,6 +200,7 @@ class FitResult:
             "loads": [parameter.to_json() for parameter in self.loads],
             "sentences": list(self.sentences),
             "processing": self.processing.to_json(),
+            "standard": dict(self.standard),
             **_verdict_to_json(self.verdict),
         }
 
@@ -225,6 +229,7 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             sentences=tuple(raw["sentences"]),
             processing=processing_from_json(raw["processing"]),
             verdict=_verdict_from_json(raw),
+            standard={str(k): float(v) for k, v in raw.get("standard", {}).items()},
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None

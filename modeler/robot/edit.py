@@ -79,6 +79,15 @@ def _catalogue(text: str) -> tuple[Effect, ...]:
     return (*CATALOGUE, *read_own_effects(own, Place("robot file")))
 
 
+def with_parameters(text: str, values: Mapping[str, float]) -> str:
+    """The robot file with these nominal values, and others only for what they leave open."""
+    before = tomllib.loads(text).get("parameters", {})
+    lines = _without_table(text, "[parameters]")
+    entries = {**before, **values}
+    lines += ["", "[parameters]", *(f'"{name}" = {value!r}' for name, value in entries.items())]
+    return "\n".join(lines) + "\n"
+
+
 def with_reference(text: str, values: Mapping[str, float]) -> str:
     """The robot file with another table [reference]."""
     lines = _without_table(text, "[reference]")

@@ -3,11 +3,13 @@
 Ten parameters are those of a distribution of mass if and only if the 4 x 4 pseudo-inertia is
 positive semi-definite (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1)). The stated ones fix linear
 combinations of its elements, so that completing them is a small convex problem: it has an answer,
-or a multiplier that proves that it has none (Boyd and Vandenberghe 2004, sections 5.9 and 11.4).
+or its best is no body (Boyd and Vandenberghe 2004, sections 4.6 and 11.4). cvxpy with Clarabel.
 """
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +20,10 @@ _SUMS = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}  # XX = int y2 dm + int z2 dm
 _OUTSIDE = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "MX": (0, 3), "MY": (1, 3), "MZ": (2, 3)}
 _ROUNDING = 1e-13  # relative; differences of stated numbers below it are 0
 _STRICT = 1e-7  # least eigenvalue, of a matrix near ones on its diagonal, of a body with an inside
-_EDGE = 5e-10  # below 0 by so little is the rounding of a plate, a rod or a point
+_EDGE = 1e-8  # below 0 by so little is the rounding of a plate, a rod or a point
+_THIN = 1e-5  # eigenvalues below it are those of a plate, a rod or a point
+_PULL = 1e-3  # weight of the trace beside the least eigenvalue
+_TOLERANCES = {f"tol_{what}": 1e-11 for what in ("gap_abs", "gap_rel", "feas")}
 
 
 @dataclass(frozen=True)
@@ -66,14 +71,16 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
         return Completion(None, impossible=True)
     if not problem.rows.size:
         return Completion(dict.fromkeys(INERTIAL, 0.0) | dict(stated))
-    try:
-        x, impossible = _feasible(problem)
-        if impossible:
-            return Completion(None, impossible=True)
-        if x.size and _least(_matrix(problem, x)) > 1e-9:
-            x = _nearest(problem, x, near)
-    except np.linalg.LinAlgError:  # numbers too far apart for floating point
+    x = _feasible(problem)
+    if x is None:
         return Completion(None)
+    if _least(_matrix(problem, x)) < -_EDGE:
+        return Completion(None, impossible=True)
+    if x.size and _least(_matrix(problem, x)) < _STRICT:
+        x = _flattened(problem, x)
+    elif x.size:
+        nearest = _nearest(problem, near)
+        x = x if nearest is None else nearest
     scale = problem.scale[problem.rows]
     found = np.zeros((4, 4))
     found[np.ix_(problem.rows, problem.rows)] = _matrix(problem, x) * np.outer(scale, scale)
@@ -168,79 +175,59 @@ def _scale(stated: Mapping[str, float], known: Mapping[int, float], near: np.nda
     return np.sqrt(size)
 
 
-def _feasible(problem: _Problem) -> tuple[np.ndarray, bool]:
-    """An x with S(x) > 0, or >= 0 up to rounding; and True if it is proved that there is none.
+def _feasible(problem: _Problem) -> np.ndarray | None:
+    """The x of the largest t up to 1 with S(x) - t 1 >= 0; None if the solver finds none.
 
-    Least s with S(x) + s 1 > 0, along the path of minimisers of t s + tr - log det for rising t;
-    the trace keeps free elements from running away.
+    Least S(x) below 0 then means that none is above.
     """
-    m = len(problem.rows)
-    unit = np.trace(problem.directions, axis1=1, axis2=2)
-    if np.allclose(np.tensordot(unit, problem.directions, 1), np.eye(m), rtol=0, atol=1e-12):
-        return unit * (1.0 - _least(problem.origin)), False  # no diagonal element is fixed
-    moves = np.concatenate([problem.directions, np.eye(m)[None]])
-    z = np.zeros(len(moves))
-    z[-1] = 1.0 - _least(problem.origin)
-    for power in range(13):
-        linear = np.trace(moves, axis1=1, axis2=2)
-        linear[-1] += 10.0**power
-        for _ in range(60):
-            step = _newton_step(problem.origin, moves, linear, z)
-            z = z + step
-            if _least(_matrix(problem, z[:-1])) > _STRICT:
-                return z[:-1], False
-            if np.linalg.norm(step) <= 1e-10 * (1 + np.linalg.norm(z)):
-                break
-        if _least(_matrix(problem, z[:-1])) < -_EDGE and _proved(problem, moves, z):
-            return z[:-1], True
-    return z[:-1], False
+    import cvxpy as cp  # only here: most robots state all of a link, or nothing
+
+    if not len(problem.directions):
+        return np.zeros(0)
+    x, t = cp.Variable(len(problem.directions)), cp.Variable()
+    S = _written(problem, x)
+    # The trace keeps free elements from running away.
+    goal = cp.Maximize(t - _PULL * cp.trace(S))
+    return _solved(cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0]), x)
 
 
-def _proved(problem: _Problem, moves: np.ndarray, z: np.ndarray) -> bool:
-    """True if a Z >= 0 has <Z, directions> = 0 and <Z, origin> < 0, so that no S(x) is >= 0."""
-    multiplier = np.linalg.inv(problem.origin + np.tensordot(z, moves, 1))
-    multiplier = (multiplier + multiplier.T) / 2
-    multiplier /= np.trace(multiplier)
-    along = np.tensordot(problem.directions, multiplier, 2)
-    multiplier = multiplier - np.tensordot(along, problem.directions, 1)
-    return _least(multiplier) > -1e-13 and float(np.sum(multiplier * problem.origin)) < -_EDGE
+def _flattened(problem: _Problem, x: np.ndarray) -> np.ndarray:
+    """The same plate, rod or point with exact zeros: S(x) times what it nearly vanishes on."""
+    values, vectors = np.linalg.eigh(_matrix(problem, x))
+    thin = vectors[:, values < _THIN]
+    slope = (problem.directions @ thin).reshape(len(x), -1).T
+    rest = (_matrix(problem, x) @ thin).ravel()
+    flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
+    return max((x, flat), key=lambda choice: _least(_matrix(problem, choice)))
 
 
-def _nearest(problem: _Problem, x: np.ndarray, near: np.ndarray) -> np.ndarray:
-    """From an x with S(x) > 0 to that of least divergence from the reference."""
+def _nearest(problem: _Problem, near: np.ndarray) -> np.ndarray | None:
+    """The x with S(x) > 0 of least divergence from the reference."""
+    import cvxpy as cp
+
     scale = problem.scale
     reference = (near / np.outer(scale, scale))[np.ix_(problem.rows, problem.rows)]
-    linear = np.tensordot(problem.directions, np.linalg.inv(reference), 2)
-    for _ in range(200):
-        step = _newton_step(problem.origin, problem.directions, linear, x)
-        x = x + step
-        if np.linalg.norm(step) <= 1e-10 * (1 + np.linalg.norm(x)):
-            break
-    return x
+    x = cp.Variable(len(problem.directions))
+    S = _written(problem, x)
+    pull = cp.trace(np.linalg.inv(reference) @ S)
+    return _solved(cp.Problem(cp.Minimize(pull - cp.log_det(S))), x)
 
 
-def _newton_step(
-    origin: np.ndarray, moves: np.ndarray, linear: np.ndarray, z: np.ndarray
-) -> np.ndarray:
-    """Damped step of least linear.z - log det(origin + sum z_k moves_k), > 0 at both ends."""
-    inverse = np.linalg.inv(np.linalg.cholesky(origin + np.tensordot(z, moves, 1)))
-    turned = inverse @ moves @ inverse.T
-    flat = turned.reshape(len(moves), -1)
-    slope = linear - np.trace(turned, axis1=1, axis2=2)
-    step = -np.linalg.lstsq(flat @ flat.T, slope, rcond=1e-15)[0]
-    decrement = float(np.sqrt(max(-slope @ step, 0.0)))
-    step = step / (1 + decrement)  # stays inside: the function is self-concordant
-    while not _inside(origin + np.tensordot(z + step, moves, 1)):
-        step = step / 2
-    return step
+def _written(problem: _Problem, x: Any) -> Any:
+    return problem.origin + sum(x[k] * E for k, E in enumerate(problem.directions))
 
 
-def _inside(matrix: np.ndarray) -> bool:
-    try:
-        np.linalg.cholesky(matrix)
-    except np.linalg.LinAlgError:
-        return False
-    return True
+def _solved(problem: Any, x: Any) -> np.ndarray | None:
+    """The value of x; None without an answer."""
+    import cvxpy as cp
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the caller looks at the answer itself
+        try:
+            problem.solve(solver=cp.CLARABEL, **_TOLERANCES)
+        except cp.SolverError:
+            return None
+    return None if x.value is None else np.asarray(x.value)
 
 
 def _matrix(problem: _Problem, x: np.ndarray) -> np.ndarray:

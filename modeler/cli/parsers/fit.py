@@ -6,6 +6,7 @@ from typing import get_args
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
 from modeler.core.choices import LOW_SPEED, Derivatives, Method
+from modeler.core.estimators import ABOUT
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -28,7 +29,14 @@ def add_fit(commands: Commands) -> None:
         "--method",
         choices=get_args(Method),
         default="weighted",
-        help="least squares with one weight per joint, iterated, or without weights",
+        help="estimator, and where it is the wrong one; default: %(default)s. "
+        + " ".join(f"{about.id}: {about.title}; not {about.avoid}." for about in ABOUT.values()),
+    )
+    parser.add_argument(
+        "--robot-out",
+        metavar="FILE.toml",
+        type=Output,
+        help="write the robot file with the values found, for simulators (--method consistent)",
     )
     _add_processing(parser)
     _add_load(parser)

@@ -1,0 +1,57 @@
+"""The table of estimators: one row each, from a problem to an estimate."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
+from modeler.core.estimators import ABOUT, About
+from modeler.estimate.buildable import buildable
+from modeler.estimate.least_squares import Estimate, least_squares
+from modeler.estimate.problem import Problem
+
+
+@dataclass(frozen=True)
+class Estimator:
+    """A way to estimate.
+
+    Attributes:
+        about: id, title, law, source, and when not to use it.
+        estimate: the function. Raises DataError where the problem gives it nothing to work on.
+    """
+
+    about: About
+    estimate: Callable[[Problem], Estimate]
+
+
+def method_of(method: str) -> Estimator:
+    """The estimator of that id.
+
+    Raises:
+        DataError: there is none.
+    """
+    if method not in METHODS:
+        raise DataError(f'method is "{method}"; expected {_listed()}')
+    return METHODS[method]
+
+
+def _listed() -> str:
+    *first, last = METHODS
+    return f"{', '.join(first)} or {last}"
+
+
+def _weighted(problem: Problem) -> Estimate:
+    return least_squares(problem.data, "weighted")
+
+
+def _ordinary(problem: Problem) -> Estimate:
+    return least_squares(problem.data, "ordinary")
+
+
+_FUNCTIONS: dict[Method, Callable[[Problem], Estimate]] = {
+    "weighted": _weighted,
+    "ordinary": _ordinary,
+    "consistent": buildable,
+}
+METHODS: dict[str, Estimator] = {id: Estimator(ABOUT[id], _FUNCTIONS[id]) for id in _FUNCTIONS}
+"""By id, in the order in which they are told."""

@@ -1,0 +1,202 @@
+"""Machines that could be built: positive definite, as near to the rows as they can be."""
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError
+from modeler.estimate.consistent import consistent, parameters_of, pseudo_inertia_of
+from modeler.estimate.possible import machine_of
+from modeler.robot import INERTIAL, read_robot
+from tests.modules import compiled
+
+SERIAL = ("two-link", "ur10e", "panda")
+
+
+def cloud(rng, places=8):
+    """Second moments of point masses by their definition, (4, 4)."""
+    mass = rng.uniform(0.2, 2.0, places)
+    points = np.column_stack([0.3 * rng.normal(size=(places, 3)), np.ones(places)])
+    return points.T * mass @ points
+
+
+def truth(spec, rng):
+    """Standard parameters of links that are clouds of points, friction above 0."""
+    bodies = {p.joint: parameters_of(cloud(rng)) for p in spec.standard if p.effect == "rigid_body"}
+    return np.array(
+        [
+            bodies[p.joint][p.name.removesuffix(p.joint)]
+            if p.effect == "rigid_body"
+            else rng.uniform(0.1, 1.0)
+            for p in spec.standard
+        ]
+    )
+
+
+def rows_of(name, rng, samples, noise, wide=np.pi):
+    """Triangle of weighted rows along random states, and the true base parameters."""
+    model = compiled(name)
+    chi = truth(model.spec, rng)
+    shape = (samples, len(model.spec.joints))
+    q, qd, qdd = (rng.uniform(-1.0, 1.0, shape) for _ in range(3))
+    W = model.base_regressor(wide * q, qd, qdd).reshape(-1, len(model.spec.base))
+    beta = model.base_parameters(chi)
+    sigma = noise * np.sqrt(np.mean((W @ beta) ** 2))
+    y = W @ beta + sigma * rng.normal(size=len(W))
+    return model, np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r"), beta
+
+
+@pytest.mark.parametrize("name", [*SERIAL, "sr400", "orthoglide-2003"])
+def test_every_link_could_be_built_and_the_base_comes_back(name):
+    if name in SERIAL:
+        model, whole, _ = rows_of(name, np.random.default_rng(1), 40, 0.3, wide=0.5)
+    else:  # rows of the base parameters themselves, badly known
+        model = compiled(name)
+        rng = np.random.default_rng(1)
+        beta = model.base_parameters(truth(model.spec, rng))
+        beta = beta * rng.normal(1.0, 1.0, len(beta))
+        whole = np.column_stack([np.eye(len(beta)), beta])
+    machine = machine_of(model.spec)
+    found = consistent(machine, whole, {})
+    for body in found.bodies.values():
+        size = np.sqrt(np.diag(body))
+        assert np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0
+    assert all(found.chi[place] >= 0.0 for place in machine.positive.values())
+    standard = found.chi[: len(model.spec.standard)]
+    np.testing.assert_allclose(
+        model.base_parameters(standard), found.beta, rtol=0, atol=1e-9 * np.abs(found.beta).max()
+    )
+
+
+@pytest.mark.parametrize("name", SERIAL)
+def test_pinocchio_gives_the_same_torques(name):
+    pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: Pinocchio is not installed")
+    from tests.symbolic.oracles import pinocchio_model
+
+    rng = np.random.default_rng(2)
+    model, whole, _ = rows_of(name, rng, 60, 0.2)
+    found = consistent(machine_of(model.spec), whole, {})
+    robot = read_robot(name)
+    theirs, ids = pinocchio_model(robot)
+    for joint, index in zip(robot.moving, ids, strict=True):
+        body = found.bodies[joint.name]
+        second, moment, mass = body[:3, :3], body[:3, 3], body[3, 3]
+        centre = moment / mass
+        about = second - mass * np.outer(centre, centre)
+        inertia = np.trace(about) * np.eye(3) - about
+        assert np.linalg.eigvalsh(inertia)[0] > 0.0
+        theirs.inertias[index] = pin.Inertia(mass, centre, inertia)
+    data = theirs.createData()
+    for _ in range(5):
+        q, qd, qdd = rng.uniform(-1.0, 1.0, (3, 1, len(ids)))
+        expected = pin.rnea(theirs, data, q[0], qd[0], qdd[0])
+        chi = found.chi[: len(model.spec.standard)].copy()
+        chi[[p.effect != "rigid_body" for p in model.spec.standard]] = 0.0
+        tau = model.inverse_dynamics(q, qd, qdd, model.base_parameters(chi))[0]
+        np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
+
+
+def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
+    mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo is not installed")
+    from modeler.api import compile_model, derive, generate
+    from modeler.robot import robot_from_text
+    from tests.diagnose.mujoco_arm import Arm, Body, mjcf, random_arm, robot_text
+
+    arm = random_arm(3)
+    model = compile_model(generate(derive(robot_from_text(robot_text(arm, {}), "outside"))))
+    rng = np.random.default_rng(4)
+    q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, 3)) for _ in range(3))
+    W = model.base_regressor(q, qd, qdd).reshape(150, -1)
+    y = W @ model.base_parameters(truth(model.spec, rng))
+    sigma = 0.2 * np.sqrt(np.mean(y**2))
+    y = y + sigma * rng.normal(size=150)
+    whole = np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r")
+    found = consistent(machine_of(model.spec), whole, {})
+    bodies = []
+    for body in found.bodies.values():
+        mass, centre = body[3, 3], body[:3, 3] / body[3, 3]
+        about = body[:3, :3] - mass * np.outer(centre, centre)
+        bodies.append(Body(mass, centre, np.trace(about) * np.eye(3) - about))
+    nothing = np.zeros(3)
+    theirs = mujoco.MjModel.from_xml_string(
+        mjcf(Arm(arm.table, tuple(bodies), nothing, nothing, nothing))
+    )
+    theirs.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    data = mujoco.MjData(theirs)
+    for k in range(10):
+        data.qpos, data.qvel, data.qacc = q[k], qd[k], qdd[k]
+        mujoco.mj_inverse(theirs, data)
+        expected = np.array(data.qfrc_inverse)
+        tau = model.inverse_dynamics(*(x[k : k + 1] for x in (q, qd, qdd)), found.beta)[0]
+        np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-7 * np.abs(expected).max())
+
+
+def test_values_that_the_data_tell_keep_their_least_squares_and_sigma():
+    errors = []
+    for seed in range(50):
+        model, whole, beta = rows_of("two-link", np.random.default_rng(seed), 200, 0.02)
+        found = consistent(machine_of(model.spec), whole, {})
+        assert found.at_bound or found.rise < 0.1
+        errors.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
+    assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(1.0, abs=0.15)
+
+
+def test_no_machine_nearby_is_better():
+    model, whole, _ = rows_of("two-link", np.random.default_rng(5), 30, 0.5, wide=0.3)
+    machine = machine_of(model.spec)
+    reference = {name: cloud(np.random.default_rng(6)) for name in machine.links}
+    found = consistent(machine, whole, reference, weight=2.0)
+
+    def cost(bodies, others):
+        chi = others.copy()
+        for name, own in machine.links.items():
+            for prefix, value in parameters_of(bodies[name]).items():
+                chi[own[prefix]] = value
+        error = whole[:, :-1] @ machine.K @ chi - whole[:, -1]
+        total = 0.5 * error @ error
+        for name, P in bodies.items():
+            ratio = np.linalg.solve(reference[name], P)
+            total += 2.0 * (np.trace(ratio) - np.linalg.slogdet(ratio)[1] - 4.0)
+        return total
+
+    least, rng = cost(found.bodies, found.chi), np.random.default_rng(7)
+    for step in (1e-3, 1e-2, 0.1):
+        for _ in range(50):
+            others = found.chi.copy()
+            for place in machine.positive.values():
+                others[place] = max(0.0, others[place] + step * rng.normal())
+            bodies = {}
+            for name, P in found.bodies.items():
+                root = np.linalg.cholesky(P)
+                turn = np.eye(4) + step * rng.normal(size=(4, 4))
+                bodies[name] = root @ turn @ turn.T @ root.T
+            assert cost(bodies, others) > least - 1e-9 * abs(least)
+
+
+def test_what_no_torque_feels_is_that_of_the_drawing():
+    model, whole, _ = rows_of("two-link", np.random.default_rng(8), 200, 0.02)
+    machine = machine_of(model.spec)
+    drawn = {"1": cloud(np.random.default_rng(9))}
+    felt = {"ZZ1", "MX1", "MY1"}  # a vertical axis through the origin feels no other
+    found = consistent(machine, whole, drawn)
+    loose = [p for p in INERTIAL if f"{p}1" not in felt and p != "M"]
+    assert drawn["1"] == pytest.approx(pseudo_inertia_of(parameters_of(drawn["1"])))
+    far = consistent(machine, whole, {})
+    own, other = (parameters_of(f.bodies["1"]) for f in (found, far))
+    expected = parameters_of(drawn["1"])
+
+    def distance(values):
+        return sum((values[p] - expected[p]) ** 2 for p in loose)
+
+    assert distance(own) < 0.2 * distance(other)
+
+
+def test_a_solver_that_fails_is_one_line(monkeypatch):
+    import cvxpy
+
+    def fail(*args, **kwargs):
+        raise cvxpy.SolverError("no")
+
+    monkeypatch.setattr(cvxpy.Problem, "solve", fail)
+    model, whole, _ = rows_of("two-link", np.random.default_rng(8), 50, 0.02)
+    with pytest.raises(DataError, match="no machine that could be built was found"):
+        consistent(machine_of(model.spec), whole, {})

@@ -1,0 +1,23 @@
+"""The table of estimators: complete, told, and refused by name."""
+
+from typing import get_args
+
+import pytest
+
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
+from modeler.core.estimators import ABOUT, titled
+from modeler.estimate.methods import METHODS, method_of
+
+
+def test_choices_words_and_functions_are_the_same_list():
+    assert list(get_args(Method)) == list(ABOUT) == list(METHODS)
+    for id, estimator in METHODS.items():
+        assert estimator.about.id == id
+        assert all((estimator.about.law, estimator.about.source, estimator.about.avoid))
+
+
+def test_an_unknown_method_is_refused_by_name():
+    with pytest.raises(DataError, match='method is "magic"; expected weighted'):
+        method_of("magic")
+    assert titled("weighted") == "weighted least squares" and titled("magic") == "magic"

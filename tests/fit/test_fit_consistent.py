@@ -1,0 +1,79 @@
+"""`modeler fit --method consistent`: all standard parameters, and a robot file that simulates."""
+
+import json
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.fit import load_model
+from modeler.robot import INERTIAL, read_robot
+from modeler.robot.edit import with_parameters
+from modeler.simulate.body import pseudo_inertia
+from tests.modules import compiled
+
+
+@pytest.fixture(scope="module", params=["two-link", "five-bar"])
+def fitted(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("consistent")
+    log, model, robot, told = (
+        str(folder / name) for name in ("a.parquet", "m.json", "r.toml", "fit.json")
+    )
+    simulate = f"simulate {request.param} --duration 8 --rate 200 --seed 1 --out {log}"
+    fit = f"fit {request.param} {log} --method consistent --out {model} --robot-out {robot}"
+    assert main(simulate.split()) == 0
+    assert main([*fit.split(), "--json", told]) == 0
+    return request.param, folder, json.loads((folder / "fit.json").read_text())
+
+
+def test_standard_and_base_are_one_machine(fitted):
+    name, folder, told = fitted
+    spec = compiled(name).spec
+    chi = np.array([told["standard"][p.name] for p in spec.standard])
+    beta = np.array([p["value"] for p in told["parameters"]])
+    np.testing.assert_allclose(
+        compiled(name).base_parameters(chi), beta, rtol=0, atol=1e-9 * np.abs(beta).max()
+    )
+    assert told["method"] == "consistent" and told["usable"]
+    for joint in {p.joint for p in spec.standard if p.effect == "rigid_body"}:
+        body = pseudo_inertia({p: told["standard"][f"{p}{joint}"] for p in INERTIAL})
+        size = np.sqrt(np.diag(body))
+        assert np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0
+    assert load_model(folder / "m.json").fit.standard == told["standard"]
+
+
+def test_the_robot_file_simulates_and_the_model_predicts_it(fitted, capsys):
+    _, folder, told = fitted
+    robot = read_robot(folder / "r.toml")
+    kept = {k: v for k, v in robot.parameters.items() if k in told["standard"]}
+    assert {k: float(v) for k, v in kept.items()} == {k: told["standard"][k] for k in kept}
+    log, report = folder / "b.parquet", folder / "c.json"
+    simulate = f"simulate {folder / 'r.toml'} --duration 8 --rate 200 --seed 2 --out {log}"
+    assert main(simulate.split()) == 0
+    assert main(["compare", str(folder / "m.json"), str(log), "--json", str(report)]) == 0
+    assert json.loads(report.read_text())["relative_error"] < 0.01
+
+
+def test_a_robot_file_needs_all_standard_parameters(fitted, capsys):
+    name, folder, _ = fitted
+    fit = f"fit {name} {folder / 'a.parquet'} --out {folder / 'n.json'} --robot-out {folder / 'n'}"
+    capsys.readouterr()
+    assert main(fit.split()) == 1
+    assert "use --method consistent" in capsys.readouterr().err
+    assert not (folder / "n").exists() and not (folder / "n.json").exists()
+
+
+def test_a_drawing_counts(fitted, tmp_path):
+    """What no torque feels is that of the drawing, where the robot file has one."""
+    name, folder, told = fitted
+    first = min(n[1:] for n in told["standard"] if n.startswith("M") and n[1:] in "12345")
+    values = (0.5, 0.0, 0.0, 0.6, 0.0, 0.7, 0.0, 0.0, 0.0, 20.0)
+    drawn = {f"{p}{first}": v for p, v in zip(INERTIAL, values, strict=True)}
+
+    path = tmp_path / "drawn.toml"
+    path.write_text(with_parameters(read_robot(name).text, drawn))
+    fit = f"fit {path} {folder / 'a.parquet'} --method consistent --out {tmp_path / 'm.json'}"
+    assert main(fit.split()) == 0
+    found = load_model(tmp_path / "m.json").fit.standard
+    assert found[f"M{first}"] == pytest.approx(20.0, rel=0.3)
+    assert abs(told["standard"][f"M{first}"] - 20.0) > abs(found[f"M{first}"] - 20.0)
