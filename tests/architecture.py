@@ -28,8 +28,12 @@ STAGES: dict[str, set[str]] = {
     "derivation": {"core", *NORTH},
     "showing": {"core", *NORTH, "show"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
+    "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
     "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing", "improve", "api"},
+    "cli": {
+        "core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing", "improve", "methods",
+        "api",
+    },
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -57,6 +61,7 @@ PACKAGES: dict[str, set[str]] = {
     "derivation": set(),
     "showing": set(),
     "improve": {"numpy", "threadpoolctl"},
+    "methods": {"numpy"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }

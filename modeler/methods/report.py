@@ -17,6 +17,7 @@ class Outcome(enum.Enum):
     """How a line of a method ends."""
 
     REPRODUCED = "reproduced"
+    RECOVERED = "truth recovered"
     SHOWN = "beside each other"
     FAILED = "NOT reproduced"
 
@@ -29,7 +30,8 @@ class Row:
         what: parameter or figure.
         printed: by the paper, or "-".
         ours: of the simulation.
-        outcome: "beside each other" where nothing says that the two must agree.
+        outcome: "truth recovered" where a simulated machine's value is found, whatever the paper
+            measured on its own; "beside each other" where nothing says that the two must agree.
         why: what was asked of the line, or a remark.
     """
 
@@ -64,7 +66,8 @@ def recovered(name: str, printed: str, truth: float, value: float, sigma: float)
     """A parameter whose truth the simulated robot has: within `ZMAX` of its sigmas."""
     z = (value - truth) / sigma if sigma > 0.0 else float("inf")
     text = f"{value:.5g} +- {sigma:.2g} ({100 * sigma / abs(value):.3g} %)"
-    return Row(name, printed, text, judged(abs(z) < ZMAX), f"truth {truth:.5g}, {z:+.1f} sigma")
+    outcome = Outcome.RECOVERED if abs(z) < ZMAX else Outcome.FAILED
+    return Row(name, printed, text, outcome, f"{truth:.5g}, {z:+.1f} sigma")
 
 
 def figures(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:

@@ -19,6 +19,7 @@ class Verdict(enum.Enum):
     EQUAL = "printed and equal"
     ROUNDED = "printed and equal to the printed digits"
     MISPRINT = "printed and different"
+    MEASURED = "printed, measured: nothing derives it"
     OURS = "our consequence, not printed"
     DIFFERENT = "DIFFERENT"
 
@@ -90,6 +91,8 @@ def _verdict(line: PrintedLine, equal: bool, exact: bool) -> Verdict:
         return Verdict.OURS
     if line.slip:
         return Verdict.MISPRINT
+    if line.measured:
+        return Verdict.MEASURED
     return Verdict.EQUAL if exact else Verdict.ROUNDED
 
 

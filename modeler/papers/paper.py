@@ -42,7 +42,8 @@ class PrintedLine:
             parameters or in joint variables.
         through: robot whose base parameters stand on the right side of a relation, leg by leg.
         strip: ending of names that the robot lacks, a leg that stands alone.
-        seal: fingerprint of a quotation of measured numbers, which nothing derives.
+        seal: fingerprint of a quotation that holds measured numbers.
+        measured: no number of the quotation can be derived; what is checked is what must hold of it.
     """
 
     robot: str
