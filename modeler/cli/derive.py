@@ -1,6 +1,7 @@
 """`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
 
 import argparse
+import dataclasses
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
@@ -12,10 +13,11 @@ from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
 from modeler.cli.console import Json, say, working
 from modeler.cli.parsers.derive import FEW_JOINTS, Form
-from modeler.cli.robots import robot_of
-from modeler.core.errors import ModelerError
+from modeler.cli.robots import robot_of, robot_with_effects
+from modeler.core.errors import ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation, derive, generate
+from modeler.robot import Robot
 from modeler.symbolic import LinkColumn, SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
 from modeler.terms import (
@@ -53,7 +55,7 @@ _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
 
 def run_derive(args: argparse.Namespace) -> Json:
     """Prints relations, proof, and for small robots the coefficients."""
-    robot = robot_of(args)
+    robot = _opened(args) if args.open else robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         opinion = second_opinion(derivation)
@@ -71,6 +73,15 @@ def run_derive(args: argparse.Namespace) -> Json:
     say(f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque")
     _closed_forms(args, derivation)
     return result
+
+
+def _opened(args: argparse.Namespace) -> Robot:
+    """The tree of a robot whose loops are not closed: every row of its table moves freely."""
+    robot = robot_with_effects(args)
+    if not robot.loops:
+        raise RobotError(f"--open: {robot.name} has no loops to cut; leave --open out")
+    title = f"{robot.title}, its loops cut open"
+    return dataclasses.replace(robot, title=title, loops=())
 
 
 def _tied_lines(model: SymbolicModel) -> list[str]:

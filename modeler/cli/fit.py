@@ -18,11 +18,13 @@ from modeler.fit import (
     IdentifiedModel,
     Payload,
     identify,
+    identify_energy,
     identify_with_payloads,
     load_model,
     save_model,
     with_verdict,
 )
+from modeler.fit.reduced import with_essential_only
 from modeler.observation import Log, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
@@ -53,6 +55,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
     _check_load(args)
     _check_robot_out(args)
+    _check_model(args)
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
@@ -64,7 +67,12 @@ def run_fit(args: argparse.Namespace) -> Json:
         loaded = read_logs(compiled, args.payload_log)
         _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
         observation = observe(compiled, [*logs, *loaded], processing)
-    if loaded:
+    refit = None
+    if args.model == "energy":
+        with working("integrating the work of the motors"):
+            energy = identify_energy(compiled, observation, args.window, args.method)
+        result, refit = energy.result, energy.without
+    elif loaded:
         payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
         result = identify_with_payloads(compiled, observation, [payload], args.method)
     else:
@@ -72,7 +80,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     with working("judging the fit"):
         told = findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
-        result = with_verdict(compiled, observation, result, told, bare)
+        result = with_verdict(compiled, observation, result, told, bare, refit)
     save_model(args.out, identified(derivation, emitted, observation, result))
     for line in (*observation.report.summary(), "", *result.summary()):
         say(line)
@@ -112,6 +120,15 @@ def _check_load(args: argparse.Namespace) -> None:
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
 
 
+def _check_model(args: argparse.Namespace) -> None:
+    if args.model != "energy" and args.window is not None:
+        raise DataError("--window: only windows of --model energy have a length; add that option")
+    if args.model == "energy" and args.payload_log:
+        raise DataError(
+            "--payload-log: the energy model takes logs without load; leave out --model energy"
+        )
+
+
 def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
     """Refuse rows that are given twice, and a loaded log named like a bare one."""
     given = [*bare, *loaded]
@@ -134,6 +151,8 @@ def _check_logs(bare: Sequence[Given], loaded: Sequence[Given]) -> None:
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
     model = load_model(args.model)
+    if args.essential:
+        model = with_essential_only(model, args.model)
     with working("predicting"):
         compiled = model.compile() if args.run_embedded_c else recompile(model)
         comparison, lines, found = judged(model, args.logs, compiled)
@@ -165,9 +184,11 @@ def judged(
     _check_logs(_given(logs, read), [])
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
+    what = "" if model.fit.energy is None else "energy model, "
     lines = [
-        f"model: {model.spec.robot}, {len(model.beta)} base parameters, {titled(model.fit.method)} "
-        f"on {fitted}; relative error there {100 * model.fit.relative_error:.2f} %"
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
+        f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
+        f"{100 * model.fit.relative_error:.2f} %"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

@@ -2,8 +2,13 @@
 
 from typing import Literal
 
-Method = Literal["weighted", "ordinary", "consistent"]
+Method = Literal[
+    "weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim", "consistent",
+]  # fmt: skip
 """Estimators; `core.estimators` says what each is."""
+
+ModelKind = Literal["torque", "energy"]
+"""What a row of the fit states: a joint's torque, or the energy balance of a window."""
 
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""

@@ -1,6 +1,8 @@
 """Estimates of the base parameters, their certainty, and the model file."""
 
 from modeler.core.choices import Method as Method
+from modeler.fit.energy import EnergyFit as EnergyFit
+from modeler.fit.energy import identify_energy as identify_energy
 from modeler.fit.essential import Essential as Essential
 from modeler.fit.identify import identify as identify
 from modeler.fit.model_file import Addition as Addition

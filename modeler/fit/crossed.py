@@ -1,5 +1,6 @@
 """Does the fit predict motion like that of its logs? What was left out answers."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,12 @@ class Crossed:
     stretches: int
 
 
-def crossed(observation: Observation, rows: np.ndarray, sigma: np.ndarray) -> Crossed:
+def crossed(
+    observation: Observation,
+    rows: np.ndarray,
+    sigma: np.ndarray,
+    refit: Callable[[np.ndarray], np.ndarray] | None = None,
+) -> Crossed:
     """Cross-validation over stretches of half a swing.
 
     A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
@@ -39,6 +45,8 @@ def crossed(observation: Observation, rows: np.ndarray, sigma: np.ndarray) -> Cr
         observation: of all logs.
         rows: (rows,) True for those to use.
         sigma: (n,) standard deviation of a row of each joint.
+        refit: beta (c,) without the samples (s,) that are held out; None: least squares of the
+            other rows.
     """
     swing = _swing(observation)
     number = _stretches(observation, swing)
@@ -53,8 +61,11 @@ def crossed(observation: Observation, rows: np.ndarray, sigma: np.ndarray) -> Cr
     left = np.zeros(len(sigma))
     for k in range(len(parts)):
         others = [part for i, part in enumerate(parts) if i != k]
-        beta = _solved(np.vstack(others)) if others else np.zeros(len(observation.names))
         own = rows & (fold == k)
+        if refit is not None:
+            beta = refit(np.searchsorted(seen, number) % FOLDS == k)
+        else:
+            beta = solved(np.vstack(others)) if others else np.zeros(len(observation.names))
         residual = observation.y[own] - observation.W[own] @ beta
         left += np.bincount(joint[own], residual**2, len(sigma))
     total = np.bincount(joint[rows], observation.y[rows] ** 2, len(sigma))
@@ -84,7 +95,7 @@ def _stretches(observation: Observation, swing: float) -> np.ndarray:
     return number
 
 
-def _solved(whole: np.ndarray) -> np.ndarray:
+def solved(whole: np.ndarray) -> np.ndarray:
     """(c,) least squares of a triangle [W y]; 0 along directions that it does not see."""
     W, y = whole[:, :-1], whole[:, -1]
     length = np.linalg.norm(W, axis=0)

@@ -14,6 +14,7 @@ from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
 from modeler.estimate.methods import method_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
+from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
 
@@ -99,7 +100,21 @@ def fit_equations(
                    *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
         standard=estimate.standard,
+        own=estimate.sentences,
+        essential=_reduced(observation, equations, alive, essential),
     )  # fmt: skip
+
+
+def _reduced(
+    observation: Observation, equations: Equations, alive: np.ndarray, essential: Essential
+) -> Reduced | None:
+    """The essential parameters alone, as sure as their own residuals let them be."""
+    at = [equations.names.index(name) for name in essential.names]
+    W, reduced = equations.W[:, at], essential.reduced
+    factors = coloured(observation, W, equations.y, alive, reduced).factors
+    sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    units = dict(zip(equations.names, equations.units, strict=True))
+    return reduced_model(essential, reduced, sigma, units)
 
 
 def _problem(
@@ -197,7 +212,7 @@ def _status(estimate: Estimate) -> str:
 
 def _sentences(estimate: Estimate, essential: Essential) -> list[str]:
     said = [tangle.sentence() for tangle in estimate.rank.aside]
-    if not estimate.settled:
+    if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
         said.append(
             f"the joint weights still change after {MAX_ITERATIONS} iterations; "
             'record more rows, or use method "ordinary"'

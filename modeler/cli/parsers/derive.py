@@ -36,6 +36,9 @@ def add_derive(commands: Commands) -> None:
     parser.add_argument(
         "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
     )
+    parser.add_argument(
+        "--open", action="store_true", help="cut the loops: the tree, as counted leg by leg"
+    )
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_derive)
 

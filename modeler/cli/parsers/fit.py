@@ -5,7 +5,7 @@ from typing import get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
-from modeler.core.choices import LOW_SPEED, Derivatives, Method
+from modeler.core.choices import LOW_SPEED, Derivatives, Method, ModelKind
 from modeler.core.estimators import ABOUT
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
@@ -38,10 +38,25 @@ def add_fit(commands: Commands) -> None:
         type=Output,
         help="write the robot file with the values found, for simulators (--method consistent)",
     )
+    _add_model(parser)
     _add_processing(parser)
     _add_load(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_fit)
+
+
+def _add_model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--model",
+        choices=get_args(ModelKind),
+        default="torque",
+        help="one equation a joint and sample, or the energy balance of windows (default "
+        "%(default)s)",
+    )
+    add_number(
+        parser, "--window", "S", float,
+        "length of a window of --model energy; left out: the spacing of the torque model's rows",
+    )  # fmt: skip
 
 
 def _add_processing(parser: argparse.ArgumentParser) -> None:
@@ -120,6 +135,11 @@ def add_compare(commands: Commands) -> None:
         "--pictures", metavar="DIR", type=PictureFolder,
         help="write every picture as PNG, SVG and CSV",
     )  # fmt: skip
+    parser.add_argument(
+        "--essential",
+        action="store_true",
+        help="predict with the reduced model of the fit: its essential parameters, all others 0",
+    )
     parser.add_argument(
         "--run-embedded-c",
         action="store_true",
