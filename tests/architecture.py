@@ -31,7 +31,15 @@ STAGES: dict[str, set[str]] = {
     "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
     "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
     "cli": {
-        "core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing", "improve", "methods",
+        "core",
+        *NORTH,
+        *SOUTH,
+        "simulate",
+        "show",
+        "derivation",
+        "showing",
+        "improve",
+        "methods",
         "api",
     },
 }

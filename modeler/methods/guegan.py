@@ -61,7 +61,9 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
 
 
 def _ours(printed: Mapping[str, tuple[float, ...]]) -> dict[str, tuple[float, ...]]:
-    names = {word: LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")) for word in printed}
+    names = {
+        word: LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")) for word in printed
+    }
     return {names[word]: values for word, values in printed.items()}
 
 
@@ -79,7 +81,10 @@ def _machine(robot: Robot, truth: Mapping[str, float]) -> Robot:
 
 
 def _simulated(
-    robot: Robot, truth: Mapping[str, float], compiled: CompiledModel, report: Callable[[float], None]
+    robot: Robot,
+    truth: Mapping[str, float],
+    compiled: CompiledModel,
+    report: Callable[[float], None],
 ) -> tuple[Observation, np.ndarray]:
     """What is measured on all motions, and the regressor along the motions as they were."""
     machine, logs, exact = _machine(robot, truth), [], []

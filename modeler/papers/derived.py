@@ -53,9 +53,7 @@ class Derived:
     def tied(self) -> Mapping[str, Sum]:
         """Joint variables that follow others, and those that follow themselves."""
         free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving}
-        tied = {
-            f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()
-        }
+        tied = {f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()}
         return free | tied
 
 

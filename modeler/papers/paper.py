@@ -43,7 +43,7 @@ class PrintedLine:
         through: robot whose base parameters stand on the right side of a relation, leg by leg.
         strip: ending of names that the robot lacks, a leg that stands alone.
         seal: fingerprint of a quotation that holds measured numbers.
-        measured: no number of the quotation can be derived; what is checked is what must hold of it.
+        measured: nothing derives its numbers; `gives` says what must hold of them.
     """
 
     robot: str
@@ -61,6 +61,7 @@ class PrintedLine:
     through: str = ""
     strip: str = ""
     seal: str = ""
+    measured: bool = False
 
     @property
     def text(self) -> str:
@@ -142,4 +143,5 @@ def _line(entry: Mapping[str, Any]) -> PrintedLine:
     assert set(entry) <= known, f"{set(entry) - known} is no key of a line"
     assert bool(entry.get("quote")) != bool(entry.get("ours")), f"{entry} is quoted or ours"
     assert entry.get("slip", "scan") in SLIPS, f"{entry['slip']} is no slip"
-    return PrintedLine(**{k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()})
+    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()}
+    return PrintedLine(**values)

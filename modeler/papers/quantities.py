@@ -5,6 +5,7 @@ comparisons for what must hold.
 """
 
 import ast
+import itertools
 import math
 import operator
 from collections.abc import Callable, Mapping
@@ -62,7 +63,7 @@ def arithmetic() -> dict[str, Any]:
     return {
         "abs": abs, "pi": math.pi, "count": len,
         "mean": lambda *x: sum(x) / len(x),
-        "falling": lambda *x: all(a >= b for a, b in zip(x, x[1:], strict=False)),
+        "falling": lambda *x: all(a >= b for a, b in itertools.pairwise(x)),
     }  # fmt: skip
 
 

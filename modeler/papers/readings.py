@@ -16,7 +16,6 @@ from modeler.papers.quotation import (
     Monomial,
     QuotationError,
     Sum,
-    added,
     numbers_of,
     read_sum,
     replaced,
@@ -154,11 +153,11 @@ def arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compa
     return Compared(printed, derived, ", ".join(texts), difference_of(line))
 
 
-def _floats(numbers: Mapping[str, Amount]) -> dict[str, float]:
+def _floats(numbers: Mapping[str, Amount]) -> dict[str, Any]:
     return {name: float(number.value) for name, number in numbers.items()}
 
 
-def _rounded(formula: str, numbers: Mapping[str, Amount], known: Mapping[str, Any]) -> Amount:
+def _rounded(formula: str, numbers: Mapping[str, Amount], known: dict[str, Any]) -> Amount:
     """The formula's value, and how far the rounding of its numbers may move it."""
     values = _floats(numbers)
     value = Fraction(evaluate(formula, known | values))

@@ -1,4 +1,4 @@
-"""Geometry as a paper prints it: rows of its table, tied joints, the matrix G of dependent speeds."""
+"""Geometry as a paper prints it: rows of its table, tied joints, the matrix G of their speeds."""
 
 from collections.abc import Mapping
 
@@ -76,9 +76,7 @@ def matrix_reading(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived
     above, below = line.gives[1].split(), line.gives[0].split()
     derived = _entries([[_slope(tied[name], by) for name in above] for by in below])
     rows = [[read_sum(cell, str) for cell in row.split()] for row in line.text.split(";")]
-    printed = joined(
-        {f"{i}x{j}": cell for i, row in enumerate(rows) for j, cell in enumerate(row)}
-    )
+    printed = joined({f"{i}x{j}": cell for i, row in enumerate(rows) for j, cell in enumerate(row)})
     text = "; ".join(
         " ".join(sum_text(_slope(tied[name], by)) for name in above) for by in below
     )  # fmt: skip

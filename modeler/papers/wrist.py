@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression, ExpressionError, parse
@@ -38,7 +39,7 @@ def coefficient_quotations(paper: Paper, robots: Mapping[str, Derived]) -> list[
     for key, quote in quotes.items():
         kind, _, name = key.partition(" ")
         place = f"{_PLACES.get(kind, 'section 2.2')}, {name}".removesuffix(", ")
-        slip = paper.slips.get(key, {})
+        slip: dict[str, Any] = dict(paper.slips.get(key, {}))
         lines.append(PrintedLine(paper.coefficients, place, kind, quote, **slip))
     return lines
 
@@ -59,7 +60,7 @@ def _read(text: str) -> Expression:
 
 def _stated(line: PrintedLine, found: str, right: str) -> Compared:
     """Equal if what is found to differ is what the paper's file says."""
-    different = {} if found == line.difference else {(("difference", 1),): Amount(Fraction(1))}
+    different: Sum = {} if found == line.difference else {(("difference", 1),): Amount(Fraction(1))}
     return Compared(different, {}, f"derived - printed: {found}" if found else right)
 
 
