@@ -34,7 +34,15 @@ from modeler.derivation import generate as generate
 from modeler.derivation import load as load
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
-from modeler.fit import FitResult, IdentifiedModel, identify, provenance, with_verdict
+from modeler.fit import (
+    FitResult,
+    IdentifiedModel,
+    check_currents,
+    identify,
+    in_drive_units,
+    provenance,
+    with_verdict,
+)
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart
@@ -71,13 +79,25 @@ def compile_model(emitted: Emitted) -> CompiledModel:
 
 def read_logs(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list[Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are."""
-    return [log if isinstance(log, Log) else _read(log, compiled) for log in logs]
+    return [log if isinstance(log, Log) else _read(log, compiled.spec) for log in logs]
 
 
-def _read(place: str | Path, compiled: CompiledModel) -> Log:
+def read_currents(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list[Log]:
+    """Logs of currents; where the robot file states no drive gain, torques are in drive units.
+
+    Raises:
+        DataError: a log gives a torque instead.
+    """
+    spec = in_drive_units(compiled.spec)
+    read = [log if isinstance(log, Log) else _read(log, spec) for log in logs]
+    check_currents(read, spec.joints)
+    return read
+
+
+def _read(place: str | Path, spec: ModuleSpec) -> Log:
     path, times = file_and_window(str(place))
     if times is None:
-        return read_log(place, compiled.spec)
+        return read_log(place, spec)
     start, colon, end = times.partition(":")
     try:
         span = tuple(float(side) if side else None for side in (start, end))
@@ -88,7 +108,7 @@ def _read(place: str | Path, compiled: CompiledModel) -> Log:
             f"{place}: got @{times} after the file; expected @START:END in seconds, as in "
             f"{path}@0:10, {path}@5: or {path}@:5"
         )
-    return window(read_log(path, compiled.spec), *span)
+    return window(read_log(path, spec), *span)
 
 
 def observe(

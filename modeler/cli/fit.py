@@ -2,34 +2,39 @@
 
 import argparse
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.drive_gains import carried, check_load, fit_with_gains
 from modeler.cli.robots import robot_of
 from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
+from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
 from modeler.core.files import write_atomically
 from modeler.fit import (
     FitResult,
     IdentifiedModel,
-    Payload,
+    are_currents,
     identify,
     identify_energy,
     identify_with_payloads,
+    known_doubts,
     load_model,
     save_model,
     with_verdict,
 )
+from modeler.fit.doubts import Told
 from modeler.fit.reduced import with_essential_only
-from modeler.observation import Log, Processing, observe
+from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
 from modeler.observation.log import shared_rows
-from modeler.robot import INERTIAL, Robot
+from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
 
 _TRAINING = "training only: "
@@ -56,46 +61,68 @@ def run_fit(args: argparse.Namespace) -> Json:
     _check_load(args)
     _check_robot_out(args)
     _check_model(args)
+    if args.method == GAIN_METHOD:
+        check_load(args)
     processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
+    save = partial(_written, args, robot)
+    if args.method == GAIN_METHOD:
+        return save(*fit_with_gains(args, derivation, compiled, processing, _check_given))
     with working("building the observation matrix"):
         logs = read_logs(compiled, args.logs)
         loaded = read_logs(compiled, args.payload_log)
-        _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
+        _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
+    told: list[Told] = []
     refit = None
     if args.model == "energy":
         with working("integrating the work of the motors"):
             energy = identify_energy(compiled, observation, args.window, args.method)
         result, refit = energy.result, energy.without
     elif loaded:
-        payload = Payload(tuple(log.name for log in loaded), args.payload_link, args.payload_mass)
-        result = identify_with_payloads(compiled, observation, [payload], args.method)
+        payloads = carried(args, loaded)
+        result = identify_with_payloads(compiled, observation, payloads, args.method)
+        told += known_doubts(compiled, observation, payloads, are_currents([*logs, *loaded]))
     else:
         result = identify(observation, args.method, compiled)
     with working("judging the fit"):
-        told = findings_of_fit(compiled, observation, result.beta)
+        told += findings_of_fit(compiled, observation, result.beta)
         bare = [log.name for log in logs]
         result = with_verdict(compiled, observation, result, told, bare, refit)
-    save_model(args.out, identified(derivation, emitted, observation, result))
-    for line in (*observation.report.summary(), "", *result.summary()):
+    return save(identified(derivation, emitted, observation, result), observation)
+
+
+def _written(
+    args: argparse.Namespace, robot: Robot, model: IdentifiedModel, observation: Observation
+) -> Json:
+    """Saves and prints the model."""
+    save_model(args.out, model)
+    for line in (*observation.report.summary(), "", *model.fit.summary()):
         say(line)
     say(f"written: {args.out}")
     if args.robot_out is not None:
-        write_atomically(Path(args.robot_out), with_parameters(robot.text, _own(robot, result)))
+        robot = robot_from_text(model.robot_text, "robot of the model")
+        stated = _own(robot, model.fit)
+        text = with_parameters(model.robot_text, stated) if stated else model.robot_text
+        write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
-    return result.to_json()
+    return model.fit.to_json()
+
+
+def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
+    _check_logs(_given(args.logs, logs), _given(args.payload_log, loaded))
 
 
 def _check_robot_out(args: argparse.Namespace) -> None:
-    if args.robot_out is not None and args.method != "consistent":
+    if args.robot_out is not None and args.method not in ("consistent", GAIN_METHOD):
         raise DataError(
             f"--robot-out: --method {args.method} ends in base parameters, of which many machines "
-            "have the same; use --method consistent, which ends in all standard parameters"
+            "have the same; use --method consistent, which ends in all standard parameters, or "
+            f"{GAIN_METHOD}, which finds drive gains"
         )
 
 
@@ -114,8 +141,8 @@ def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
 
 
 def _check_load(args: argparse.Namespace) -> None:
-    for option in ("payload_mass", "payload_link"):
-        if getattr(args, option) is not None and not args.payload_log:
+    for option in ("payload_mass", "payload_link", "payload_moved"):
+        if getattr(args, option) not in (None, False) and not args.payload_log:
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
 

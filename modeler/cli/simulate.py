@@ -9,6 +9,7 @@ from modeler.simulate import (
     KEPT,
     SimulationSettings,
     check_suffix,
+    drive_gains,
     hidden_from_text,
     simulate,
     told_hidden,
@@ -32,6 +33,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         process_noise=args.process_noise,
         controller=args.controller,
         hidden=tuple(hidden_from_text(text) for text in args.hide),
+        drive_gains=drive_gains(args.drive_gain, robot),
     )
     with progress(f"simulating {robot.name}") as report:
         log = simulate(robot, settings, report)

@@ -10,6 +10,9 @@ Method = Literal[
 ModelKind = Literal["torque", "energy"]
 """What a row of the fit states: a joint's torque, or the energy balance of a window."""
 
+GAIN_METHOD = "tls"
+"""Total least squares, for drive gains besides."""
+
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""
 

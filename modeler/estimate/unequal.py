@@ -70,20 +70,8 @@ def unequal_least_squares(
     rank = independent_columns(triangle(W), names)
     kept = np.asarray(rank.kept, dtype=int)
     X = W[:, kept]
-    sources = _with_common(shares)
-    deviation, settled = np.ones(len(y)), False
-    for _ in range(_ROUNDS):
-        weight = 1.0 / deviation if method == "weighted" else np.ones(len(y))
-        A = _influence(X, weight)
-        residual = y - X @ (A @ y)
-        leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
-        updated = _deviations(residual**2 / (1.0 - leverage), sources, deviation, y)
-        settled = bool(np.all(np.abs(updated / deviation - 1.0) < _SETTLED))
-        deviation = updated
-        if settled:
-            break
-    weight = 1.0 / deviation if method == "weighted" else np.ones(len(y))
-    A = _influence(X, weight)
+    deviation, settled = _settled_deviations(X, y, _with_common(shares), method)
+    A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
     beta, covariance = np.zeros(len(names)), np.zeros((len(names),) * 2)
     beta[kept] = A @ y
     C = (A * deviation**2) @ A.T
@@ -92,6 +80,22 @@ def unequal_least_squares(
     raw, scaled = _conditions(X)
     largest = float(factors.max(initial=1.0))
     return Unequal(beta, covariance, deviation, rank, settled, raw, scaled, largest)
+
+
+def _settled_deviations(
+    X: np.ndarray, y: np.ndarray, sources: np.ndarray, method: Method
+) -> tuple[np.ndarray, bool]:
+    """(rows,) standard deviations, and whether they no longer change."""
+    deviation = np.ones(len(y))
+    for _ in range(_ROUNDS):
+        A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
+        leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
+        squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
+        updated = _deviations(squares, sources, deviation, y)
+        if np.all(np.abs(updated / deviation - 1.0) < _SETTLED):
+            return updated, True
+        deviation = updated
+    return deviation, False
 
 
 def _influence(X: np.ndarray, weight: np.ndarray) -> np.ndarray:

@@ -53,19 +53,15 @@ def crossed(
     seen = np.unique(number[observation.row_sample[rows]])
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
     joint = observation.row_joint
-    weight = 1.0 / sigma[joint]
-    parts = [
-        triangle((np.column_stack([observation.W, observation.y]) * weight[:, None])[rows & own])
-        for own in (fold == k for k in range(min(FOLDS, len(seen))))
-    ]
+    weighed = np.column_stack([observation.W, observation.y]) / sigma[joint][:, None]
+    parts = [triangle(weighed[rows & (fold == k)]) for k in range(min(FOLDS, len(seen)))]
     left = np.zeros(len(sigma))
     for k in range(len(parts)):
-        others = [part for i, part in enumerate(parts) if i != k]
         own = rows & (fold == k)
-        if refit is not None:
-            beta = refit(np.searchsorted(seen, number) % FOLDS == k)
+        if refit is None:
+            beta = solved(np.vstack([weighed[:0], *parts[:k], *parts[k + 1 :]]))
         else:
-            beta = solved(np.vstack(others)) if others else np.zeros(len(observation.names))
+            beta = refit(np.searchsorted(seen, number) % FOLDS == k)
         residual = observation.y[own] - observation.W[own] @ beta
         left += np.bincount(joint[own], residual**2, len(sigma))
     total = np.bincount(joint[rows], observation.y[rows] ** 2, len(sigma))

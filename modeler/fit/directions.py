@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -15,6 +15,18 @@ _LAW = (
     ("Fv", "-", (("viscous", 1.0), ("asymmetric_viscous", -1.0))),
     ("Fs", "-", (("coulomb", 1.0), ("offset", -1.0))),
 )
+
+
+class Fitted(Protocol):
+    """What of a fit enters here."""
+
+    @property
+    def parameters(self) -> tuple[ParameterEstimate, ...]:
+        """(c,) base parameters."""
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """(c, c) of their values."""
 
 
 @dataclass(frozen=True)
@@ -46,9 +58,7 @@ def directed_from_json(raw: Mapping[str, Any]) -> Directed:
     return Directed(**{k: v for k, v in raw.items() if k != "relative_sigma_percent"})
 
 
-def friction_by_direction(
-    spec: ModuleSpec, parameters: tuple[ParameterEstimate, ...], covariance: np.ndarray
-) -> tuple[Directed, ...]:
+def friction_by_direction(spec: ModuleSpec, fit: Fitted) -> tuple[Directed, ...]:
     """Friction by direction of the joints whose viscous friction differs between the directions.
 
     The law of the columns qd, |qd|, sign(qd), 1 is that of two slopes and two levels,
@@ -61,9 +71,9 @@ def friction_by_direction(
 
     Args:
         spec: the robot.
-        parameters: (c,) base parameters.
-        covariance: (c, c) of their values.
+        fit: its c base parameters, and the (c, c) covariance of their values.
     """
+    parameters, covariance = fit.parameters, fit.covariance
     kinds = {parameter.name: parameter for parameter in spec.standard}
     column = {
         (kinds[base.column_of].effect, kinds[base.column_of].joint): i

@@ -2,7 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -70,19 +70,13 @@ def identify_energy(
     Args:
         model: the compiled robot.
         observation: of the logs.
-        window: s; None: the spacing of the rows of the torque model.
+        window: s; None: as `energy_rows`.
         method: "weighted" by the modelled variance of each window, or "ordinary" (eq. 18).
 
     Raises:
-        DataError: a motor whose torque is 0 throughout, fewer windows than parameters, no such
-            method, or as `energy_rows`.
+        DataError: a motor without torque, few windows, no such method, or as `energy_rows`.
     """
-    if method not in ("weighted", "ordinary"):
-        raise DataError(
-            f"--method {method}: the energy model takes weighted or ordinary; leave out --method "
-            "or --model energy"
-        )
-    _check_torques(observation)
+    _check(observation, method)
     rows = energy_rows(model, observation, window)
     _check_enough(observation, rows)
     found = _estimate(observation, rows, method)
@@ -90,26 +84,28 @@ def identify_energy(
     result = FitResult(
         robot=observation.robot,
         method=method,
-        status="rank deficient" if found.rank.aside else "ok" if found.settled else "not settled",
+        status=_status(found),
         samples=len(observation.time),
         rows=len(rows.y),
-        condition_number=found.condition_number,
-        condition_scaled=found.condition_scaled,
-        relative_error=essential.error_before,
-        essential_error=essential.error_after,
+        condition_number=found.condition_number, condition_scaled=found.condition_scaled,
+        relative_error=essential.error_before, essential_error=essential.error_after,
         joints=_joints(observation, found.beta),
         parameters=_parameters(observation, found, essential),
         covariance=found.covariance,
         loads=(),
-        sentences=_sentences(found, essential),
-        processing=observation.report.processing,
+        sentences=_sentences(found, essential), processing=observation.report.processing,
         essential=_reduced(observation, essential),
         energy=_report(model, observation, rows, found, window, method),
-    )
+    )  # fmt: skip
     return EnergyFit(result, rows, found.deviation, observation)
 
 
-def _check_torques(observation: Observation) -> None:
+def _check(observation: Observation, method: Method) -> None:
+    if method not in ("weighted", "ordinary"):
+        raise DataError(
+            f"--method {method}: the energy model takes weighted or ordinary; leave out --method "
+            "or --model energy"
+        )
     dead = [observation.joints[j].name for j in dead_joints(observation)]
     if dead:
         raise DataError(
@@ -128,7 +124,6 @@ def _check_enough(observation: Observation, rows: EnergyRows) -> None:
 
 
 def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Unequal:
-    assert method in get_args(Method)
     return unequal_least_squares(
         rows.W, rows.y, rows.spread, observation.names, rows.stretch, method
     )
@@ -212,6 +207,12 @@ def _parameters(
         )
         for i, (name, unit) in enumerate(zip(observation.names, observation.units, strict=True))
     )
+
+
+def _status(found: Unequal) -> str:
+    if found.rank.aside:
+        return "rank deficient"
+    return "ok" if found.settled else "not settled"
 
 
 def _sentences(found: Unequal, essential: Essential) -> tuple[str, ...]:

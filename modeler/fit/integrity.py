@@ -77,7 +77,7 @@ def check_estimate(fit: FitResult, where: str) -> None:
     Raises:
         ManifestError: names the first parameter that is wrong, and how.
     """
-    for p in (*fit.parameters, *fit.loads):
+    for p in (*fit.gains, *fit.parameters, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
             if number is not None and not np.isfinite(number):
                 raise _wrong(where, f"the {what} of {p.name} is {number!r}; expected a finite one")

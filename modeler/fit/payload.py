@@ -64,11 +64,44 @@ def identify_with_payloads(
     Raises:
         DataError: a log or link that is not there, every log loaded, a mass that is not positive.
     """
+    equations = loaded_equations(model, observation, payloads).equations
+    return fit_equations(observation, equations, method, model)
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """The equations of robot and loads.
+
+    Attributes:
+        equations: with the known weights on the side of the measurement.
+        weighed: the payloads of known mass.
+        torques: (rows, weighed) N m or N that each of these masses accounts for.
+    """
+
+    equations: Equations
+    weighed: tuple[Payload, ...]
+    torques: np.ndarray
+
+
+def loaded_equations(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> Loaded:
+    """The equations that `identify_with_payloads` fits.
+
+    Raises:
+        DataError: see there.
+    """
     _check(model, observation, payloads)
     equations = base_equations(observation)
+    torques = []
     for payload in payloads:
+        before = equations.y
         equations = _with_load(equations, model, observation, payload)
-    return fit_equations(observation, equations, method, model)
+        if payload.mass is not None:
+            torques.append(before - equations.y)
+    weighed = tuple(payload for payload in payloads if payload.mass is not None)
+    stacked = np.column_stack(torques) if torques else np.zeros((len(equations.y), 0))
+    return Loaded(equations, weighed, stacked)
 
 
 def _with_load(

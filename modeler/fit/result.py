@@ -85,6 +85,8 @@ class FitResult:
         essential: the reduced model; None if it has no parameter, or in files that lack it.
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
+        gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
+        singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
     """
 
     robot: str
@@ -108,6 +110,8 @@ class FitResult:
     essential: Reduced | None = None
     directions: tuple[Directed, ...] = ()
     energy: EnergyReport | None = None
+    gains: tuple[ParameterEstimate, ...] = ()
+    singular_values: tuple[float, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
@@ -116,7 +120,7 @@ class FitResult:
 
     def summary(self) -> list[str]:
         """Lines of text: parameters, joints, remarks."""
-        lines = parameter_lines((*self.parameters, *self.loads))
+        lines = parameter_lines((*self.gains, *self.parameters, *self.loads))
         lines += direction_lines(self.directions)
         lines += [
             f"{self.rows} rows of {self.samples} samples, condition number "
@@ -159,6 +163,8 @@ class FitResult:
             },
             "parameters": [parameter.to_json() for parameter in self.parameters],
             "loads": [parameter.to_json() for parameter in self.loads],
+            "gains": [parameter.to_json() for parameter in self.gains],
+            "singular_values": list(self.singular_values),
             "sentences": list(self.sentences),
             "processing": self.processing.to_json(),
             "standard": dict(self.standard),
@@ -198,6 +204,8 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             essential=reduced_from_json(raw.get("essential")),
             directions=tuple(directed_from_json(item) for item in raw.get("directions", ())),
             energy=energy_report_from_json(raw.get("energy")),
+            gains=tuple(read_parameter(entry) for entry in raw.get("gains", [])),
+            singular_values=tuple(map(float, raw.get("singular_values", []))),
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None

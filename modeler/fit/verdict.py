@@ -66,23 +66,17 @@ def with_verdict(
     """
     rows = _rows(observation, bare)
     sigma = np.array([joint.sigma for joint in result.joints])
-    data = compress(
-        observation.W[rows],
-        observation.y[rows],
-        observation.row_joint[rows],
-        len(sigma),
-        observation.names,
-    )
+    W, y, joint = observation.W[rows], observation.y[rows], observation.row_joint[rows]
+    data = compress(W, y, joint, len(sigma), observation.names)
     seen = crossed(observation, rows, sigma, refit)
-    found = [Doubt(item.line, item.certain) for item in told]
+    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
     found += [*scarce(result, seen), *undescribed(result)]
     found += systematic(result, _lasting(observation, rows, result))
     found += undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
-    directions = friction_by_direction(model.spec, result.parameters, result.covariance)
-    verdict = _verdict(found, result, seen)
-    return dataclasses.replace(result, verdict=verdict, directions=directions)
+    directions = friction_by_direction(model.spec, result)
+    return dataclasses.replace(result, verdict=_verdict(found, result, seen), directions=directions)
 
 
 def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:

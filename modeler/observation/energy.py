@@ -74,19 +74,16 @@ def energy_rows(
         y = int tau^T qd dt = (Delta h) beta + int of the power of all other parameters,
 
     over windows that follow each other. A parameter of inertia has the power of its kinetic energy
-    E = qd^T M(q) qd / 2, integrated exactly as E(t2) - E(t1) without any acceleration, and that of
-    gravity, qd^T g(q); every other parameter the power qd^T phi. Powers and y are integrated by the
-    same rule over the same samples, so that the kinks of |qd| at rest cancel between them.
-
-    Rows at low speed stay: the power of dry friction has no leap there. A window counts if all its
-    samples are measurements, of every joint: the energy is that of the whole machine.
+    E = qd^T M(q) qd / 2, whose integral is E(t2) - E(t1) without any acceleration, and that of
+    gravity, qd^T g(q); all others the power qd^T phi. One rule integrates y and all powers over the
+    same samples: the kinks of |qd| cancel. Rows at low speed stay, for the power of dry friction
+    has no leap. A window counts if every sample of every joint does: the energy is the machine's.
 
     Args:
-        model: the compiled robot; its regressor gives every power and the kinetic energy,
-            E_c = qd^T (phi_c(q, 0, qd) - phi_c(q, 0, 0)) / 2.
+        model: the compiled robot.
         observation: of the logs; full-rate motion and torque are taken from its stretches.
-        window: s; None: the spacing of the observation's rows, so that both models see the same
-            band. Rounded to an even number of samples, two at least.
+        window: s, rounded to an even number of samples; None: the spacing of the observation's
+            rows, so that both models see the same band.
         rule: Simpson's rule, or the trapezoid, whose error is of order h^2 and not h^4.
 
     Raises:
@@ -99,24 +96,23 @@ def energy_rows(
         raise DataError(_none(observation))
     rows = [_rows(model, part, rule) for part in tiles if len(part.starts)]
     W, y, balance, spread, time = (np.concatenate(group) for group in zip(*rows, strict=True))
-    if not np.abs(W).max() > 0.0 or not np.abs(y).max() > _STILL * _torque_travel(observation):
-        raise DataError(
-            f"{', '.join(observation.logs)}: the motors do no work in any window: no joint with a "
-            "torque moves; the energy model needs velocity, record a motion of every joint"
-        )
-    first = tiles[0]
+    _check_work(observation, W, y)
     return EnergyRows(
         W=W, y=y, balance=balance, spread=spread, time=time,
         stretch=np.concatenate([part.stretch for part in tiles]),
         run=np.repeat([part.segment.run for part in tiles], [len(part.starts) for part in tiles]),
-        window=first.intervals * first.segment.step,
-        rule=rule,
+        window=tiles[0].intervals * tiles[0].segment.step, rule=rule,
     )  # fmt: skip
 
 
-def _torque_travel(observation: Observation) -> float:
-    """The largest torque times one unit of travel: what J are compared with."""
-    return float(np.abs(observation.torque).max(initial=0.0))
+def _check_work(observation: Observation, W: np.ndarray, y: np.ndarray) -> None:
+    """Refuse a robot that stands; J are compared with the largest torque over a unit of travel."""
+    least = _STILL * float(np.abs(observation.torque).max(initial=0.0))
+    if not np.abs(W).max() > 0.0 or not np.abs(y).max() > least:
+        raise DataError(
+            f"{', '.join(observation.logs)}: the motors do no work in any window: no joint with a "
+            "torque moves; the energy model needs velocity, record a motion of every joint"
+        )
 
 
 def _tiles(observation: Observation, window: float | None) -> list[_Tiles]:
@@ -221,7 +217,10 @@ def _rows(model: "CompiledModel", tiles: _Tiles, rule: Rule) -> tuple[np.ndarray
 def _powers(
     model: "CompiledModel", q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """All power; power that is no change of kinetic energy; kinetic energy: (samples, c) each."""
+    """All power; power that is no change of kinetic energy; kinetic energy: (samples, c) each.
+
+    The regressor gives them all: E_c = qd^T (phi_c(q, 0, qd) - phi_c(q, 0, 0)) / 2.
+    """
     still = np.zeros_like(qd)
     total = _work(model.base_regressor(q, qd, qdd, read), qd)
     gravity = _work(model.base_regressor(q, still, still, read), qd)

@@ -100,7 +100,7 @@ def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarra
             raise DataError(
                 f"{table.path}: {current} is in drive units and {spec.robot} has no drive gain "
                 f"for joint {joint.name}; write [drive_gains] {joint.name} = torque per unit in "
-                f"the robot file, or log {tau}"
+                f"the robot file, log {tau}, or let `modeler fit --method tls` find it"
             )
         return joint.drive_gain * table.measured(current), f"{current} x {joint.drive_gain:g}"
     if not joint.actuated:

@@ -95,6 +95,27 @@ def with_reference(text: str, values: Mapping[str, float]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
+    """The robot file with another table [drive_gains].
+
+    Raises:
+        RobotError: the file's own table is written in a way that cannot be replaced line by line.
+    """
+    lines = _without_table(text, "[drive_gains]")
+    lines += ["", "[drive_gains]", *(f'"{name}" = {gain!r}' for name, gain in gains.items())]
+    changed = "\n".join(lines) + "\n"
+    try:
+        same = tomllib.loads(changed) == tomllib.loads(text) | {"drive_gains": dict(gains)}
+    except tomllib.TOMLDecodeError:
+        same = False
+    if not same:
+        raise RobotError(
+            "the [drive_gains] table cannot be replaced; write it as a table of its own, one joint "
+            "a line"
+        )
+    return changed
+
+
 def with_gravity(text: str, gravity: Sequence[float]) -> str:
     """The robot file with another gravity, m/s^2 in frame 0.
 

@@ -1,6 +1,7 @@
 """What `modeler.simulate` offers; loaded when the first of these is asked for."""
 
 from modeler.simulate.closed_motion import KEPT as KEPT
+from modeler.simulate.currents import drive_gains as drive_gains
 from modeler.simulate.hidden import HiddenEffect as HiddenEffect
 from modeler.simulate.hidden import hidden_from_text as hidden_from_text
 from modeler.simulate.hidden_catalogue import HIDDEN as HIDDEN

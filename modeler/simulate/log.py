@@ -72,16 +72,19 @@ class SimulatedLog:
 
 
 def log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
-    """Columns by name: time, q1.., qc1.., tau1.., further ones.
+    """Columns by name: time, q1.., qc1.., tau1.. or current1.., further ones.
 
-    A joint without motor has only its q.
+    A joint without motor has only its q; one whose drive gain is set logs its current.
     """
     columns = {"time": log.time}
     columns |= {f"q{name}": log.q[:, i] for i, name in enumerate(log.joints)}
-    for prefix, values in (("qc", log.qc), ("tau", log.tau)):
-        columns |= {
-            f"{prefix}{name}": values[:, i] for i, name in enumerate(log.joints) if log.driven[i]
-        }
+    driven = [(i, name) for i, name in enumerate(log.joints) if log.driven[i]]
+    columns |= {f"qc{name}": log.qc[:, i] for i, name in driven}
+    gains = log.settings.drive_gains
+    columns |= {
+        f"current{name}" if name in gains else f"tau{name}": log.tau[:, i] / gains.get(name, 1.0)
+        for i, name in driven
+    }
     return columns | dict(log.further)
 
 
@@ -131,6 +134,7 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
         "hidden": told_hidden(log),
+        "drive_gains": dict(log.settings.drive_gains),
     }
     write_atomically(Path(path), json.dumps(content, indent=1) + "\n")
 

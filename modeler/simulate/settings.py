@@ -46,6 +46,8 @@ class SimulationSettings:
         process_noise: standard deviation of a random torque on the machine itself, correlated over
             30 ms, as a share of the rms torque that the commanded motion needs.
         hidden: effects that the machine has and the robot file lacks.
+        drive_gains: torque per drive unit by joint, N m or N; what the log holds of such a joint
+            is the current, its torque over this, and not the torque.
     """
 
     motion: str = "exciting"
@@ -63,6 +65,7 @@ class SimulationSettings:
     torque_limits: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     process_noise: float = 0.0
     hidden: tuple[HiddenEffect, ...] = ()
+    drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
 
 
 def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:

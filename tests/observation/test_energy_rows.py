@@ -151,7 +151,7 @@ def test_windows_that_cannot_be(arm, window, told):
 
 
 def test_a_robot_that_stands_does_no_work(arm):
-    _, _, log = arm
+    log = arm[2]
     still = dataclasses.replace(
         log, q=log.q * 0.0 + 0.3, qd=log.qd * 0.0, qdd=log.qdd * 0.0, tau=log.tau
     )

@@ -5,8 +5,8 @@ from typing import get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
-from modeler.core.choices import LOW_SPEED, Derivatives, Method, ModelKind
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import GAIN_METHOD, LOW_SPEED, Derivatives, Method, ModelKind
+from modeler.core.estimators import ABOUT, GAINS
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -27,16 +27,17 @@ def add_fit(commands: Commands) -> None:
     )
     parser.add_argument(
         "--method",
-        choices=get_args(Method),
+        choices=(*get_args(Method), GAIN_METHOD),
         default="weighted",
         help="estimator, and where it is the wrong one; default: %(default)s. "
-        + " ".join(f"{about.id}: {about.title}; not {about.avoid}." for about in ABOUT.values()),
+        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), GAINS)),
     )
     parser.add_argument(
         "--robot-out",
         metavar="FILE.toml",
         type=Output,
-        help="write the robot file with the values found, for simulators (--method consistent)",
+        help="write the robot file with the values found, for simulators (--method consistent), "
+        "or with the drive gains found (--method tls)",
     )
     _add_model(parser)
     _add_processing(parser)
@@ -105,6 +106,12 @@ def _add_load(parser: argparse.ArgumentParser) -> None:
         help="a further log, with the load; may be given several times",
     )
     add_number(group, "--payload-mass", "KG", float, "its mass, if it is known")
+    group.add_argument(
+        "--payload-moved",
+        action="store_true",
+        help="it was taken off between the loaded logs: the same mass, but its own centre and "
+        "inertia in each",
+    )
     group.add_argument(
         "--payload-link", metavar="J", type=Word,
         help="the link that carries it; default: the last",

@@ -32,6 +32,11 @@ def add_simulate(commands: Commands) -> None:
         help="physics that the machine has and the robot file lacks; may be repeated; joint and "
         f"values left out are drawn from --parameter-seed: {', '.join(e.id for e in CATALOGUE)}",
     )  # fmt: skip
+    parser.add_argument(
+        "--drive-gain", metavar="JOINT=VALUE", action="append", default=[], type=Word,
+        help="true torque per drive unit of a joint; its current is logged in place of its torque; "
+        "may be repeated",
+    )  # fmt: skip
     add_json(parser, "write what was simulated for machines")
     parser.set_defaults(load=_simulate)
 

@@ -1,0 +1,144 @@
+"""What a fit takes for known, tested against the data: weights of loads, drive gains."""
+
+import dataclasses
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.contract import JointSpec, ModuleSpec
+from modeler.core.errors import DataError
+from modeler.fit.doubts import Doubt
+from modeler.fit.drive_gains import GainFit, identify_gains
+from modeler.fit.identify import fit_equations
+from modeler.fit.mounting import mounted_differently
+from modeler.fit.payload import Loaded, Payload, loaded_equations
+from modeler.fit.result import ParameterEstimate
+from modeler.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+FAR = 4.0
+"""Standard deviations between what is given and what the logs say, from which on it is told."""
+
+WORTH = 0.01
+"""Share of a known quantity below which no deviation is told: a load is weighed to this."""
+
+
+def known_doubts(
+    model: "CompiledModel",
+    observation: Observation,
+    payloads: Sequence[Payload],
+    currents: bool,
+) -> list[Doubt]:
+    """Known quantities that the logs contradict, each with the factor.
+
+    First that a load sits alike in all its logs; if not, nothing else is asked of it.
+
+    Each is set free with all parameters: the mass of a load as the factor of its torques, drive
+    gains as in `identify_gains`. Its value is doubted if it is farther than FAR of its own standard
+    deviations, memory of the residuals included, and WORTH of it, from what was given.
+
+    Args:
+        model: the robot.
+        observation: of bare and loaded logs.
+        payloads: of which those of known mass are tested.
+        currents: True if the torques are logged currents times the gains of the robot file.
+    """
+    moved = mounted_differently(model, observation, payloads)
+    if moved or not any(payload.mass is not None for payload in payloads):
+        return [Doubt(line, values=True) for line in moved]
+    found = _weights(observation, loaded_equations(model, observation, payloads), currents)
+    if currents:
+        found += _gains(model, observation, payloads)
+    return found
+
+
+def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[Doubt]:
+    found = []
+    for i, payload in enumerate(loaded.weighed):
+        factor = _freed(observation, loaded, i)
+        if factor.sigma is None or not _contradicts(factor.value, factor.sigma):
+            continue
+        assert payload.mass is not None
+        mass, sigma = factor.value * payload.mass, factor.sigma * payload.mass
+        more = f"{100.0 * abs(factor.value - 1.0):.2g} % {'more' if factor.value > 1.0 else 'less'}"
+        gains = (
+            f"or all drive gains are {1.0 / factor.value:.3g} times what the robot file says; "
+            "--method tls finds the gains"
+            if currents
+            else f"or all torques are logged {factor.value:.3g} times as large as they are: the "
+            "drive gains that the controller assumes are wrong by that"
+        )
+        found.append(
+            Doubt(
+                f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} "
+                f"kg, {more} than the {payload.mass:g} kg given; check the weight, {gains}",
+                values=True,
+            )
+        )
+    return found
+
+
+def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimate:
+    """The factor on the torques of a weighed load that the logs ask for; 1 if its mass is right."""
+    known = loaded.torques[:, i]
+    equations = dataclasses.replace(
+        loaded.equations,
+        W=np.column_stack([loaded.equations.W, known]),
+        y=loaded.equations.y + known,
+        names=(*loaded.equations.names, "factor"),
+        units=(*loaded.equations.units, "1"),
+    )
+    return fit_equations(observation, equations, "weighted").loads[-1]
+
+
+def _contradicts(factor: float, sigma: float) -> bool:
+    return abs(factor - 1.0) > max(FAR * sigma, WORTH)
+
+
+def _gains(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> list[Doubt]:
+    try:
+        found = identify_gains(model, observation, payloads)
+    except DataError:
+        return []  # logs that do not tell the gains contradict none
+    lines = deviations(model.spec, found, only_doubtful=True)
+    if not lines:
+        return []
+    return [
+        Doubt(
+            f"by the weight of the load, the drive gains are not those of the robot file: "
+            f"{'; '.join(lines)}; check them, or let --method tls take the ones found",
+            values=True,
+        )
+    ]
+
+
+def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) -> list[str]:
+    """How far identified gains are from those of the robot file, a phrase for each that has one."""
+    return [
+        _deviation(joint, found.gains[joint.name], found.sigmas[joint.name])
+        for joint in spec.joints
+        if joint.name in found.gains
+        and joint.drive_gain is not None
+        and (
+            not only_doubtful
+            or _contradicts(
+                found.gains[joint.name] / joint.drive_gain,
+                found.sigmas[joint.name] / abs(joint.drive_gain),
+            )
+        )
+    ]
+
+
+def _deviation(joint: JointSpec, gain: float, sigma: float) -> str:
+    assert joint.drive_gain is not None
+    percent = 100.0 * (gain / joint.drive_gain - 1.0)
+    side = "above" if percent > 0.0 else "below"
+    return (
+        f"joint {joint.name} {gain:.4g} +- {sigma:.1g}, {abs(percent):.2g} % {side} "
+        f"{joint.drive_gain:.4g}"
+    )
