@@ -84,3 +84,15 @@ def figures(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:
     if not found:
         raise RobotError(f"paper {paper.name}: its file quotes no {place}")
     return found
+
+
+def quoted(paper: Paper, start: str) -> tuple[float, ...]:
+    """The numbers of the quotation that starts so, and of those given with it.
+
+    Raises:
+        RobotError: the paper's file has none.
+    """
+    for line in paper.lines:
+        if line.quote.startswith(start):
+            return tuple(float(n.value) for n in numbers_of("; ".join((line.quote, *line.given))))
+    raise RobotError(f'paper {paper.name}: its file quotes nothing that starts with "{start}"')

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
+from modeler.methods.briot import briot_methods
 from modeler.methods.guegan import guegan_methods
 from modeler.methods.report import MethodTable
 from modeler.papers import Paper
@@ -10,6 +11,7 @@ Report = Callable[[float], None]
 """Told how much is done, 0 to 1."""
 
 METHODS: Mapping[str, Callable[[Paper, Report], list[MethodTable]]] = {
+    "briot-2012": briot_methods,
     "guegan-2003": guegan_methods,
 }
 
