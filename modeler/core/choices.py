@@ -13,6 +13,9 @@ ModelKind = Literal["torque", "energy"]
 GAIN_METHOD = "tls"
 """Total least squares, for drive gains besides."""
 
+TWO_STEPS = "two-step"
+"""Each joint that moves alone, then the parameters."""
+
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import cast
 
-from modeler.core.choices import GAIN_METHOD, Method
+from modeler.core.choices import GAIN_METHOD, TWO_STEPS, Method
 
 
 @dataclass(frozen=True)
@@ -101,18 +101,27 @@ ABOUT: dict[Method, About] = {cast(Method, about.id): about for about in _EVERY}
 """By id, in the order in which they are told."""
 
 
-GAINS = About(
-    GAIN_METHOD,
-    "total least squares with drive gains",
-    "g_j V_j = W_j beta + m w_j: the smallest right singular vector of what QR of [W w] leaves of "
-    "the currents V, rows and columns in units of their noise",
-    "Briot and Gautier 2012; Van Huffel and Vandewalle 1991",
-    "without logs of currents and a run with a load of known mass",
+APART = (
+    About(
+        GAIN_METHOD,
+        "total least squares with drive gains",
+        "g_j V_j = W_j beta + m w_j: the smallest right singular vector of what QR of [W w] leaves "
+        "of the currents V, rows and columns in units of their noise",
+        "Briot and Gautier 2012; Van Huffel and Vandewalle 1991",
+        "without logs of currents and a run with a load of known mass",
+    ),
+    About(
+        TWO_STEPS,
+        "two-step least squares",
+        "inertia J_ii, gravity and friction of each joint that moves alone, then theta = Phi beta",
+        "Hanssen, Hovland and Brogardh 2000, section 4",
+        "where joints may move together: rows of such motion are left out",
+    ),
 )
-"""Beside the others: it takes other logs, and ends in gains."""
+"""Beside the others: they take other logs."""
 
 
 def titled(method: str) -> str:
     """Its title; the id itself if a later version wrote it."""
-    every = ABOUT | {GAINS.id: GAINS}
-    return every[method].title if method in every else method
+    every = (*_EVERY, *APART)
+    return next((about.title for about in every if about.id == method), method)

@@ -1,5 +1,6 @@
 """From an observation to a fitted model."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -133,6 +134,26 @@ def _problem(
     )
     return Problem(
         observation, equations.W, equations.y, alive, equations.names, equations.units, data, model
+    )
+
+
+def parts_of(
+    observation: Observation, estimate: Estimate, essential: Essential
+) -> tuple[tuple[ParameterEstimate, ...], tuple[JointFit, ...], Compressed]:
+    """Parameters and joints of an estimate that was made in another way, and all rows.
+
+    The standard deviations of its joints are those of their residuals.
+    """
+    alive = ~np.isin(observation.row_joint, dead_joints(observation))
+    equations = base_equations(observation)
+    data = _problem(observation, equations, alive, None).data
+    rms = data.residual_norms(estimate.beta) / np.sqrt(np.maximum(data.rows, 1))
+    seen = dataclasses.replace(estimate, sigma=rms)
+    sigma = np.sqrt(np.diag(estimate.covariance))
+    return (
+        _parameters(estimate, essential, equations, sigma),
+        _joints(observation, data, seen),
+        data,
     )
 
 

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError
 from modeler.robot import Limits
 from modeler.simulate.hidden import HiddenEffect
 
-MOTIONS = ("exciting", "point-to-point")
+MOTIONS = ("exciting", "point-to-point", "one-joint")
 """What the commanded motion may be."""
 
 _MOST = {
@@ -26,8 +26,9 @@ class SimulationSettings:
     """Motion, controller and sensors of a simulated measurement.
 
     Attributes:
-        motion: "exciting" (moves at several speeds, then a Fourier series) or "point-to-point"
-            (moves between random points, as fast as the limits allow).
+        motion: "exciting" (moves at several speeds, then a Fourier series), "point-to-point"
+            (moves between random points, as fast as the limits allow) or "one-joint" (one joint
+            after the other moves alone, at random configurations).
         duration: s.
         rate: control ticks and samples per second.
         seed: of motion and noise; another seed is another measurement of the same robot.

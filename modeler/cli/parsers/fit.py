@@ -5,8 +5,8 @@ from typing import get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
-from modeler.core.choices import GAIN_METHOD, LOW_SPEED, Derivatives, Method, ModelKind
-from modeler.core.estimators import ABOUT, GAINS
+from modeler.core.choices import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
+from modeler.core.estimators import ABOUT, APART
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -27,10 +27,10 @@ def add_fit(commands: Commands) -> None:
     )
     parser.add_argument(
         "--method",
-        choices=(*get_args(Method), GAIN_METHOD),
+        choices=(*get_args(Method), GAIN_METHOD, TWO_STEPS),
         default="weighted",
         help="estimator, and where it is the wrong one; default: %(default)s. "
-        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), GAINS)),
+        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), *APART)),
     )
     parser.add_argument(
         "--robot-out",
@@ -157,6 +157,6 @@ def add_compare(commands: Commands) -> None:
 
 
 def _compare() -> Run:
-    from modeler.cli.fit import run_compare
+    from modeler.cli.compare import run_compare
 
     return run_compare

@@ -45,7 +45,7 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
     parser.add_argument(
         "--motion", choices=MOTIONS, default=default.motion,
         help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
-        "[limits] allow (default %(default)s)",
+        "[limits] allow; one-joint: one after the other alone (default %(default)s)",
     )  # fmt: skip
     add_number(parser, "--duration", "S", float, "seconds", default.duration)
     add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)
