@@ -29,8 +29,20 @@ STAGES: dict[str, set[str]] = {
     "derivation": {"core", *NORTH},
     "showing": {"core", *NORTH, "show"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
+    "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
     "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing", "improve", "api"},
+    "cli": {
+        "core",
+        *NORTH,
+        *SOUTH,
+        "simulate",
+        "show",
+        "derivation",
+        "showing",
+        "improve",
+        "methods",
+        "api",
+    },
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -59,6 +71,7 @@ PACKAGES: dict[str, set[str]] = {
     "derivation": set(),
     "showing": set(),
     "improve": {"numpy", "threadpoolctl"},
+    "methods": {"numpy"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }
