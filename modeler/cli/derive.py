@@ -9,7 +9,7 @@ import numpy as np
 from modeler.base import BaseParameters
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
-from modeler.cli.closed_forms import check_request, say_closed_forms
+from modeler.cli.closed_forms import check_loops, check_request, say_closed_forms
 from modeler.cli.console import Json, say, working
 from modeler.cli.parsers.derive import Form
 from modeler.cli.robots import robot_of
@@ -30,6 +30,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
+        check_loops(args, derivation)
         opinion = second_opinion(derivation)
     base = derivation.base
     result = as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
