@@ -1,6 +1,7 @@
 """What `modeler derive` prints on request: closed forms, base columns, coefficients."""
 
 import argparse
+import textwrap
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -54,6 +55,7 @@ _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "latex": coefficients_latex,
     "markdown": coefficients_markdown,
 }
+_WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "% ", "markdown": "* "}
 
 
@@ -74,12 +76,8 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
 
     Returns:
         What is added to the JSON: "closed_form" and "regressor" as asked for.
-
-    Raises:
-        ModelerError: loops, and coefficients or expanded forms asked for.
     """
     model, base = derivation.model, derivation.base
-    _check_loops(args, derivation)
     if args.nonzero:
         base = nonzero_base(model, base)
     added: Json = {}
@@ -101,7 +99,12 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
     return added
 
 
-def _check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
+def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
+    """Refuses what has no meaning for loops.
+
+    Raises:
+        ModelerError: coefficients or expanded forms are asked for.
+    """
     if derivation.model.closure is None:
         return
     if args.terms or args.report is not None or args.expanded:
@@ -135,8 +138,11 @@ def _say_regressor(form: Form, model: SymbolicModel, base: BaseParameters) -> Js
 
 def _say_sheet(form: Form, words: Sequence[str], sheet: Sheet) -> Json:
     say()
+    mark = _COMMENT[form]
     for line in words:
-        say(_COMMENT[form] + line)
+        indent = mark + "  " if mark != "* " else "  "
+        for piece in textwrap.wrap(mark + line, _WIDTH, subsequent_indent=indent):
+            say(piece)
     say()
     say(_SHEETS[form](sheet))
     return {"equation": list(words), **sheet_json(sheet)}

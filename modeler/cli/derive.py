@@ -10,7 +10,7 @@ import numpy as np
 from modeler.base import BaseParameters
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
-from modeler.cli.closed_forms import check_request, say_closed_forms
+from modeler.cli.closed_forms import check_loops, check_request, say_closed_forms
 from modeler.cli.console import Json, say, working
 from modeler.cli.parsers.derive import Form
 from modeler.cli.robots import robot_of, robot_with_effects
@@ -33,6 +33,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     robot = _opened(args) if args.open else robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
+        check_loops(args, derivation)
         opinion = second_opinion(derivation)
     base = derivation.base
     result = as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}

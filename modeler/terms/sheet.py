@@ -72,6 +72,7 @@ class SheetWriter:
         self.graph = graph
         self.letters = dict(letters)
         self._taken = set(self.letters.values())
+        self._own: set[str] = set()
         self._section = ""
         self._lines: list[Definition] = []
         self._first: dict[int, Definition] = {}
@@ -111,7 +112,16 @@ class SheetWriter:
         if self._replaced(lines):
             names = self._chosen(nodes, trig)
             lines = self._ordered(names)
+        new = self._renumbered(lines)
+        lines = tuple(replace(line, name=new.get(line.name, line.name)) for line in lines)
+        names = {node: (new.get(name, name), sign) for node, (name, sign) in names.items()}
         return Sheet(self.graph, self.letters, names, lines, trig, angles)
+
+    def _renumbered(self, lines: Sequence[Definition]) -> dict[str, str]:
+        """Own names in the order in which they are read."""
+        given = [line.name for line in lines if line.name in self._own]
+        self._taken -= self._own
+        return {name: self._own_name() for name in given}
 
     def _replaced(self, lines: Sequence[Definition]) -> bool:
         """Another name for values that are read before the section of their name."""
@@ -147,6 +157,7 @@ class SheetWriter:
         while f"k{count}" in self._taken:
             count += 1
         self._taken.add(f"k{count}")
+        self._own.add(f"k{count}")
         return f"k{count}"
 
     def _edges(self, nodes: Iterable[int]) -> dict[int, int]:
