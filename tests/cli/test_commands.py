@@ -13,6 +13,7 @@ from modeler.fit.integrity import checksums
 
 COMMANDS = (
     "derive", "generate", "convert", "fit", "compare", "simulate", "robots", "effects", "demo",
+    "estimators",
 )  # fmt: skip
 
 
