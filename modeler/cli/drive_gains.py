@@ -17,6 +17,7 @@ from modeler.fit import (
     identify_gains,
     with_verdict,
 )
+from modeler.fit.alike import not_alike
 from modeler.fit.doubts import Doubt, Told
 from modeler.fit.known import deviations
 from modeler.fit.mounting import mounted_differently, remounted
@@ -56,7 +57,9 @@ def fit_with_gains(
         result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
         told: list[Told] = [*findings_of_fit(again, observation, result.beta)]
-        told += [Doubt(line) for line in mounted_differently(again, observation, payloads)]
+        apart = mounted_differently(again, observation, payloads)
+        apart = apart or not_alike(again, observation, payloads)
+        told += [Doubt(line, values=True) for line in apart]
         loaded = {name for payload in payloads for name in payload.logs}
         bare = [name for name in observation.logs if name not in loaded]
         result = with_verdict(again, observation, result, told, bare)

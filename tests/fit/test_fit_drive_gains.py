@@ -175,6 +175,19 @@ def test_a_load_that_is_not_felt_sets_no_scale(arm):
         identify_gains(arm.compiled, seen, [arm.payload(0.01)])
 
 
+def test_logs_of_two_robots_are_named(arm):
+    """The loaded run is of an arm with the base of this one, but other links and friction."""
+    other = np.random.default_rng(1).uniform(0.5, 2.0, len(arm.beta)) * arm.beta
+    seen = arm.seen(np.ones(3))
+    rows = seen.run == 1
+    seen.torque[rows] += seen.predicted(other - arm.beta)[rows]
+    words = "do not fit one robot: joint . has .* % of its torque left if each is described alone"
+    (doubt,) = known_doubts(arm.compiled, seen, [arm.payload()], currents=True)
+    assert re.search(words, doubt.line)
+    with pytest.raises(DataError, match=f"no gap.*{words}"):
+        identify_gains(arm.compiled, seen, [arm.payload()])
+
+
 def test_gains_are_not_found_without_a_known_mass(arm):
     seen = arm.seen(TRUE)
     with pytest.raises(DataError, match="no load of known mass"):
