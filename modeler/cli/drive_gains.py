@@ -46,8 +46,10 @@ def fit_with_gains(
     with working("finding the drive gains"):
         observation, payloads = _observed(args, compiled, processing, check)
         found = identify_gains(compiled, observation, payloads)
+    choices = observation.report.choices
     with working("reading the currents with these gains"):
-        text = with_drive_gains(derivation.robot.text, found.gains)
+        gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
+        text = with_drive_gains(derivation.robot.text, gains)
         robot = robot_from_text(text, derivation.robot.name)
         model = dataclasses.replace(derivation.model, robot=robot)
         derivation = dataclasses.replace(derivation, robot=robot, model=model)
@@ -65,6 +67,8 @@ def fit_with_gains(
         result = with_verdict(again, observation, result, told, bare)
     said = _deviations(compiled.spec, found)
     result = dataclasses.replace(result, sentences=(*result.sentences, *said))
+    report = dataclasses.replace(observation.report, choices=choices)
+    observation = dataclasses.replace(observation, report=report)
     return identified(derivation, emitted, observation, result), observation
 
 

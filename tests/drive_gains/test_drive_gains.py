@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drive_gain_cases import Runs, runs_of
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
@@ -15,6 +14,7 @@ from modeler.estimate.tls import mixed_tls
 from modeler.fit import Payload, check_currents, identify_gains, known_doubts
 from modeler.fit.mounting import mounted_differently, remounted
 from modeler.observation import observe
+from tests.drive_gains.runs import Runs, runs_of
 
 TRUE = np.array([1.2, 0.9, 25.0])  # N m per unit
 ROWS = 400  # of each drive
