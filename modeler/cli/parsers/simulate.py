@@ -45,8 +45,9 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
     parser.add_argument(
         "--motion", metavar="MOTION", type=_motion, default=default.motion,
         help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
-        "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` or a log, whose (commanded) positions are "
-        "then the motion, as long as it is (default %(default)s)",
+        "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` or a "
+        "log, whose (commanded) positions are then the motion, as long as it is (default "
+        "%(default)s)",
     )  # fmt: skip
     add_number(parser, "--duration", "S", float, "seconds", default.duration)
     add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)
