@@ -1,6 +1,6 @@
 """Briot and Gautier 2012, section 3: drive gains from a bare run and a weighed load.
 
-The simulated Orthoglide has the drive gains, slides and motors of the paper's Table 3, light bars, a
+The simulated Orthoglide has the drive gains, slides and motors of Table 3 of the paper, light bars, a
 platform of 0.75 kg, and no friction where it has no motor: 41 base parameters, none left out.
 """
 
