@@ -102,7 +102,7 @@ def tell_apart(
     begun = time.monotonic()
     rng = np.random.default_rng([wish.seed, 7])
     drawn = [random_motion(task, rng) for _ in range(RANDOM)]
-    columns = _Pair(task, question, drawn)
+    columns = _Pair(task, question, drawn, wish.laps)
     best = min(drawn, key=columns.value)
     unit = bounds.half[:, None] * np.ones(best.shape[1])
     still = np.zeros_like(best)
@@ -135,8 +135,8 @@ def tell_apart(
 class _Pair:
     """The columns of two effects along motions."""
 
-    def __init__(self, task: Task, question: Question, drawn: list[np.ndarray]) -> None:
-        self._task = task
+    def __init__(self, task: Task, question: Question, drawn: list[np.ndarray], laps: int) -> None:
+        self._task, self._laps = task, laps
         self._reference = Reference(task.columns.compiled, question.beta, 0.0, {})
         loads = [self._signals(x).load for x in drawn[:5]]
         load = np.sqrt(np.mean(np.concatenate(loads) ** 2, axis=0))
@@ -166,11 +166,12 @@ class _Pair:
         return [every[k] for k in places]
 
     def _signals(self, x: np.ndarray) -> Signals:
-        q, qd, qdd = self._task.series.motion(x)
-        time = self._task.series.time
+        q, qd, qdd = (np.tile(part, (self._laps, 1)) for part in self._task.series.motion(x))
+        step = self._task.series.duration / len(self._task.series.time)
+        time = np.arange(len(q)) * step
         nothing = np.zeros_like(q)
         segment = Segment(
-            0, time, float(time[1] - time[0]), q, qd, qdd, nothing, {},
+            0, time, step, q, qd, qdd, nothing, {},
             np.ones(len(q), dtype=bool), np.ones(q.shape, dtype=bool), {},
         )  # fmt: skip
         return Signals(segment, 1, q, qd, qdd, self._reference)
@@ -188,7 +189,9 @@ class _Pair:
 
     def _beyond_model(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[list[np.ndarray]]]:
         """The blocks, and what the model leaves of them."""
-        Q, _ = np.linalg.qr(self._task.rows(self._task.series.motion(x)))
+        W = self._task.rows(self._task.series.motion(x))
+        # Every lap has the same columns of the model: one lap of Q is that of all, scaled.
+        Q = np.tile(np.linalg.qr(W)[0], (self._laps, 1)) / np.sqrt(self._laps)
         blocks = self._blocks(x)
         return blocks, [[block - Q @ (Q.T @ block) for block in own] for own in blocks]
 

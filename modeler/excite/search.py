@@ -43,6 +43,7 @@ class Wish:
         starts: of the search.
         seed: another one gives another motion.
         time_limit: s, after which the best so far is taken; None: it ends by itself.
+        laps: times that the motion is driven, one after the other.
     """
 
     duration: float = 10.0
@@ -51,6 +52,7 @@ class Wish:
     starts: int = 3
     seed: int = 0
     time_limit: float | None = None
+    laps: int = 1
 
 
 def excite(
@@ -152,7 +154,8 @@ def _check_wish(wish: Wish) -> None:
         raise DataError(f"criterion: got {wish.criterion}; expected one of {', '.join(CRITERIA)}")
     if not (math.isfinite(wish.duration) and 0.0 < wish.duration <= 3600.0):
         raise DataError(f"duration: got {wish.duration:g} s; expected more than 0, at most 3600")
-    for name, least, most in (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63)):
+    ranges = (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63), ("laps", 1, 1000))
+    for name, least, most in ranges:
         value = getattr(wish, name)
         if not least <= value <= most:
             raise DataError(f"{name}: got {value}; expected {least} to {most}")
