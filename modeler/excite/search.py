@@ -196,7 +196,8 @@ def usual_harmonics(bounds: Bounds, duration: float) -> int:
     """As many as reach what the slowest joint can swing by an eighth of its range, 5 to 10."""
     part = 0.25 * bounds.half
     swing = np.minimum(bounds.speed / part, np.sqrt(bounds.acceleration / part)) / (2.0 * np.pi)
-    return int(np.clip(np.round(duration * swing.min()), 5, 10))
+    waves = duration * float(swing.min())
+    return round(min(max(waves, 5.0), 10.0)) if math.isfinite(waves) else 5
 
 
 def quality(task: Task, x: np.ndarray) -> Quality:
