@@ -4,8 +4,8 @@ Run from the top of the checkout: `python -m benchmarks.excitation [ROBOT...]`. 
 condition number of W with columns of length one over the same Fourier series, with the same
 compiled regressor. The peers are what is mostly done: SLSQP with limits sampled as constraints and
 gradients by differences of the whole objective, from a random motion (as fmincon is used), and
-differential evolution, a genetic search, with limits as penalties. Each peer gets `PATIENCE` times
-the processor seconds that ours took.
+differential evolution, a genetic search, of motions that are drawn back into their limits. Each
+peer gets `PATIENCE` times the processor seconds that ours took.
 """
 
 import sys
@@ -27,7 +27,6 @@ ROBOTS = ("scara", "ur10e", "tx40", "panda")
 PATIENCE = 4.0
 _EFFECTS = dict.fromkeys(["rotor_inertia", "viscous", "coulomb"], "all")
 _CONSTRAINED = 8  # every so manieth sample is a constraint of SLSQP
-_PENALTY = 10.0
 
 
 class _Late(Exception):
@@ -81,16 +80,18 @@ def slsqp(task: Task, seconds: float) -> _Watched:
 def evolution(task: Task, seconds: float) -> _Watched:
     watched = _Watched(task, seconds)
 
-    def penalised(flat: np.ndarray) -> float:
-        over = np.maximum(np.abs(watched.shares(flat)) - 1.0, 0.0).max()
-        return float(np.log(watched.condition(flat)) + _PENALTY * over)
+    def repaired(flat: np.ndarray) -> float:
+        # Drawn back towards the middle of the ranges until the limits hold: better than penalties.
+        x = watched.motion(flat)
+        still = np.zeros_like(x)
+        still[:, 0] = task.bounds.middle
+        x = still + min(1.0, 0.999 * task.reach(still, x - still)) * (x - still)
+        return watched.condition((x / watched.unit).ravel())
 
     ranges = [(-1.0, 1.0)] * watched.unit.size
     try:
         while True:
-            differential_evolution(
-                penalised, ranges, seed=0, popsize=2, maxiter=10**6, polish=False
-            )
+            differential_evolution(repaired, ranges, seed=0, popsize=2, maxiter=10**6, polish=False)
     except _Late:
         return watched
 

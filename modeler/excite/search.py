@@ -90,8 +90,22 @@ def excite(
 
     rng = np.random.default_rng([wish.seed, 7])
     drawn = [random_motion(task, rng) for _ in range(RANDOM)]
+    found = _improved_best(task, wish.starts, drawn, on, progress)
+    x = min(found, key=lambda y: value_of(task, y))
+    task, x = kept_between(task, x, on)
+    return finished(task, x, wish, drawn, not on(), begun)
+
+
+def _improved_best(
+    task: Task,
+    starts: int,
+    drawn: list[np.ndarray],
+    on: Callable[[], bool],
+    progress: Callable[[float], None],
+) -> list[np.ndarray]:
+    """The best of the motions drawn, each after all stages of descent."""
     values = [value_of(task, x) for x in drawn]
-    best = sorted(range(RANDOM), key=lambda k: values[k])[: wish.starts]
+    best = sorted(range(len(drawn)), key=lambda k: values[k])[:starts]
     found, parts = [], len(best) * len(_STAGES)
     for n, k in enumerate(best):
         x = drawn[k]
@@ -99,9 +113,7 @@ def excite(
             x = improved(task, x, stage, on)
             progress((n * len(_STAGES) + m + 1) / parts)
         found.append(x)
-    x = min(found, key=lambda y: value_of(task, y))
-    task, x = kept_between(task, x, on)
-    return finished(task, x, wish, drawn, not on(), begun)
+    return found
 
 
 def finished(

@@ -12,7 +12,8 @@ from modeler.cli import main, parser
 from modeler.fit.integrity import checksums
 
 COMMANDS = (
-    "derive", "generate", "convert", "fit", "compare", "simulate", "robots", "effects", "demo",
+    "derive", "generate", "convert", "fit", "compare", "simulate", "excite", "robots",
+    "effects", "demo",
 )  # fmt: skip
 
 
