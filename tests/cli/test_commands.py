@@ -12,8 +12,8 @@ from modeler.cli import main, parser
 from modeler.fit.integrity import checksums
 
 COMMANDS = (
-    "derive", "generate", "convert", "fit", "compare", "simulate", "robots", "effects", "demo",
-    "estimators",
+    "derive", "generate", "convert", "fit", "compare", "physical", "simulate", "excite", "robots",
+    "effects", "demo", "estimators",
 )  # fmt: skip
 
 
