@@ -8,7 +8,7 @@ from pathlib import Path
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
     "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses", "scoring",
-    "diagnose", "pages",
+    "diagnose", "pages", "excite",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -23,6 +23,7 @@ STAGES: dict[str, set[str]] = {
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
     "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
+    "excite": {"core", "effects", "compiled", "observation", "hypotheses"},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
@@ -65,6 +66,7 @@ PACKAGES: dict[str, set[str]] = {
     "diagnose": {"numpy", "threadpoolctl"},
     "pages": {"numpy", "scipy"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
+    "excite": {"numpy", "matplotlib", "pyarrow"},
     "show": {"numpy", "matplotlib"},
     "derivation": set(),
     "showing": set(),

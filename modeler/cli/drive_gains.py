@@ -17,6 +17,7 @@ from modeler.fit import (
     identify_gains,
     with_verdict,
 )
+from modeler.fit.alike import not_alike
 from modeler.fit.doubts import Doubt, Told
 from modeler.fit.known import deviations
 from modeler.fit.mounting import mounted_differently, remounted
@@ -45,8 +46,10 @@ def fit_with_gains(
     with working("finding the drive gains"):
         observation, payloads = _observed(args, compiled, processing, check)
         found = identify_gains(compiled, observation, payloads)
+    choices = observation.report.choices
     with working("reading the currents with these gains"):
-        text = with_drive_gains(derivation.robot.text, found.gains)
+        gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
+        text = with_drive_gains(derivation.robot.text, gains)
         robot = robot_from_text(text, derivation.robot.name)
         model = dataclasses.replace(derivation.model, robot=robot)
         derivation = dataclasses.replace(derivation, robot=robot, model=model)
@@ -56,12 +59,16 @@ def fit_with_gains(
         result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
         told: list[Told] = [*findings_of_fit(again, observation, result.beta)]
-        told += [Doubt(line) for line in mounted_differently(again, observation, payloads)]
+        apart = mounted_differently(again, observation, payloads)
+        apart = apart or not_alike(again, observation, payloads)
+        told += [Doubt(line, values=True) for line in apart]
         loaded = {name for payload in payloads for name in payload.logs}
         bare = [name for name in observation.logs if name not in loaded]
         result = with_verdict(again, observation, result, told, bare)
     said = _deviations(compiled.spec, found)
     result = dataclasses.replace(result, sentences=(*result.sentences, *said))
+    report = dataclasses.replace(observation.report, choices=choices)
+    observation = dataclasses.replace(observation, report=report)
     return identified(derivation, emitted, observation, result), observation
 
 

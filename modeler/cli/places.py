@@ -55,6 +55,12 @@ class RobotFile(Input):
         return builtin_file(self) if self in builtin_names() else Path(self)
 
 
+class RobotOrModel(RobotFile):
+    """A robot file, the name of a built-in robot, or a model file."""
+
+    what = "the robot or model that is read"
+
+
 class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
 
@@ -64,6 +70,12 @@ class LogFile(Input):
     def file(self) -> Path:
         """Without the window."""
         return Path(file_and_window(self)[0])
+
+
+class MotionFile(Input):
+    """A commanded motion."""
+
+    what = "the motion that is read"
 
 
 class Output(str):

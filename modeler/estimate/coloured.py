@@ -50,10 +50,10 @@ def coloured(
         C B C,  B = sum_j sum_k r_j(|k|) sum_t w_j(t) w_j(t+k)^T / sigma_j^2,
 
     w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
-    sum over k ends with the first r_j below one standard deviation of that of white noise; the
-    first lag always counts, rows of one parallel filter correlate by 0.1).
-    An estimator with an influence has pull_t rms_j in place of C w_t / sigma_j. Each sigma is
-    multiplied by the square root of the ratio of the diagonals, never by less than 1.
+    sum over k ends with the first r_j below one standard deviation of that of white noise). r_j is
+    at least that of white noise through the parallel filter. An estimator with an influence has
+    pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the square root of the
+    ratio of the diagonals, never by less than 1.
 
     Args:
         observation: says which row is which sample and joint.
@@ -62,19 +62,16 @@ def coloured(
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
     """
-    C, own_way, memory = estimate.covariance, estimate.influence, []
+    C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
-    filtered = _of_the_filter(observation)
-    extra = np.zeros(len(C))  # diagonal of C (B - C^-1) C
+    extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
         r = _at_least(autocorrelation(residual[own], sample, observation.segment), filtered)
-        if own_way is None:
-            rows = W[own] @ C / estimate.sigma[j]
-        else:
-            rows = own_way.pull[own] * np.sqrt(np.mean(residual[own] ** 2))
+        rms = np.sqrt(np.mean(residual[own] ** 2))
+        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.pull[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:

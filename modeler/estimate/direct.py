@@ -4,12 +4,14 @@ The controller of the log is not known. The one here is a cascade of position an
 drives have it, scheduled with the model's own inertia, so that its bandwidth does not depend on the
 parameters (Gautier, Janot and Vandanjon 2013, IEEE Trans. Control Systems Technology 21(2)):
 
-    M(q) qdd + h(q, qd) = M(q) (kv e + f qdd_r) + effort,  e = kv/4 (q_r - q) + f qd_r - qd,
-    effort' = kv^2/4 M(q) e.
+    M(q) qdd + h(q, qd) = M(q) (kv e + f qdd_r) + effort,  e = r kv (q_r - q) + f qd_r - qd,
+    effort' = i kv^2/4 M(q) e.
 
-kv and f (0 or 1) are those that bring the simulated positions nearest to the logged ones.
+Speed loop kv, ratio r of the position loop, integral action i and feedforward f (0 or 1) are those
+that bring the simulated positions nearest to the logged ones.
 """
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -24,13 +26,18 @@ from modeler.observation.signals import signals_of
 BANDWIDTHS = (2.0, 4.0, 8.0, 16.0, 32.0, 64.0)
 """Hz of the speed loops that are tried."""
 
+KINDS = ((0.25, 1.0), (0.25, 0.0), (1.0, 0.0), (2.0, 0.0))
+"""Ratio of the position loop and integral action that are tried: a drive's cascade, and PD."""
+
+_FINER = (1.5, 1.2, 1.07)  # widest factors on speed and ratio, one search after the other
+
 _LONGEST = 1e-3  # s, of a step
 _STABLE = 0.4  # kv times the step at most
-_LOWER = 0.25  # position loop and integral action, relative to the speed loop
+_INTEGRAL = 0.25  # of the speed loop
 _SHARE = 0.5  # of the position cut-off: low-pass of a reference made of the logged motion
 _WINDOW = 0.5  # s, of a piece that is simulated beside the others
 _WARM = 1.0  # s, simulated before it and left out: by then the start is forgotten
-_TRIED = 8  # pieces on which the loop is chosen
+_TRIED = 5  # pieces on which the loop is chosen
 _LOST = 10.0  # ranges of motion from the reference at which the robot is lost
 _FLOOR = 1e-2  # eigenvalues of the inertia matrix are raised to this, its median diagonal being 1
 
@@ -44,14 +51,18 @@ class Loop:
 
     Attributes:
         speed: kv, rad/s; infinite: the reference is carried out exactly.
+        ratio: r.
+        integral: i.
         forward: f, 1 if speed and acceleration of the reference are fed forward.
         distance: rms of simulated less logged position, as a share of that of reference less
             logged position.
     """
 
     speed: float
+    ratio: float
+    integral: float
     forward: float
-    distance: float
+    distance: float = np.inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,20 +111,30 @@ class DirectModel:
         pieces = [pieces[i] for i in sorted({*np.linspace(0, len(pieces) - 1, _TRIED).astype(int)})]
         step = min(_LONGEST, min(segment.step for segment in self.segments))
         speeds = [2 * np.pi * f for f in BANDWIDTHS if 2 * np.pi * f * step < _STABLE]
-        loops = [Loop(speed, forward, np.inf) for speed in speeds for forward in (0.0, 1.0)]
+        rough = self._nearest(
+            beta, pieces,
+            [Loop(speed, *kind, forward) for speed in speeds for kind in KINDS
+             for forward in (0.0, 1.0)],
+        )  # fmt: skip
+        for width in _FINER if np.isfinite(rough.distance) else ():
+            factors = width ** np.linspace(-1.0, 1.0, 5)
+            rough = self._nearest(
+                beta, pieces,
+                [dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
+                 for a in factors for b in factors if rough.speed * a * step < _STABLE],
+            )  # fmt: skip
+        if not np.isfinite(rough.distance) or (self.commanded and rough.distance > 1.0):
+            return Loop(np.inf, 0.0, 0.0, 1.0, 1.0)
+        return rough
+
+    def _nearest(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> Loop:
         ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
         far = [
             self._distance(pieces, ways[i : i + len(pieces)])
             for i in range(0, len(ways), len(pieces))
         ]
-        own = self._distance(
-            pieces, [self.references[p.segment][:, p.start : p.stop] for p in pieces]
-        )
         best = int(np.argmin(far))
-        ratio = far[best] / own if own > 0.0 else np.inf
-        if not np.isfinite(far[best]) or (self.commanded and ratio > 1.0):
-            return Loop(np.inf, 1.0, 1.0)
-        return Loop(loops[best].speed, loops[best].forward, float(ratio))
+        return dataclasses.replace(loops[best], distance=far[best])
 
     def followed(self, beta: np.ndarray, loop: Loop) -> list[Motion]:
         """The motion of the robot with these parameters, one per segment.
@@ -176,26 +197,27 @@ class DirectModel:
         """rms of simulated less logged position, each joint in units of its own tracking error."""
         errors, scales = [], []
         for piece, way in zip(pieces, ways, strict=True):
-            logged = self.segments[piece.segment].q[piece.start : piece.stop]
-            reference = self.references[piece.segment][0, piece.start : piece.stop]
-            errors.append((way[0] - logged) ** 2)
-            scales.append((reference - logged) ** 2)
-        scale = np.mean(np.concatenate(scales), axis=0)
+            segment, kept = self.segments[piece.segment], slice(piece.start, piece.stop)
+            logged, whole = segment.q[kept], segment.whole[kept]
+            errors.append((way[0] - logged)[whole] ** 2)
+            scales.append((self.references[piece.segment][0, kept] - logged)[whole] ** 2)
+        scale = np.sum(np.concatenate(scales), axis=0)
         moved = scale > 0.0
-        error = np.mean(np.concatenate(errors), axis=0)
+        error = np.sum(np.concatenate(errors), axis=0)
         total = float(np.mean(error[moved] / scale[moved])) if moved.any() else 0.0
         return float(np.sqrt(total)) if np.isfinite(total) else np.inf
 
     def _walked(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> list[Motion]:
         """The pieces, each with its loop, simulated side by side; NaN where the robot is lost."""
-        steps = {segment.step for segment in self.segments}
+        steps = [float(f"{self.segments[piece.segment].step:.4g}") for piece in pieces]
         ways: dict[int, Motion] = {}
-        for step in sorted(steps):
-            own = [i for i, p in enumerate(pieces) if self.segments[p.segment].step == step]
+        for step in sorted(set(steps)):
+            own = [i for i, other in enumerate(steps) if other == step]
             reference, signals = self._stacked([pieces[i] for i in own])
             robot = _Robot(self.model, beta, reference)
-            self.raised = robot.raised
-            motion = _walk(robot, reference, signals, step, [loops[i] for i in own])
+            self.raised = max(self.raised, robot.raised)
+            start = np.stack([self._logged(pieces[i]) for i in own], axis=1)
+            motion = _walk(robot, start, reference, signals, step, [loops[i] for i in own])
             for place, i in enumerate(own):
                 piece = pieces[i]
                 kept = slice(piece.start - piece.first, piece.stop - piece.first)
@@ -217,6 +239,11 @@ class DirectModel:
         if self.signals[0] is None:
             return stacked(lambda i: self.references[i]), None
         return stacked(lambda i: self.references[i]), stacked(self._signals)
+
+    def _logged(self, piece: _Piece) -> np.ndarray:
+        """(2, joints) q and qd of the log at the start: what is simulated begins where it was."""
+        segment = self.segments[piece.segment]
+        return np.stack([segment.q[piece.first], segment.qd[piece.first]])
 
     def _signals(self, i: int) -> np.ndarray:
         signals = self.signals[i]
@@ -261,39 +288,49 @@ class _Robot:
 
 def _walk(
     robot: _Robot,
+    start: np.ndarray,
     reference: np.ndarray,
     signals: np.ndarray | None,
     step: float,
     loops: list[Loop],
 ) -> np.ndarray:
-    """(3, samples, pieces, joints) the motion; symplectic Euler, central velocities."""
+    """(3, samples, pieces, joints) the motion, by Adams and Bashforth of order 2."""
     inner = max(1, int(np.ceil(step / _LONGEST)))
     h, motion = step / inner, np.full(reference.shape, np.nan)
     far = _LOST * (np.ptp(reference[0], axis=(0, 1)) + 1e-6)
-    kv, f = np.array([(loop.speed, loop.forward) for loop in loops]).T[:, :, None]
-    q, qd, qdd = (values.copy() for values in reference[:, 0])
+    kv, ratio, integral, f = _gains(loops)
+    (q, qd), (_, speed, qdd) = start, reference[:, 0]
     tau = robot.torque(q, qd, qdd, None if signals is None else signals[0])
-    effort = tau - _times(robot.inertia(q)[1], kv * (f - 1.0) * qd + f * qdd)
+    asked = kv * (ratio * kv * (reference[0, 0] - q) + f * speed - qd) + f * qdd
+    effort = integral * (tau - _times(robot.inertia(q)[1], asked))
     lost = np.zeros(len(q), dtype=bool)
     for k in range(reference.shape[1]):
         s = None if signals is None else signals[k]
         for m in range(inner):
             wanted, speed, push = _ahead(reference[:, k], m * h)
             raw, M = robot.inertia(q)
-            error = _LOWER * kv * (wanted - q) + f * speed - qd
-            effort = effort + h * _LOWER * kv**2 * _times(M, error)
+            error = ratio * kv * (wanted - q) + f * speed - qd
+            effort = effort + h * integral * _INTEGRAL * kv**2 * _times(M, error)
             rest = robot.torque(q, qd, push, s) - _times(raw, push)
-            qdd = kv * error + f * push + np.linalg.solve(M, (effort - rest)[:, :, None])[:, :, 0]
+            before, qdd = (
+                qdd,
+                kv * error + f * push + np.linalg.solve(M, (effort - rest)[:, :, None])[:, :, 0],
+            )
             if m == 0:
-                motion[:, k] = q, qd + 0.5 * h * qdd, qdd
+                motion[:, k] = q, qd, qdd
                 motion[:, k, lost] = np.nan
-            qd = qd + h * qdd
-            q = q + h * qd
+            q = q + h * qd + 0.5 * h**2 * qdd
+            qd = qd + h * (1.5 * qdd - 0.5 * before)
             gone = ~np.all(np.abs(q - wanted) < far, axis=1) | ~np.isfinite(qd).all(axis=1)
             if gone.any():
                 lost |= gone
-                q[gone], qd[gone], effort[gone] = wanted[gone], speed[gone], 0.0
+                q[gone], qd[gone], effort[gone], qdd[gone] = wanted[gone], speed[gone], 0.0, 0.0
     return motion
+
+
+def _gains(loops: list[Loop]) -> np.ndarray:
+    """(4, pieces, 1) speed, ratio, integral, forward."""
+    return np.array([(o.speed, o.ratio, o.integral, o.forward) for o in loops]).T[:, :, None]
 
 
 def _ahead(state: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

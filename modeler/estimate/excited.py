@@ -25,12 +25,14 @@ class Excitation:
         configurations: at which it moved alone.
         values: singular values of Phi, those that are 0 left out, largest first.
         possible: rank of Phi at ever so many configurations.
+        usual: last of the singular values over the first at ever so many configurations.
     """
 
     joint: str
     configurations: int
     values: tuple[float, ...]
     possible: int
+    usual: float
 
     @property
     def persistent(self) -> bool:
@@ -44,7 +46,7 @@ class Excitation:
         return (
             f"J of joint {self.joint} at {self.configurations} configurations: rank "
             f"{len(self.values)} of {self.possible}, singular values of Phi {values} (last "
-            f"{ratio:.2g} of the first)"
+            f"{ratio:.2g} of the first; {self.usual:.2g} at many random ones)"
         )
 
     def sentence(self) -> str:
@@ -65,6 +67,7 @@ class Excitation:
             "singular_values": list(self.values),
             "rank": len(self.values),
             "possible_rank": self.possible,
+            "usual_ratio": self.usual,
         }
 
 
@@ -74,7 +77,7 @@ def excitations(
     directions: Directions,
     configurations: Sequence[Configuration],
 ) -> tuple[Excitation, ...]:
-    """Of every joint that moved alone; the rank that is possible is that at random poses.
+    """Of every joint that moved alone; what is possible is what random poses give.
 
     Robots with loops cannot take any pose: theirs are those of the logs.
     """
@@ -83,13 +86,15 @@ def excitations(
         rng = np.random.default_rng(_SEED)
         poses = rng.uniform(-np.pi, np.pi, (_POSES * columns, len(directions.names)))
     else:
-        every = np.linspace(0, len(observation.q) - 1, _POSES * columns).astype(int)
-        poses = observation.q[every]
+        spread = np.linspace(0, len(observation.q) - 1, _POSES * columns).astype(int)
+        poses = observation.q[spread]
     found = []
     for i in sorted({c.joint for c in configurations}):
         own = np.array([c.pose for c in configurations if c.joint == i]) @ directions.rows
         rows, best = (inertia_rows(model, q, directions.rows[i]) for q in (own, poses))
-        found.append(Excitation(directions.names[i], len(own), _values(rows), len(_values(best))))
+        every = _values(best)
+        usual = every[-1] / every[0]
+        found.append(Excitation(directions.names[i], len(own), _values(rows), len(every), usual))
     return tuple(found)
 
 

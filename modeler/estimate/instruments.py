@@ -1,5 +1,6 @@
 """Instrumental variables: what the noise of the measured motion cannot bias."""
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,38 +38,30 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
     Args:
         problem: beta in the units of its columns, y N m or N.
         Z: (rows, c) the columns of W along a motion that the noise did not touch.
-        method: for the refusal.
-
-    Raises:
-        DataError: the instruments tell nothing of a parameter.
+        method: for the refusal, DataError, of instruments that tell nothing of a parameter.
     """
-    data, counted = problem.data, problem.counted
-    start = least_squares(data, "weighted")
+    counted, joint = problem.counted, problem.joint[problem.counted]
+    start = least_squares(problem.data, "weighted")
     kept = np.asarray(start.rank.kept, dtype=int)
     W, Z, y = problem.W[counted][:, kept], Z[counted][:, kept], problem.y[counted]
-    joint, sigma = problem.joint[counted], start.sigma
     _check(problem, method, Z, kept)
-    settled, iterations = False, 0
+    sigma, settled, iterations = start.sigma, False, 0
     while not settled and iterations < _ITERATIONS:
         found = _solved(W, Z, y, sigma[joint])
         if found.cosine < _BLIND:
             raise DataError(_refusal(method, problem.names[kept[found.worst]]))
-        updated = _spread(problem, W, y, found, sigma, start)
-        settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
-        sigma, iterations = updated, iterations + 1
-    beta, covariance = np.zeros(len(data.names)), np.zeros((len(data.names), len(data.names)))
-    beta[kept] = found.beta
-    covariance[np.ix_(kept, kept)] = found.P @ found.P.T
-    return Estimate(
+        before, sigma = sigma, _spread(problem, W, y, found, sigma, start)
+        settled = bool(np.all(np.abs(sigma / before - 1.0) < _SETTLED))
+        iterations += 1
+    beta, covariance = np.zeros_like(start.beta), np.zeros_like(start.covariance)
+    beta[kept], covariance[np.ix_(kept, kept)] = found.beta, found.P @ found.P.T
+    return dataclasses.replace(
+        start,
         beta=beta,
         covariance=covariance,
         sigma=sigma,
-        rank=start.rank,
         iterations=iterations,
         settled=settled,
-        condition_number=start.condition_number,
-        condition_scaled=start.condition_scaled,
-        degrees=start.degrees,
         sentences=_weak(found.cosine),
         influence=_influence(problem, kept, found.P / sigma[joint], beta),
         whole=_whole(problem, kept, found, (y - W @ found.beta) / sigma[joint]),

@@ -1,5 +1,6 @@
 """Ridge: what the data leave open is drawn towards 0, or towards the robot's nominal values."""
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,17 +57,12 @@ def ridge(problem: Problem) -> Estimate:
     beta[kept] = prior[kept] + found.mean / lengths[kept]
     covariance[np.ix_(kept, kept)] = found.covariance / np.outer(lengths[kept], lengths[kept])
     aside = tuple(tangle for tangle in start.rank.aside if not tangle.into)
-    ratio = float(np.sqrt(np.linalg.cond(np.linalg.inv(found.covariance)))) if len(kept) else np.inf
-    return Estimate(
+    return dataclasses.replace(
+        start,
         beta=beta,
         covariance=covariance,
-        sigma=start.sigma,
         rank=Rank(tuple(map(int, kept)), aside, start.rank.last_kept, start.rank.first_dropped),
-        iterations=start.iterations,
-        settled=start.settled,
-        condition_number=start.condition_number,
-        condition_scaled=ratio,
-        degrees=start.degrees,
+        condition_scaled=float(np.sqrt(np.linalg.cond(found.covariance))),
         sentences=_told(problem, start, found, known),
         whole=_augmented(whole, lengths, prior, kept, found.width),
     )

@@ -119,12 +119,19 @@ def _told(problem: Problem, robot: DirectModel, loop: Loop, error: np.ndarray) -
     joint = problem.observation.joints[worst].name
     near = f"within {100 * error[worst]:.2g} % of the range of joint {joint}, the farthest"
     if np.isinf(loop.speed):
-        how = "the commanded motion is nearer to the log than any controller that was tried"
-    else:
-        fed = "with" if loop.forward else "without"
         how = (
-            f"the simulated one has speed loops of {loop.speed / 2 / np.pi:.3g} Hz {fed} "
-            "feedforward, which come nearest to the log"
+            "the commanded motion is nearer to the log than what any controller that was tried "
+            "makes of it"
+            if robot.commanded
+            else "none that was tried holds the robot with the fitted values, and the logged "
+            "motion, smoothed, stands for the simulated one"
+        )
+    else:
+        parts = [("integral action", loop.integral), ("feedforward", loop.forward)]
+        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
+        how = (
+            f"the simulated one that comes nearest to the log has speed loops of "
+            f"{loop.speed / 2 / np.pi:.3g} Hz, position loops of {loop.ratio:.2g} times that, {fed}"
         )
     said = [f"the controller of the log is not known: {how}, {near}"]
     if not robot.commanded:

@@ -142,7 +142,18 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
             rows.append(W)
             values.append(y)
     data, estimate = _second_step(observation, configurations, np.vstack(rows), np.hstack(values))
-    return TwoStep(directions, tuple(configurations), left_out, moves.several, data, estimate)
+    return TwoStep(
+        directions,
+        tuple(sorted(configurations, key=_order)),
+        left_out,
+        moves.several,
+        data,
+        estimate,
+    )
+
+
+def _order(configuration: Configuration) -> tuple[int, str, float]:
+    return configuration.joint, configuration.log, configuration.start
 
 
 def _second_step(

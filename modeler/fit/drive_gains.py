@@ -13,6 +13,7 @@ from modeler.estimate.coloured import Colour, coloured
 from modeler.estimate.compressed import compress
 from modeler.estimate.least_squares import Estimate
 from modeler.estimate.tls import MAX_ITERATIONS, GainEstimate, mixed_tls
+from modeler.fit.alike import not_alike
 from modeler.fit.identify import Equations, dead_joints, fit_equations
 from modeler.fit.mounting import mounted_differently
 from modeler.fit.payload import Loaded, Payload, loaded_equations
@@ -107,8 +108,9 @@ def identify_gains(
     try:
         _check_told(observation, estimate, colour)
     except DataError as error:
-        moved = mounted_differently(model, observation, payloads)
-        raise DataError("; ".join([str(error), *moved])) from None
+        why = mounted_differently(model, observation, payloads)
+        why = why or not_alike(model, observation, payloads)
+        raise DataError("; ".join([str(error), *why])) from None
     return _result(model.spec, fit, estimate, colour, loaded)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.core.errors import DataError
+from modeler.fit.alike import not_alike
 from modeler.fit.doubts import Doubt
 from modeler.fit.drive_gains import GainFit, identify_gains
 from modeler.fit.identify import fit_equations
@@ -34,7 +35,8 @@ def known_doubts(
 ) -> list[Doubt]:
     """Known quantities that the logs contradict, each with the factor.
 
-    First that a load sits alike in all its logs; if not, nothing else is asked of it.
+    First that a load sits alike in all its logs, and that all are of one robot; if not, nothing
+    else is asked.
 
     Each is set free with all parameters: the mass of a load as the factor of its torques, drive
     gains as in `identify_gains`. Its value is doubted if it is farther than FAR of its own standard
@@ -46,9 +48,10 @@ def known_doubts(
         payloads: of which those of known mass are tested.
         currents: True if the torques are logged currents times the gains of the robot file.
     """
-    moved = mounted_differently(model, observation, payloads)
-    if moved or not any(payload.mass is not None for payload in payloads):
-        return [Doubt(line, values=True) for line in moved]
+    apart = mounted_differently(model, observation, payloads)
+    apart = apart or not_alike(model, observation, payloads)
+    if apart or not any(payload.mass is not None for payload in payloads):
+        return [Doubt(line, values=True) for line in apart]
     found = _weights(observation, loaded_equations(model, observation, payloads), currents)
     if currents:
         found += _gains(model, observation, payloads)

@@ -34,7 +34,10 @@ class TwoStepFit:
         """Lines: step 1 by configuration, what Phi tells, both fits beside each other."""
         lines = ["step 1: one joint moves, the others stand"]
         lines += [f"  {self._line(c)}" for c in self.steps.configurations]
-        lines += [f"  {count} pieces not used: {why}" for why, count in self.steps.left_out.items()]
+        lines += [
+            f"  {count} piece{'s' * (count > 1)} not used: {why}"
+            for why, count in self.steps.left_out.items()
+        ]
         if self.steps.several > 0.0:
             lines.append(f"  {self.steps.several:.3g} s not used: several joints move")
         lines.append("step 2: theta = Phi beta")
@@ -45,7 +48,7 @@ class TwoStepFit:
         names, own = self.steps.directions.names, c.felt[0]
         where = ", ".join(f"q{name} {x:.2f}" for name, x in self._others(c).items())
         cells = [
-            f"{name} {x:.5g} +- {s:.2g}"
+            f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
             for name, x, s in zip(own.along.names, own.theta, own.sigma, strict=True)
         ]
         further = [names[f.joint] for f in c.felt[1:]]

@@ -34,7 +34,7 @@ from modeler.simulate.sensors import (
 )
 from modeler.simulate.settings import SimulationSettings, check_settings
 from modeler.simulate.sharing import told_once
-from modeler.simulate.trajectory import Reference, reference_motion
+from modeler.simulate.trajectory import Reference, reference_motion, widened
 from modeler.simulate.transmission import settled
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
@@ -126,10 +126,13 @@ def _task(
 ) -> _Task:
     """Of a robot without loops."""
     limits = of_free(robot, every)
-    reference = reference_motion(
-        settings.motion, limits, settings.duration, settings.rate, settings.seed,
-        _driven_directions(robot),
-    )  # fmt: skip
+    if (reference := settings.commanded) is not None:
+        limits = widened(limits, reference)
+    else:
+        reference = reference_motion(
+            settings.motion, limits, settings.duration, settings.rate, settings.seed,
+            _driven_directions(robot),
+        )  # fmt: skip
     plant = build_plant(*machine(robot, parameters, hidden), every, hidden)
     along = np.zeros((reference.time.size, plant.states))
     return _Task(plant, limits, reference, along, 1.0)

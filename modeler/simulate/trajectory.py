@@ -51,6 +51,15 @@ def reference_motion(
     return make(limits, duration, rate, seed)
 
 
+def widened(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
+    """Limits that hold the motion."""
+    peaks = (motion.q.min(0), motion.q.max(0), np.abs(motion.qd).max(0), np.abs(motion.qdd).max(0))
+    return tuple(
+        Limits(min(li.lower, low), max(li.upper, high), max(li.speed, v), max(li.acceleration, a))
+        for li, low, high, v, a in zip(limits, *(p.tolist() for p in peaks), strict=True)
+    )
+
+
 def point_to_point_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:

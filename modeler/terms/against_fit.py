@@ -15,12 +15,22 @@ from modeler.terms.solving import ClosedSolution, solve
 
 FALSE_ALARM = 0.01  # of a whole table
 _ROUNDS = 30
+_GROUPS = 100  # of CAD entries that are fitted
 _SETTLED = 1e-9
 
 
 def limit(tests: int) -> float:
     """|z| above which one of so many tests is significant: normal, family-wise (Bonferroni)."""
     return NormalDist().inv_cdf(1.0 - FALSE_ALARM / (2.0 * max(tests, 1)))
+
+
+def chi_squared_limit(freedom: int) -> float:
+    """What chi^2 exceeds in one table of `1 / FALSE_ALARM` (Wilson and Hilferty 1931)."""
+    if freedom <= 0:
+        return 0.0
+    part = 2.0 / (9.0 * freedom)
+    z = NormalDist().inv_cdf(1.0 - FALSE_ALARM)
+    return float(freedom * (1.0 - part + z * math.sqrt(part)) ** 3)
 
 
 @dataclass(frozen=True)
@@ -110,21 +120,21 @@ class CadRow:
 
 @dataclass(frozen=True)
 class Explanation:
-    """CAD entries that, changed alone, bring all quantities into agreement.
+    """CAD entries that, changed alone, agree better with the fit.
 
     Attributes:
         letters: one or two parameters.
         cad: their CAD values.
         fitted: the values that agree best with the fit.
         chi_squared: what is left, in as many degrees of freedom as rows less letters.
-        largest: |z| that is left at most.
+        enough: chi^2 left is what noise leaves.
     """
 
     letters: tuple[str, ...]
     cad: tuple[float, ...]
     fitted: tuple[float, ...]
     chi_squared: float
-    largest: float
+    enough: bool
 
 
 @dataclass(frozen=True)
@@ -137,7 +147,8 @@ class CadComparison:
         chi_squared: of all rows, correlations counted.
         left_out: {quantity: why it is not compared}.
         implicated: parameters that enter suspicious rows and no good one.
-        explanations: best first; empty if nothing is suspicious or nothing explains it.
+        explanations: best first; if no change of one or two entries is enough, the best single
+            one; empty if nothing is suspicious.
     """
 
     rows: tuple[CadRow, ...]
@@ -164,7 +175,8 @@ def compare_cad(
     """Which identified quantities do not agree with CAD, and which CAD entry would explain it.
 
     z = (d - p(cad)) / sqrt(C_ii + (J S J')_ii); an explanation changes one entry, or two where
-    one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least and no |z| is significant.
+    one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least (Gauss-Newton); it is enough if
+    chi^2 is then below its limit.
 
     Args:
         system: data as polynomials p of the parameters, J their Jacobian.
@@ -195,7 +207,7 @@ def compare_cad(
     bad = {x for row in rows if row.suspicious for x in row.letters}
     good = {x for row in rows if not row.suspicious for x in row.letters}
     implicated = tuple(x for x in system.letters if x in bad - good)
-    explanations = _explanations(problem, bound, [x for x in system.letters if x in bad])
+    explanations = _explanations(problem, [x for x in system.letters if x in bad])
     chi = problem.chi(problem.start)
     return CadComparison(tuple(rows), bound, chi, left_out, implicated, explanations)
 
@@ -249,6 +261,20 @@ class _Problem:
         r = self.weight @ (self.data - self.values(point))
         return float(r @ r)
 
+    def promising(self, letters: Sequence[str], size: int) -> list[tuple[str, ...]]:
+        """Groups of that size that explain most to first order; all, if they are few."""
+        groups = list(combinations(letters, size))
+        if len(groups) <= _GROUPS:
+            return groups
+        r = self.weight @ (self.data - self.values(self.start))
+        J = self.weight @ self.jacobian(self.start)
+        left = []
+        for group in groups:
+            columns = J[:, [self.system.place[x] for x in group]]
+            rest = r - columns @ np.linalg.lstsq(columns, r, rcond=None)[0]
+            left.append((float(rest @ rest), group))
+        return [group for _, group in sorted(left)[:_GROUPS]]
+
     def fitted(self, letters: Sequence[str]) -> np.ndarray:
         """The point with those letters changed for the least sum of squares (Gauss-Newton)."""
         at = [self.system.place[x] for x in letters]
@@ -285,19 +311,18 @@ def _inverse_root(covariance: np.ndarray) -> np.ndarray:
 
 
 def _explanations(
-    problem: _Problem, bound: float, letters: Sequence[str], most: int = 6
+    problem: _Problem, letters: Sequence[str], most: int = 6
 ) -> tuple[Explanation, ...]:
-    if not letters:
-        return ()
+    found: list[Explanation] = []
     for size in (1, 2):
-        found = []
-        for group in combinations(letters, size):
+        bound = chi_squared_limit(len(problem.weight) - size)
+        for group in problem.promising(letters, size):
             at = [problem.system.place[x] for x in group]
             point = problem.fitted(group)
-            largest = float(np.max(np.abs(problem.z(point))))
-            if largest <= bound:
-                cad, new = tuple(problem.start[at].tolist()), tuple(point[at].tolist())
-                found.append(Explanation(group, cad, new, problem.chi(point), largest))
-        if found:
-            return tuple(sorted(found, key=lambda e: (e.chi_squared, e.letters))[:most])
-    return ()
+            chi = problem.chi(point)
+            cad, new = tuple(problem.start[at].tolist()), tuple(point[at].tolist())
+            found.append(Explanation(group, cad, new, chi, chi <= bound))
+        found.sort(key=lambda e: (not e.enough, len(e.letters), e.chi_squared, e.letters))
+        if found and found[0].enough:
+            return tuple(e for e in found if e.enough)[:most]
+    return tuple(found[:1])

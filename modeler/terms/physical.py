@@ -75,7 +75,12 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
         RobotError: an entry of `[physical]` is no polynomial, or uses the name of a joint's sine.
     """
     static = [str(symbol) for symbol in algebra.static_ring.symbols]
-    links = {joint.name: _link(model, joint) for joint in model.robot.moving}
+    bodies = {column.row for column in model.columns if isinstance(column, LinkColumn)}
+    links = {
+        joint.name: _link(model, joint)
+        for row, joint in enumerate(model.robot.joints)
+        if row in bodies
+    }
     rotors = [c.name for c in model.columns if in_block(c, EnergyBlock.KINETIC)]
     zeros = _zero_symbols(model)
     known = {*static, *zeros}

@@ -18,6 +18,7 @@ from modeler.symbolic import SymbolicModel
 from modeler.terms.coefficients import CoefficientTable, coefficient_table
 from modeler.terms.evaluation import poly_value
 from modeler.terms.identifiability import random_point, value_modulo
+from modeler.terms.map_render import forward_lines
 from modeler.terms.physical import PhysicalParameters, physical_parameters
 from modeler.terms.relations import independent_modulo
 from modeler.terms.ring import Poly, TrigRing
@@ -43,6 +44,7 @@ class PhysicalSystem:
         abbreviations: {generator: what it stands for}, for quotients of lengths.
         definitions: {data: polynomial of letters and constants}.
         base: names of the base parameters that the data follow from.
+        map_lines: "PG1 = MY2R": coefficients in base parameters, as text, lengths as in the fit.
         to_data: (data, base), data = to_data @ base parameters, at the lengths of the robot file.
     """
 
@@ -58,6 +60,7 @@ class PhysicalSystem:
     abbreviations: Mapping[str, str]
     definitions: Mapping[str, Poly]
     base: tuple[str, ...]
+    map_lines: tuple[str, ...]
     to_data: np.ndarray
 
     @cached_property
@@ -213,7 +216,8 @@ def _of_coefficients(
     for at, factor in table.map.entries.items():
         to_data[at] = float(poly_value(factor, static))
     geometry = _Geometry(algebra, physical, model.robot.symbol_values())
-    return _system(model.robot.name, geometry, definitions, free, table.map.columns, to_data)
+    base = table.map.columns, tuple(forward_lines(table))
+    return _system(model.robot.name, geometry, definitions, free, base, to_data)
 
 
 @dataclass
@@ -265,7 +269,7 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
         if total:
             definitions[name] = total
     used = tuple(definitions)
-    return _system(model.robot.name, geometry, definitions, None, used, np.eye(len(used)))
+    return _system(model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)))
 
 
 def _lift(old: PolyRing, new: PolyRing) -> Callable[[Poly], Poly]:
@@ -292,7 +296,7 @@ def _system(
     geometry: _Geometry,
     definitions: Mapping[str, Poly],
     free: Sequence[str] | None,
-    base: Sequence[str],
+    base: tuple[tuple[str, ...], tuple[str, ...]],
     to_data: np.ndarray,
 ) -> PhysicalSystem:
     """The ring with what the definitions use, and all of them in it; None: of base parameters."""
@@ -324,7 +328,7 @@ def _system(
         constants,
         geometry.quotients,
         {name: lift(poly) for name, poly in definitions.items()},
-        tuple(base),
+        *base,
         to_data,
     )
 

@@ -171,6 +171,7 @@ def solution_json(solution: ClosedSolution, verified: Mapping[str, int] | None =
     return {
         "robot": system.robot,
         "from": system.source,
+        "coefficients": list(system.map_lines),
         "known": list(solution.known),
         "lengths": dict(system.constants),
         "abbreviations": dict(system.abbreviations),

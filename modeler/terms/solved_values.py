@@ -128,6 +128,7 @@ def derive_values(
     covariance: np.ndarray,
     known: Mapping[str, float],
     sigmas: Mapping[str, float] | None = None,
+    near: Mapping[str, float] | None = None,
 ) -> Derived:
     """The parameters that follow, with sigma.
 
@@ -140,6 +141,7 @@ def derive_values(
         known: values of the known parameters, SI units.
         sigmas: their standard deviations; 0 where not given. Known parameters count as
             independent of each other and of the data.
+        near: about what value a parameter has, to choose between roots.
 
     Raises:
         DataError: a quotient by exactly 0, or an equation without a root or with several.
@@ -159,7 +161,7 @@ def derive_values(
         gradient[system.place[name], i] = 1.0
     doubtful: dict[str, str] = {}
     for step in solution.steps:
-        _advance(step, solution, point, gradient, C, doubtful)
+        _advance(step, solution, point, gradient, C, doubtful, near or {})
     at = [system.place[letter] for letter in solution.follows]
     slopes = gradient[at]
     parts = slopes * (slopes @ C)
@@ -172,13 +174,13 @@ def derive_values(
 
 def _advance(
     step: Step, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray, C: np.ndarray,
-    doubtful: dict[str, str],
+    doubtful: dict[str, str], near: Mapping[str, float],
 ) -> None:  # fmt: skip
     """One step more: value and slopes of its letter."""
     system = solution.system
     at = system.place[step.letter]
     if step.equation is not None:
-        point[at] = _one_root(step, system, point)
+        point[at] = _one_root(step, system, point, near)
         slopes = Numbers(step.equation).slopes(point)
         own, slopes[at] = slopes[at], 0.0
         gradient[at] = -(slopes @ gradient) / own
@@ -219,8 +221,12 @@ def roots(step: Step, system: PhysicalSystem, point: np.ndarray) -> list[float]:
     return sorted(x for x in real if x > 0 or step.letter not in system.masses)
 
 
-def _one_root(step: Step, system: PhysicalSystem, point: np.ndarray) -> float:
+def _one_root(
+    step: Step, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
+) -> float:
     found = roots(step, system, point)
+    if found and step.letter in near:
+        return min(found, key=lambda x: abs(x - near[step.letter]))
     if len(found) == 1:
         return found[0]
     kind = "positive " if step.letter in system.masses else ""
@@ -232,5 +238,6 @@ def _one_root(step: Step, system: PhysicalSystem, point: np.ndarray) -> float:
     told = ", ".join(f"{x:.6g}" for x in found)
     raise DataError(
         f"{system.robot}: the equation of {step.letter} has {len(found)} {kind}roots ({told}); "
-        f"all fit the data: add {step.letter}, or another parameter, to the known ones"
+        f"each fits the data; say which with --near {step.letter}={found[-1]:.3g}, or add a "
+        "parameter to the known ones"
     )

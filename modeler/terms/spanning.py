@@ -81,6 +81,8 @@ def _grown(
 
 def reduced_by(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
     """Matrices reduced by one of their columns, its pivot row set to zero."""
+    if not len(work):
+        return work
     at = np.arange(len(work))
     entries = work[at, :, column]
     pivot = (entries != 0).argmax(axis=1)

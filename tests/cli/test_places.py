@@ -36,6 +36,7 @@ READING = {  # what each command reads; outputs come after it
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
     "add": "add m.json spring a.parquet --holdout other.parquet@:3 --out new.json",
     "effects": "effects --robot arm.toml",
+    "estimators": "estimators arm.toml a.parquet --holdout other.parquet",
     "robots": "robots --show arm.toml",
     "reproduce": "reproduce houda",
     "demo": "demo --out new",

@@ -31,7 +31,24 @@ def add_derive(commands: Commands) -> None:
         "--terms", action=argparse.BooleanOptionalAction, help="PG/PJ/PS coefficients or not"
     )
     parser.add_argument(
-        "--closed-form", action="store_true", help="M(q), Christoffel coefficients and gravity"
+        "--closed-form",
+        action="store_true",
+        help="M(q), Christoffel coefficients and gravity; of loops J_t and J_p too",
+    )
+    parser.add_argument(
+        "--regressor", action="store_true", help="every base column, that of friction too"
+    )
+    parser.add_argument(
+        "--expanded",
+        action="store_true",
+        help="with --closed-form: sums of monomials instead of named quantities; with --terms: all "
+        "coefficients, those that follow from others too",
+    )
+    parser.add_argument(
+        "--nonzero",
+        action="store_true",
+        help="with --closed-form and --regressor: leave out base parameters that are 0 at the "
+        "values of [parameters]",
     )
     parser.add_argument(
         "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"

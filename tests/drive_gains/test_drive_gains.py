@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drive_gain_cases import Runs, runs_of
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
@@ -15,6 +14,7 @@ from modeler.estimate.tls import mixed_tls
 from modeler.fit import Payload, check_currents, identify_gains, known_doubts
 from modeler.fit.mounting import mounted_differently, remounted
 from modeler.observation import observe
+from tests.drive_gains.runs import Runs, runs_of
 
 TRUE = np.array([1.2, 0.9, 25.0])  # N m per unit
 ROWS = 400  # of each drive
@@ -173,6 +173,19 @@ def test_a_load_that_is_not_felt_sets_no_scale(arm):
     seen = observe(arm.compiled, [bare, replace(arm.logs(TRUE, 0.02, 7)[0], name="loaded")])
     with pytest.raises(DataError, match=r"no gap|has a sigma"):
         identify_gains(arm.compiled, seen, [arm.payload(0.01)])
+
+
+def test_logs_of_two_robots_are_named(arm):
+    """The loaded run is of an arm with the base of this one, but other links and friction."""
+    other = np.random.default_rng(1).uniform(0.5, 2.0, len(arm.beta)) * arm.beta
+    seen = arm.seen(np.ones(3))
+    rows = seen.run == 1
+    seen.torque[rows] += seen.predicted(other - arm.beta)[rows]
+    words = "do not fit one robot: joint . has .* % of its torque left if each is described alone"
+    (doubt,) = known_doubts(arm.compiled, seen, [arm.payload()], currents=True)
+    assert re.search(words, doubt.line)
+    with pytest.raises(DataError, match=f"no gap.*{words}"):
+        identify_gains(arm.compiled, seen, [arm.payload()])
 
 
 def test_gains_are_not_found_without_a_known_mass(arm):

@@ -1,0 +1,59 @@
+"""Whether the sigmas of gains and parameters are true: `python -m tests.drive_gains [ROBOT]`.
+
+Two runs, bare and loaded, are simulated once; torque noise is drawn anew for every seed. Printed is
+z = (found - true) / sigma of each gain, and of all base parameters together: rms 1 and mean 0 are
+perfect.
+"""
+
+import argparse
+import sys
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.fit import identify_gains
+from tests.drive_gains.runs import runs_of
+
+
+def main() -> int:
+    """Print the table."""
+    made = argparse.ArgumentParser("python -m tests.drive_gains", description=__doc__)
+    made.add_argument("robot", nargs="?", default="demo-arm")
+    for name, kind, default in (
+        ("--mass", float, 2.0), ("--noise", float, 0.03), ("--seeds", int, 50),
+        ("--duration", float, 20.0), ("--rate", float, 250.0),
+    ):  # fmt: skip
+        made.add_argument(name, type=kind, default=default, help="default: %(default)s")
+    args = made.parse_args()
+    runs = runs_of(args.robot, args.mass, args.duration, args.rate)
+    names = [joint.name for joint in runs.compiled.spec.joints if joint.actuated]
+    gains, values, refused = [], [], 0
+    for seed in range(args.seeds):
+        seen = runs.seen(np.ones(len(runs.compiled.spec.joints)), args.noise, seed)
+        try:
+            fit = identify_gains(runs.compiled, seen, [runs.payload()]).result
+        except DataError as error:
+            refused += 1
+            print(f"seed {seed}: {error}")
+            continue
+        gains.append([(g.value - 1.0) / (g.sigma or np.inf) for g in fit.gains])
+        values.append(
+            [(p.value - t) / p.sigma for p, t in zip(fit.parameters, runs.beta, strict=True)
+             if p.sigma]
+        )  # fmt: skip
+    print(
+        f"{args.robot}: {args.seeds} seeds, {refused} refused, noise {args.noise:g} of the torque"
+    )
+    if not gains:
+        return 1
+    print(f"{'':<12} {'rms z':>6} {'mean z':>7}")
+    for i, name in enumerate(names):
+        column = np.array([row[i] for row in gains])
+        print(f"{f'g_tau{name}':<12} {np.sqrt(np.mean(column**2)):6.2f} {column.mean():7.2f}")
+    every = np.concatenate(values)
+    print(f"{'parameters':<12} {np.sqrt(np.mean(every**2)):6.2f} {every.mean():7.2f}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
