@@ -1,7 +1,7 @@
 """Briot and Gautier 2012, section 3: drive gains from a bare run and a weighed load.
 
-The simulated Orthoglide has the drive gains, slides and motors of Table 3 of the paper, light bars, a
-platform of 0.75 kg, and no friction where it has no motor: 41 base parameters, none left out.
+The simulated Orthoglide has the drive gains, slides and motors of the paper's Table 3, light bars,
+a platform of 0.75 kg, and no friction where it has no motor: 41 base parameters, none left out.
 """
 
 import re
@@ -35,7 +35,7 @@ SETTING = (
 
 
 def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """Gains, what Table 3 says of slides and motors, and the second load with both sets of gains."""
+    """Gains, slides and motors of Table 3, and the second load with both sets of gains."""
     table = figures(paper, "Table 3")
     gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
     (maker,) = quoted(paper, "637pi")[1:]
@@ -141,7 +141,7 @@ def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTa
             "s[-2]/s[-1]",
             "-",
             f"{last[0] / last[1]:.4g}",
-            judged(last[0] > 2 * last[1]),
+            judged(last[0] > 2 * last[1], Outcome.DERIVED),
             "singular values of the currents beside the model: a gap, or no gains",
         )
     )

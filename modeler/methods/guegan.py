@@ -153,7 +153,9 @@ def _weak_direction(
         for name in WEAK
     ]  # fmt: skip
     rest = max(abs(value) for name, value in ours.items() if name not in WEAK)
-    rows.append(Row("all others", "-", f"{rest:.2g}", judged(rest < 0.1), "less than 0.1"))
+    rows.append(
+        Row("all others", "-", f"{rest:.2g}", judged(rest < 0.1, Outcome.DERIVED), "less than 0.1")
+    )
     return MethodTable(
         "The direction that noise follows in Table 2",
         ("values of Table 2 divided by its MX2, beside the weakest singular vector of W;",

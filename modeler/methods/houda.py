@@ -133,7 +133,8 @@ def _compared(energy: FitResult) -> MethodTable:
     rows.append(
         Row(
             "uncertainty of predicted torques, energy over torque", "-", f"{ratio:.3g}",
-            judged(ratio > 1.0), "our consequence: at equal data the torque model is the surer",
+            judged(ratio > 1.0, Outcome.DERIVED),
+            "our consequence: at equal data the torque model is the surer",
         )
     )  # fmt: skip
     return MethodTable("The energy model beside the torque model", (), tuple(rows))

@@ -18,6 +18,7 @@ class Outcome(enum.Enum):
 
     REPRODUCED = "reproduced"
     RECOVERED = "truth recovered"
+    DERIVED = "as derived"
     SHOWN = "beside each other"
     FAILED = "NOT reproduced"
 
@@ -31,7 +32,8 @@ class Row:
         printed: by the paper, or "-".
         ours: of the simulation.
         outcome: "truth recovered" where a simulated machine's value is found, whatever the paper
-            measured on its own; "beside each other" where nothing says that the two must agree.
+            measured on its own; "as derived" where we say what the paper does not, or deny what it
+            says; "beside each other" where nothing says that the two must agree.
         why: what was asked of the line, or a remark.
     """
 
@@ -57,9 +59,9 @@ class MethodTable:
     rows: tuple[Row, ...]
 
 
-def judged(holds: bool) -> Outcome:
+def judged(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:
     """Reproduced, or not."""
-    return Outcome.REPRODUCED if holds else Outcome.FAILED
+    return well if holds else Outcome.FAILED
 
 
 def recovered(name: str, printed: str, truth: float, value: float, sigma: float) -> Row:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from modeler.methods.briot import briot_methods
 from modeler.methods.guegan import guegan_methods
+from modeler.methods.hanssen import hanssen_methods
 from modeler.methods.houda import houda_methods
 from modeler.methods.report import MethodTable
 from modeler.papers import Paper
@@ -14,6 +15,7 @@ Report = Callable[[float], None]
 METHODS: Mapping[str, Callable[[Paper, Report], list[MethodTable]]] = {
     "briot-2012": briot_methods,
     "guegan-2003": guegan_methods,
+    "hanssen-2000": hanssen_methods,
     "houda": houda_methods,
 }
 

@@ -83,12 +83,12 @@ def test_the_command_ends_well(name, capsys, tmp_path):
 
 
 def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
-    paper = read_paper("houda")
-    wrong = dataclasses.replace(paper.lines[0], quote="211 dynamic parameters")
+    paper = read_paper("hanssen-2000")
+    wrong = dataclasses.replace(paper.lines[1], quote="as many as 33 physical parameters")
     changed = dataclasses.replace(paper, lines=(wrong,))
     monkeypatch.setattr("modeler.cli.reproduce.read_paper", lambda name: changed)
-    assert main(["reproduce", "houda", "--section", "print"]) == 1
-    assert "1 line is different: 211 dynamic parameters" in capsys.readouterr().err
+    assert main(["reproduce", "hanssen-2000", "--section", "print"]) == 1
+    assert "1 line is different: as many as 33 physical" in capsys.readouterr().err
 
 
 def test_an_unknown_paper_is_told(capsys):
