@@ -434,4 +434,5 @@ def test_misspelt_effects_are_guessed(capsys):
 
 def test_every_command_is_listed():
     text = parser().format_help()
-    assert all(f"    {command} " in text for command in COMMANDS)
+    first = {line.split()[0] for line in text.splitlines() if line.strip()}
+    assert first >= set(COMMANDS)

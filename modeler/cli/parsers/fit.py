@@ -29,8 +29,8 @@ def add_fit(commands: Commands) -> None:
         "--method",
         choices=(*get_args(Method), GAIN_METHOD, TWO_STEPS),
         default="weighted",
-        help="estimator, and where it is the wrong one; default: %(default)s. "
-        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), *APART)),
+        help="; ".join(f"{a.id}: {a.title}" for a in (*ABOUT.values(), *APART))
+        + "; `modeler estimators` says when each is the wrong one (default %(default)s)",
     )
     parser.add_argument(
         "--robot-out",
