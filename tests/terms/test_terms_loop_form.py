@@ -61,7 +61,7 @@ def test_a_block_of_four_equations(loop_robots_folder):
 
 
 def test_orthoglide_is_isotropic_where_its_legs_are_straight():
-    """J_p is the identity where the bars lie along the slides (Guegan 2003, section II)."""
+    """J_p is the identity where every bar lies along its slide: motors and platform move alike."""
     derivation = derived("orthoglide-2003")
     lines = sheet_lines(short_form(derivation.model, derivation.base).sheet)
     u = {"21": -np.pi / 2, "22": -np.pi / 2, "23": -np.pi / 2}

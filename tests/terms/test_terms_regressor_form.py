@@ -36,6 +36,13 @@ def test_columns_of_friction_and_rotors_are_there():
     assert {"phi1_Ia1R = qdd1", "phi1_Fv1 = qd1", "phi1_Fs1 = sign(qd1)"} <= set(lines)
 
 
+def test_speeds_of_parallel_axes_are_products_with_known_sines():
+    """Of link 3 of a PUMA, whose axis 1 is seen from frame 3 under q2 + q3."""
+    derivation = derived("puma560")
+    lines = sheet_lines(regressor_form(derivation.model, derivation.base).sheet)
+    assert any("qd1**2*c23*s23" in line or "qd1**2*s23*c23" in line for line in lines)
+
+
 @pytest.mark.parametrize("name", ["two-link", "odd", "sr400"])
 def test_latex_and_markdown_have_every_column(name):
     derivation = derived(name)

@@ -78,7 +78,7 @@ def test_known_subexpressions_have_their_names():
         found = short_form(derived(name).model, derived(name).base)
         text[name] = "\n".join(sheet_lines(found.sheet))
     assert "s234 = sin(q2 + q3 + q4)" in text["ur10e"]
-    assert "s23 = sin(q2 + q3)" in text["puma560"]
+    assert "s23 = sin(q2 + q3)" in text["puma560"] and "gx_4 = g*s23*c4" in text["puma560"]
     assert "J44 = ZZ4c" in text["puma560"] and "S334 = S324" in text["puma560"]
     assert "s2m7 = sin(q2 - q7)" in text["sr400"] and "q3" not in text["sr400"]
 
@@ -138,6 +138,12 @@ def test_puma_is_the_published_one():
         ours, theirs = np.array(values).T
         limit = 0.03 * np.max(np.abs(theirs)) + 0.02 * np.ptp(theirs)
         assert np.max(np.abs(ours - theirs)) < limit, name
+
+
+def test_effects_are_never_left_out():
+    derivation = derived("two-link")
+    kept = nonzero_base(derivation.model, derivation.base).parameters
+    assert [p.name for p in kept] == ["ZZ1R", "MX1R", "Fv1", "Fs1", "ZZ2", "MX2", "Fv2", "Fs2"]
 
 
 def test_nonzero_needs_nominal_values():
