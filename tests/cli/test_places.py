@@ -39,6 +39,7 @@ READING = {  # what each command reads; outputs come after it
     "robots": "robots --show arm.toml",
     "reproduce": "reproduce houda",
     "demo": "demo --out new",
+    "physical": "physical arm.toml",
     "show": "show arm.toml",
 }
 
