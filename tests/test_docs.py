@@ -32,6 +32,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/drive-gains.md",
        "docs/motor-side.md",
        "docs/energy-model.md",
+       "docs/physical-parameters.md",
        )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]

@@ -175,8 +175,8 @@ def compare_cad(
     """Which identified quantities do not agree with CAD, and which CAD entry would explain it.
 
     z = (d - p(cad)) / sqrt(C_ii + (J S J')_ii); an explanation changes one entry, or two where
-    one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least (Gauss-Newton); it is enough if
-    chi^2 is then below its limit.
+    one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least; enough is a chi^2 below its
+    limit.
 
     Args:
         system: data as polynomials p of the parameters, J their Jacobian.
@@ -186,30 +186,23 @@ def compare_cad(
         sigmas: tolerances of CAD values, S their squares.
         unknown_data: {quantity: why it has no value}; these are left out.
     """
-    left_out = dict(unknown_data or {})
     depends = {d: _letters(system, d) for d in system.data}
-    for name, letters in depends.items():
-        missing = [x for x in letters if x not in cad]
-        if missing and name not in left_out:
-            left_out[name] = f"no CAD value of {', '.join(missing)}"
+    missing = {d: [x for x in letters if x not in cad] for d, letters in depends.items()}
+    left_out = {d: f"no CAD value of {', '.join(some)}" for d, some in missing.items() if some}
+    left_out |= unknown_data or {}
     kept = [i for i, name in enumerate(system.data) if name not in left_out]
-    problem = _Problem(system, kept, np.asarray(data, dtype=float), covariance, cad, sigmas or {})
-    z, bound = problem.z(problem.start), limit(len(kept))
-    rows = [
-        CadRow(
-            system.data[i], float(data[i]), float(math.sqrt(max(covariance[i, i], 0.0))),
-            float(problem.cad[k]), float(problem.cad_sigma[k]), float(z[k]),
-            bool(abs(z[k]) > bound), depends[system.data[i]],
-        )
-        for k, i in enumerate(kept)
-    ]  # fmt: skip
-    rows.sort(key=lambda row: -abs(row.z))
+    problem = _Problem(system, kept, np.asarray(data), covariance, cad, sigmas or {})
+    rows = problem.rows(covariance, depends)
     bad = {x for row in rows if row.suspicious for x in row.letters}
     good = {x for row in rows if not row.suspicious for x in row.letters}
-    implicated = tuple(x for x in system.letters if x in bad - good)
-    explanations = _explanations(problem, [x for x in system.letters if x in bad])
-    chi = problem.chi(problem.start)
-    return CadComparison(tuple(rows), bound, chi, left_out, implicated, explanations)
+    return CadComparison(
+        tuple(rows),
+        limit(len(kept)),
+        problem.chi(problem.start),
+        left_out,
+        tuple(x for x in system.letters if x in bad - good),
+        _explanations(problem, [x for x in system.letters if x in bad]),
+    )
 
 
 def _letters(system: PhysicalSystem, name: str) -> tuple[str, ...]:
@@ -242,6 +235,20 @@ class _Problem:
         total = covariance[np.ix_(self.kept, self.kept)] + from_cad
         self.sigma = np.sqrt(np.diag(total)) if self.kept else np.zeros(0)
         self.weight = _inverse_root(total)
+
+    def rows(self, covariance: np.ndarray, depends: Mapping[str, tuple[str, ...]]) -> list[CadRow]:
+        """The table, most significant first."""
+        z, bound = self.z(self.start), limit(len(self.kept))
+        rows = []
+        for k, i in enumerate(self.kept):
+            name, sigma = self.system.data[i], math.sqrt(max(covariance[i, i], 0.0))
+            both = float(self.cad[k]), float(self.cad_sigma[k])
+            suspicious = bool(abs(z[k]) > bound)
+            row = CadRow(
+                name, float(self.data[k]), sigma, *both, float(z[k]), suspicious, depends[name]
+            )
+            rows.append(row)
+        return sorted(rows, key=lambda row: -abs(row.z))
 
     def values(self, point: np.ndarray) -> np.ndarray:
         """Quantities from parameters."""

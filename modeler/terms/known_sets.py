@@ -111,15 +111,10 @@ def known_sets(
     if tables[0] != tables[1]:
         raise ModelerError(f"{system.robot}: two random points disagree; choose another seed")
     table = tables[0]
-    classes: dict[tuple[int, int, int], int] = {}
-    for key in sorted(table, key=lambda key: (key[2], key[1], key[0])):
-        classes[key] = table[key][0]
-    contains = {
-        letter: sum(entry[1][k] for entry in table.values()) for k, letter in enumerate(letters)
-    }
-    easiest: tuple[tuple[str, ...], ...] = ()
-    if classes:
-        easiest = _members(system, size, next(iter(classes)), seed)
+    order = sorted(table, key=lambda key: (key[2], key[1], key[0]))
+    classes = {key: table[key][0] for key in order}
+    contains = {x: sum(e[1][k] for e in table.values()) for k, x in enumerate(letters)}
+    easiest = _members(system, size, order[0], seed) if order else ()
     count = sum(classes.values())
     return KnownSets(system, size, smallest, possible, count, classes, easiest, contains, seeds)
 

@@ -84,10 +84,7 @@ def _python(solution: ClosedSolution) -> list[str]:
     """A function of data and known parameters that returns a dict."""
     system = solution.system
     arguments = [*_used_data(solution), *solution.known, *_lengths(system)]
-    lines = ["from math import cos, pi, sin, sqrt"]
-    if any(step.equation is not None for step in solution.steps):
-        lines += ["", "from numpy import roots"]
-    lines += ["", "", f"def physical_parameters({', '.join(arguments)}):"]
+    lines = [f"def physical_parameters({', '.join(arguments)}):"]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
     lines += [f'    """Physical parameters of {system.robot} from {where}, SI units."""']
     lines += [f"    {name} = {text}" for name, text in system.abbreviations.items()]
@@ -97,7 +94,13 @@ def _python(solution: ClosedSolution) -> list[str]:
         else:
             lines += _python_root(step, system)
     lines.append("    return {" + ", ".join(f'"{x}": {x}' for x in solution.follows) + "}")
-    return lines
+    used = set(_letters_of("\n".join(lines), functions=True))
+    imports = []
+    if some := [name for name in ("cos", "pi", "sin", "sqrt") if name in used]:
+        imports += [f"from math import {', '.join(some)}"]
+    if "roots" in used:
+        imports += ["from numpy import roots"]
+    return [*imports, "", "", *lines] if imports else lines
 
 
 def _python_root(step: Step, system: PhysicalSystem) -> list[str]:
@@ -133,9 +136,11 @@ def _lengths(system: PhysicalSystem) -> list[str]:
     return list(found)
 
 
-def _letters_of(text: str) -> list[str]:
+def _letters_of(text: str, functions: bool = False) -> list[str]:
+    """Names in a text, those of functions and of pi only if they are wanted."""
     word = "".join(c if c.isalnum() or c == "_" else " " for c in text).split()
-    return [w for w in word if not w[0].isdigit() and w not in ("cos", "sin", "sqrt", "pi")]
+    known = () if functions else ("cos", "sin", "sqrt", "pi")
+    return [w for w in word if not w[0].isdigit() and w not in known]
 
 
 def definition_lines(system: PhysicalSystem) -> list[str]:

@@ -152,13 +152,7 @@ def derive_values(
     C[: len(data), : len(data)] = covariance
     for i, name in enumerate(solution.known, start=len(data)):
         C[i, i] = (sigmas or {}).get(name, 0.0) ** 2
-    point = np.zeros(len(system.names))
-    for name, value in (*system.constants.items(), *known.items()):
-        point[system.place[name]] = value
-    point[: len(data)] = data
-    gradient = np.zeros((len(point), len(inputs)))
-    for i, name in enumerate(inputs):
-        gradient[system.place[name], i] = 1.0
+    point, gradient = _start(solution, data, known, inputs)
     doubtful: dict[str, str] = {}
     for step in solution.steps:
         _advance(step, solution, point, gradient, C, doubtful, near or {})
@@ -170,6 +164,22 @@ def derive_values(
         parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
     )
     return Derived(solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful)
+
+
+def _start(
+    solution: ClosedSolution, data: Sequence[float], known: Mapping[str, float],
+    inputs: Sequence[str],
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Values of all generators before the first step, and their slopes by the inputs."""
+    system = solution.system
+    point = np.zeros(len(system.names))
+    for name, value in (*system.constants.items(), *known.items()):
+        point[system.place[name]] = value
+    point[: len(data)] = data
+    gradient = np.zeros((len(point), len(inputs)))
+    for i, name in enumerate(inputs):
+        gradient[system.place[name], i] = 1.0
+    return point, gradient
 
 
 def _advance(

@@ -1,5 +1,6 @@
 """`modeler physical ROBOT|MODEL`."""
 
+import argparse
 from typing import Literal, get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json
@@ -27,6 +28,12 @@ def add_physical(commands: Commands) -> None:
         "source", metavar="ROBOT|MODEL", type=RobotFile,
         help="a robot file, the name of a built-in robot, or a model file of `modeler fit`",
     )  # fmt: skip
+    _add_options(parser)
+    add_json(parser, "write the result for machines")
+    parser.set_defaults(load=_physical)
+
+
+def _add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--known", metavar="LIST", type=Word,
         help='parameters that are known, "am,bm"; with a MODEL their values in SI units, and '
@@ -53,8 +60,6 @@ def add_physical(commands: Commands) -> None:
         help="formulas from base parameters, or from the coefficients PG, PJ of the closed form; "
         "default: coefficients where a fit leaves a length free",
     )  # fmt: skip
-    add_json(parser, "write the result for machines")
-    parser.set_defaults(load=_physical)
 
 
 def _physical() -> Run:

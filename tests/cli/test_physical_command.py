@@ -1,0 +1,222 @@
+"""`modeler physical` as a user types it: formulas, values, sets, CAD, and what is refused."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.fit import load_model, save_model
+from modeler.terms.printed import read_print
+from tests.terms.cases import model_of
+from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
+
+EIGHT = ",".join((*SEVEN, "cm"))
+
+
+def run(capsys, *argv: object) -> tuple[int, str, str]:
+    status = main(["physical", *map(str, argv)])
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+@pytest.fixture(scope="module")
+def wrist(tmp_path_factory):
+    """A model of the wrist whose base parameters are those of a made-up robot, nearly; its truth.
+
+    The fit is one of a simulated log, for its covariance; the values are put into its place.
+    """
+    folder = tmp_path_factory.mktemp("wrist")
+    log, file = folder / "w.csv", folder / "w.json"
+    assert main(["simulate", "wrist", "--duration", "4", "--rate", "200", "--out", str(log)]) == 0
+    assert main(["fit", "wrist", str(log), "--out", str(file)]) == 0
+    model, system = load_model(file), system_of("wrist")
+    rng = np.random.default_rng(2)
+    truth = random_letters(system, rng) | {"bl1": 0.1}
+    data = data_of(system, truth)
+    beta = np.linalg.solve(system.to_data, data)
+    scale = 1e-3 * np.abs(beta) / np.sqrt(np.diag(model.covariance))
+    covariance = model.covariance * np.outer(scale, scale)
+    beta = beta + np.linalg.cholesky(covariance) @ rng.normal(size=len(beta))
+    parameters = tuple(
+        dataclasses.replace(p, value=float(v), sigma=float(s))
+        for p, v, s in zip(model.fit.parameters, beta, np.sqrt(np.diag(covariance)), strict=True)
+    )
+    fit = dataclasses.replace(model.fit, parameters=parameters, covariance=covariance, verdict=None)
+    save_model(file, dataclasses.replace(model, fit=fit))
+    return file, truth
+
+
+def listed(values: dict[str, float], names) -> str:
+    return ",".join(f"{name}={values[name]!r}" for name in names)
+
+
+def test_overview_names_the_easiest_set(capsys, tmp_path):
+    status, out, err = run(capsys, "two-link", "--json", tmp_path / "o.json")
+    assert (status, err) == (0, "")
+    assert "at least 2 parameters must be known" in out
+    assert "formulas: modeler physical two-link --known m1,m2" in out
+    assert json.loads((tmp_path / "o.json").read_text())["easiest_set"] == ["m1", "m2"]
+
+
+def test_formulas_in_three_forms(capsys, tmp_path):
+    status, out, _ = run(capsys, "wrist", "--known", EIGHT, "--json", tmp_path / "k.json")
+    assert status == 0 and "ct2 = -PG2/cm" in out and "PG1 = MY2R" in out
+    assert "17 of 17 unknown parameters follow; each formula holds exactly for 20 of 20" in out
+    raw = json.loads((tmp_path / "k.json").read_text())
+    assert raw["missing"] == raw["surplus"] == 0 and len(raw["formulas"]) == 17
+    status, out, _ = run(capsys, "wrist", "--known", EIGHT, "--format", "latex")
+    assert status == 0 and r"\mathit{ct}_{2} &= \frac{-\mathit{PG}_{2}}{\mathit{cm}} \\" in out
+
+
+@pytest.mark.parametrize("eighth", ["cm", "cJ11", "bJ12"])
+def test_the_python_code_runs_and_is_right(capsys, eighth):
+    known = (*SEVEN, eighth)
+    status, out, _ = run(capsys, "wrist", "--known", ",".join(known), "--format", "python")
+    assert status == 0
+    place: dict = {}
+    exec(compile(out, "physical.py", "exec"), place)
+    function = place["physical_parameters"]
+    system = system_of("wrist")
+    truth = random_letters(system, np.random.default_rng(1))
+    given = dict(zip(system.data, data_of(system, truth), strict=True)) | truth
+    names = function.__code__.co_varnames[: function.__code__.co_argcount]
+    found = function(**{name: given[name] for name in names})
+    assert set(found) == set(system.letters) - set(known)
+    assert found == pytest.approx({x: truth[x] for x in found}, rel=1e-8)
+
+
+def test_an_insufficient_set_is_told(capsys):
+    status, out, _ = run(capsys, "wrist", "--known", ",".join(SEVEN))
+    assert status == 0 and "6 of 18 unknown parameters follow" in out
+    assert "1 more must be known: one of cm, bt1, ct2, ct3, " in out
+
+
+def test_values_from_a_model(capsys, tmp_path, wrist):
+    file, truth = wrist
+    known = listed(truth, (*SEVEN, "cm"))
+    status, out, _ = run(capsys, file, "--known", known, "--json", tmp_path / "v.json")
+    assert status == 0 and "mostly from" in out
+    rows = json.loads((tmp_path / "v.json").read_text())["values"]["parameters"]
+    z = [(row["value"] - truth[row["parameter"]]) / row["sigma"] for row in rows]
+    assert len(z) == 17 and 0.5 < np.sqrt(np.mean(np.square(z))) < 1.7
+    (ct2,) = [row for row in rows if row["parameter"] == "ct2"]
+    assert ct2["sensitivity"]["cm"] == pytest.approx(-truth["ct2"] / truth["cm"], rel=0.02)
+
+
+def test_base_parameters_tell_the_same_as_coefficients(capsys, tmp_path, wrist):
+    file, truth = wrist
+    known = listed(truth, (*SEVEN, "cm"))
+    both = []
+    for source in ("base", "coefficients"):
+        argv = (file, "--known", known, "--from", source, "--json", tmp_path / "v.json")
+        assert run(capsys, *argv)[0] == 0
+        rows = json.loads((tmp_path / "v.json").read_text())["values"]["parameters"]
+        both.append({row["parameter"]: (row["value"], row["sigma"]) for row in rows})
+    assert set(both[0]) == set(both[1])
+    for x, pair in both[0].items():
+        assert pair == pytest.approx(both[1][x], rel=1e-6), x
+
+
+def test_what_is_known_and_contradicts_is_refused(capsys, wrist):
+    file, truth = wrist
+    names = (*SEVEN, "cm", "ct2")
+    status, out, err = run(capsys, file, "--known", listed(truth, names))
+    assert (status, err) == (0, "") and "each known parameter against" in out
+    status, out, err = run(
+        capsys, file, "--known", listed(truth | {"ct2": 1.05 * truth["ct2"]}, names)
+    )
+    assert status == 1 and "contradicts" in out
+    assert err.startswith("modeler: --known contradicts the fit: ") and "ct2 = " in err
+
+
+def test_parameters_that_a_fit_set_aside_are_not_told(capsys, tmp_path, wrist):
+    file, truth = wrist
+    model = load_model(file)
+    names = [p.name for p in model.fit.parameters]
+    k, covariance = names.index("MX2"), model.covariance.copy()
+    covariance[k], covariance[:, k] = 0.0, 0.0
+    parameters = [*model.fit.parameters]
+    parameters[k] = dataclasses.replace(
+        parameters[k], value=0.0, sigma=None, status="set aside", essential=False
+    )
+    fit = dataclasses.replace(model.fit, parameters=tuple(parameters), covariance=covariance)
+    save_model(tmp_path / "m.json", dataclasses.replace(model, fit=fit))
+    known = listed(truth, (*SEVEN, "cm"))
+    status, out, _ = run(capsys, tmp_path / "m.json", "--known", known)
+    assert status == 0
+    assert "not told: bt3 needs PG4, and the fit set MX2 aside" in out
+
+
+def test_sets_of_a_robot(capsys, tmp_path):
+    status, out, _ = run(capsys, "wrist", "--sets", 7)
+    assert status == 0 and "0 of 480700 sets of 7 known parameters suffice" in out
+    argv = ("two-link", "--sets", "--json", tmp_path / "s.json")
+    status, out, _ = run(capsys, *argv)
+    assert status == 0 and "two-link: 21 of 28 sets of 2 known parameters suffice" in out
+    raw = json.loads((tmp_path / "s.json").read_text())["sets"]
+    assert raw["count"] == 21 and raw["easiest"] == [["m1", "m2"]]
+
+
+def test_sets_rated_at_the_values_of_the_robot_file(capsys):
+    status, out, _ = run(capsys, "wrist", "--sets", "--cad")
+    assert status == 0 and "61879 of 1081575 sets of 8" in out
+    assert "the 44 with the fewest inertias" in out and "the least error first" in out
+
+
+def test_a_fit_against_cad(capsys, tmp_path, wrist):
+    file, truth = wrist
+    cad = tmp_path / "cad.toml"
+    cad.write_text("".join(f"{x} = {v!r}\n" for x, v in truth.items()))
+    status, out, _ = run(capsys, file, "--cad", cad)
+    assert status == 0 and "all 17 agree with CAD" in out
+    wrong = truth | {"cm": 1.1 * truth["cm"]}
+    cad.write_text("".join(f"{x} = {v!r}\n" for x, v in wrong.items()))
+    status, out, _ = run(capsys, file, "--cad", cad, "--json", tmp_path / "c.json")
+    assert status == 0 and "suspicious" in out and "all agree if cm = " in out
+    best = json.loads((tmp_path / "c.json").read_text())["cad"]["explanations"][0]
+    assert best["letters"] == ["cm"] and best["fitted"][0] == pytest.approx(truth["cm"], rel=0.01)
+
+
+def test_the_robot_file_as_cad(capsys, wrist):
+    file, _ = wrist
+    status, out, _ = run(capsys, file, "--cad")
+    assert status == 0 and "do not agree with CAD" in out
+    assert read_print(model_of("wrist").robot).example
+
+
+@pytest.mark.parametrize(
+    ("argv", "message"),
+    [
+        (("wrist", "--known", "an,bm"), 'modeler: --known: got "an"'),
+        (("wrist", "--known", "am=nan"), "modeler: --known, am: got 'nan'; expected a finite"),
+        (("two-link", "--cad"), "modeler: --cad, robot two-link: the robot file has no values"),
+        (("two-link", "--cad", "none.toml"), "modeler: none.toml: cannot be read"),
+        (("wrist", "--cad"), "modeler: --cad: wrist is a robot, with no identified values"),
+        (("two-link", "--sets", "9"), "modeler: two-link: got sets of 9; expected 0 to 8"),
+        (("puma560", "--sets"), "modeler: puma560: about 9.7e+13 sets to look at, more than"),
+        (("sr400", "--from", "coefficients"), "modeler: sr400: coefficients are written for ser"),
+        (("none.json",), "modeler: none.json: cannot be read"),
+    ],
+)
+def test_what_is_refused_in_one_line(capsys, tmp_path, monkeypatch, argv, message):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, *argv)
+    assert (status, out) == (1, "")
+    assert err.startswith(message) and err.count("\n") == 1
+
+
+def test_a_model_needs_values(capsys, wrist):
+    file, _ = wrist
+    status, _, err = run(capsys, file, "--known", "am,bm=3")
+    assert status == 1 and err.startswith("modeler: --known: no value of am; expected am=VALUE")
+
+
+def test_several_roots_need_a_hint(capsys, wrist):
+    file, truth = wrist
+    known = listed(truth, (*SEVEN, "bJ11"))
+    status, _, err = run(capsys, file, "--known", known)
+    assert status == 1 and "positive roots" in err and "--near cm=" in err
+    status, out, _ = run(capsys, file, "--known", known, "--near", f"cm={truth['cm']}")
+    assert status == 0 and "\ncm " in out
