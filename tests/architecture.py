@@ -91,6 +91,7 @@ MODULE_LINES = 400
 FUNCTION_LINES = 40
 
 LONGER: dict[str, str] = {
+    "excite/evolution.py evolve": "one generation, step by step as its source lists them",
     "observation/band.py choose_cutoffs": "each cut-off follows from the one before",
     "observation/consistency.py consistency": "half of it states the bounds that it applies",
     "observation/prepare.py prepare": "the steps of preparation in order, and what each leaves",

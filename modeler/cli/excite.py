@@ -50,7 +50,7 @@ def run_excite(args: argparse.Namespace) -> Json:
     wish = Wish(
         args.duration,
         usual_harmonics(bounds, args.duration) if args.harmonics is None else args.harmonics,
-        args.objective, args.starts, args.seed, args.time_limit,
+        args.objective, args.starts, args.seed, args.time_limit, args.laps,
     )  # fmt: skip
     with progress(f"looking for a motion of {subject.robot.name}") as bar:
         if args.between is not None:
@@ -197,6 +197,11 @@ def _question(args: argparse.Namespace, subject: _Subject) -> Question:
             raise DataError(
                 f"--between {text}: got joint {joint or '(none)'}; expected EFFECT@J with one of "
                 f"{', '.join(joints)}"
+            )
+        if subject.robot.has_effect(effect.id, joint):
+            raise DataError(
+                f"--between {text}: the model has {effect.id} on joint {joint} already; expected "
+                "effects that it lacks"
             )
         found.append((effect, joint))
     if len(found) != 2 or found[0] == found[1]:

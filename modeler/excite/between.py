@@ -102,29 +102,14 @@ def tell_apart(
     begun = time.monotonic()
     rng = np.random.default_rng([wish.seed, 7])
     drawn = [random_motion(task, rng) for _ in range(RANDOM)]
-    columns = _Pair(task, question, drawn)
+    columns = _Pair(task, question, drawn, wish.laps)
     best = min(drawn, key=columns.value)
-    unit = bounds.half[:, None] * np.ones(best.shape[1])
-    still = np.zeros_like(best)
-    still[:, 0] = rest_place(task)
 
     def on(generation: int = 0) -> bool:
         progress(generation / _GENERATIONS)
         return wish.time_limit is None or time.monotonic() - begun < wish.time_limit
 
-    def pulled_in(flat: np.ndarray) -> np.ndarray:
-        x = flat.reshape(best.shape) * unit
-        reach = task.reach(still, x - still)
-        x = still + min(1.0, 0.999 * reach) * (x - still)
-        while not task.keeps(x):
-            x = still + _SHRINK * (x - still)
-        return x
-
-    start = (best / unit).ravel()
-    found = evolve(
-        lambda flat: columns.value(pulled_in(flat)), start, _FIRST, _GENERATIONS, rng, on
-    )
-    task, x = kept_between(task, pulled_in(found), on, descent=False)
+    task, x = kept_between(task, _evolved(columns, best, rng, on), on, descent=False)
     motion = finished(task, x, wish, drawn, not on(_GENERATIONS), begun)
     (here, size), (there, before) = columns.left(x), columns.left(best)
     names = tuple(f"{effect.id}@{joint}" for effect, joint in question.effects)
@@ -132,11 +117,35 @@ def tell_apart(
     return motion, Apart((names[0], names[1]), here, there, (gain[0], gain[1]))
 
 
+def _evolved(
+    columns: "_Pair", x: np.ndarray, rng: np.random.Generator, on: Callable[[int], bool]
+) -> np.ndarray:
+    """The best motion that evolution finds from x; those beyond limits are drawn back in."""
+    task = columns.task
+    unit = task.bounds.half[:, None] * np.ones(x.shape[1])
+    still = np.zeros_like(x)
+    still[:, 0] = rest_place(task)
+
+    def pulled_in(flat: np.ndarray) -> np.ndarray:
+        wanted = flat.reshape(x.shape) * unit
+        reach = task.reach(still, wanted - still)
+        inside = still + min(1.0, 0.999 * reach) * (wanted - still)
+        while not task.keeps(inside):
+            inside = still + _SHRINK * (inside - still)
+        return inside
+
+    found = evolve(
+        lambda flat: columns.value(pulled_in(flat)),
+        (x / unit).ravel(), _FIRST, _GENERATIONS, rng, on,
+    )  # fmt: skip
+    return pulled_in(found)
+
+
 class _Pair:
     """The columns of two effects along motions."""
 
-    def __init__(self, task: Task, question: Question, drawn: list[np.ndarray]) -> None:
-        self._task = task
+    def __init__(self, task: Task, question: Question, drawn: list[np.ndarray], laps: int) -> None:
+        self.task, self._laps = task, laps
         self._reference = Reference(task.columns.compiled, question.beta, 0.0, {})
         loads = [self._signals(x).load for x in drawn[:5]]
         load = np.sqrt(np.mean(np.concatenate(loads) ** 2, axis=0))
@@ -149,7 +158,7 @@ class _Pair:
 
     def _grid(self, whose: Whose, load: np.ndarray) -> list[Candidate]:
         effect, joint = whose
-        bounds, spec = self._task.bounds, self._task.columns.compiled.spec
+        bounds, spec = self.task.bounds, self.task.columns.compiled.spec
         form = next((form for form in effect.forms if "T" not in form.names), None)
         if form is None or effect.acts not in (Acts.JOINT, Acts.POSITION):
             raise DataError(
@@ -166,18 +175,19 @@ class _Pair:
         return [every[k] for k in places]
 
     def _signals(self, x: np.ndarray) -> Signals:
-        q, qd, qdd = self._task.series.motion(x)
-        time = self._task.series.time
+        q, qd, qdd = (np.tile(part, (self._laps, 1)) for part in self.task.series.motion(x))
+        step = self.task.series.duration / len(self.task.series.time)
+        time = np.arange(len(q)) * step
         nothing = np.zeros_like(q)
         segment = Segment(
-            0, time, float(time[1] - time[0]), q, qd, qdd, nothing, {},
+            0, time, step, q, qd, qdd, nothing, {},
             np.ones(len(q), dtype=bool), np.ones(q.shape, dtype=bool), {},
         )  # fmt: skip
         return Signals(segment, 1, q, qd, qdd, self._reference)
 
     def _blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
         """Weighted columns of both effects, one block (n J, k) for each shape."""
-        signals, weights = self._signals(x), self._task.weights[:, None]
+        signals, weights = self._signals(x), self.task.weights[:, None]
         return [
             [
                 (block * weights).reshape(-1, block.shape[2])
@@ -188,7 +198,9 @@ class _Pair:
 
     def _beyond_model(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[list[np.ndarray]]]:
         """The blocks, and what the model leaves of them."""
-        Q, _ = np.linalg.qr(self._task.rows(self._task.series.motion(x)))
+        W = self.task.rows(self.task.series.motion(x))
+        # Every lap has the same columns of the model: one lap of Q is that of all, scaled.
+        Q = np.tile(np.linalg.qr(W)[0], (self._laps, 1)) / np.sqrt(self._laps)
         blocks = self._blocks(x)
         return blocks, [[block - Q @ (Q.T @ block) for block in own] for own in blocks]
 

@@ -44,14 +44,21 @@ class Columns:
         return self.compiled.base_regressor(q, qd, qdd, s)
 
     def smooth(
-        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
+        out: np.ndarray | None = None,
     ) -> np.ndarray:
-        """(n, J, c) phi with every jump at rest made a slope."""
-        phi = self.exact(q, qd, qdd, s)
+        """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
+        phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
         for j in np.flatnonzero(self.flips.any(axis=(1, 2))):
             v = qd[:, j] / (self.soft * self.speed[j])
             rest = np.flatnonzero(np.abs(v) < 20.0)
-            phi[rest] -= (np.sign(v) - np.tanh(v))[rest, None, None] * self.flips[j]
+            over = (np.sign(v) - np.tanh(v))[rest]
+            for row, column in np.argwhere(self.flips[j]):
+                phi[rest, row, column] -= over * self.flips[j, row, column]
         return phi
 
     def pulled_back(
@@ -70,20 +77,25 @@ class Columns:
         sizes = (_STEP * self.half, _STEP * self.speed, np.ones(joints))
         count = 3 * len(sides)
         told = None if s is None else np.vstack([s] * count)
-        here = None if central else self.smooth(*motion, s)
+        # One place for all of phi: fresh memory takes longer than what is written into it.
+        place = np.empty((count * n * joints, pull.shape[2]))
+        here = 0.0
+        if not central:
+            here = np.einsum("njc,njc->n", self.smooth(*motion, s, place[: n * joints]), pull)
         slopes = [np.empty((n, joints)) for _ in range(3)]
         for j in range(joints):
             moved = [np.vstack([values] * count) for values in motion]
             for k in range(count):
                 order, sign = divmod(k, len(sides))
                 moved[order][k * n : (k + 1) * n, j] += sides[sign] * sizes[order][j]
-            phi = self.smooth(moved[0], moved[1], moved[2], told).reshape(
-                3, len(sides), *pull.shape
-            )
-            change = 0.5 * (phi[:, 0] - phi[:, 1]) if central else phi[:, 0] - here
-            along = np.einsum("onjc,njc->on", change, pull)
+            phi = self.smooth(moved[0], moved[1], moved[2], told, place)
+            along = np.einsum("knjc,njc->kn", phi.reshape(count, *pull.shape), pull)
             for order in range(3):
-                slopes[order][:, j] = along[order] / sizes[order][j]
+                if central:
+                    change = 0.5 * (along[2 * order] - along[2 * order + 1])
+                else:
+                    change = along[order] - here
+                slopes[order][:, j] = change / sizes[order][j]
         return slopes
 
 

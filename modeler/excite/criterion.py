@@ -18,7 +18,7 @@ def log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
     inverse of the smallest: log cond <= value <= log cond + log(c) / 4.
     """
     lengths = np.linalg.norm(W, axis=0)
-    if not lengths.min() > 0.0:
+    if len(W) < W.shape[1] or not lengths.min() > 0.0:
         return np.inf, W
     scaled = W / lengths
     sizes, turn = _sizes(scaled)
@@ -36,6 +36,8 @@ def log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
 def lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
     """-log det(W^T W) / (2 c): the mean log of the standard deviations, but for a constant."""
     columns = W.shape[1]
+    if len(W) < columns:
+        return np.inf, W
     R = np.linalg.qr(W, mode="r")
     diagonal = np.abs(np.diagonal(R))
     if not diagonal.min() > _RANK * diagonal.max():
@@ -60,7 +62,7 @@ CRITERIA: dict[str, Criterion] = {
 def condition(W: np.ndarray, scaled: bool = True) -> float:
     """cond(W), with columns of length one if `scaled`."""
     lengths = np.linalg.norm(W, axis=0) if scaled else np.ones(W.shape[1])
-    if not lengths.min() > 0.0:
+    if len(W) < W.shape[1] or not lengths.min() > 0.0:
         return float("inf")
     sizes = np.linalg.svd(np.linalg.qr(W, mode="r") / lengths, compute_uv=False)
     return float(sizes[0] / sizes[-1]) if sizes[-1] > 0.0 else float("inf")

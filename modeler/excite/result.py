@@ -13,6 +13,8 @@ import pyarrow.parquet as pq
 from modeler.excite.bounds import Bounds
 from modeler.excite.series import Series, series
 
+_DIGITS = 13  # after the point: rest is 0, not a rounding of it
+
 
 @dataclass(frozen=True)
 class Quality:
@@ -86,17 +88,16 @@ class Exciting:
 
     def sampled(self, rate: float) -> dict[str, np.ndarray]:
         """Columns by name: time, q, qd and qdd of every joint, from rest to rest."""
-        count = int(np.ceil(self.series.duration * rate - 1e-9)) + 1
+        laps, period = int(self.wish["laps"]), self.series.duration
+        count = int(np.ceil(laps * period * rate - 1e-9)) + 1
         times = np.arange(count) / rate
         # The last sample is at or just after the end, where the robot rests.
-        here = series(
-            self.series.duration, self.series.harmonics, np.minimum(times, self.series.duration)
-        )
+        place = np.where(times >= laps * period, 0.0, np.mod(times, period))
+        here = series(period, self.series.harmonics, place)
         columns = {"time": times}
         for prefix, values in zip(("q", "qd", "qdd"), here.motion(self.x), strict=True):
-            columns |= {
-                f"{prefix}{name}": values[:, j] for j, name in enumerate(self.bounds.joints)
-            }
+            for j, name in enumerate(self.bounds.joints):
+                columns[f"{prefix}{name}"] = np.round(values[:, j], _DIGITS) + 0.0
         return columns
 
     def summary(self) -> list[str]:

@@ -43,6 +43,7 @@ class Wish:
         starts: of the search.
         seed: another one gives another motion.
         time_limit: s, after which the best so far is taken; None: it ends by itself.
+        laps: times that the motion is driven, one after the other.
     """
 
     duration: float = 10.0
@@ -51,6 +52,7 @@ class Wish:
     starts: int = 3
     seed: int = 0
     time_limit: float | None = None
+    laps: int = 1
 
 
 def excite(
@@ -88,8 +90,22 @@ def excite(
 
     rng = np.random.default_rng([wish.seed, 7])
     drawn = [random_motion(task, rng) for _ in range(RANDOM)]
+    found = _improved_best(task, wish.starts, drawn, on, progress)
+    x = min(found, key=lambda y: value_of(task, y))
+    task, x = kept_between(task, x, on)
+    return finished(task, x, wish, drawn, not on(), begun)
+
+
+def _improved_best(
+    task: Task,
+    starts: int,
+    drawn: list[np.ndarray],
+    on: Callable[[], bool],
+    progress: Callable[[float], None],
+) -> list[np.ndarray]:
+    """The best of the motions drawn, each after all stages of descent."""
     values = [value_of(task, x) for x in drawn]
-    best = sorted(range(RANDOM), key=lambda k: values[k])[: wish.starts]
+    best = sorted(range(len(drawn)), key=lambda k: values[k])[:starts]
     found, parts = [], len(best) * len(_STAGES)
     for n, k in enumerate(best):
         x = drawn[k]
@@ -97,9 +113,7 @@ def excite(
             x = improved(task, x, stage, on)
             progress((n * len(_STAGES) + m + 1) / parts)
         found.append(x)
-    x = min(found, key=lambda y: value_of(task, y))
-    task, x = kept_between(task, x, on)
-    return finished(task, x, wish, drawn, not on(), begun)
+    return found
 
 
 def finished(
@@ -152,7 +166,8 @@ def _check_wish(wish: Wish) -> None:
         raise DataError(f"criterion: got {wish.criterion}; expected one of {', '.join(CRITERIA)}")
     if not (math.isfinite(wish.duration) and 0.0 < wish.duration <= 3600.0):
         raise DataError(f"duration: got {wish.duration:g} s; expected more than 0, at most 3600")
-    for name, least, most in (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63)):
+    ranges = (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63), ("laps", 1, 1000))
+    for name, least, most in ranges:
         value = getattr(wish, name)
         if not least <= value <= most:
             raise DataError(f"{name}: got {value}; expected {least} to {most}")
@@ -193,7 +208,8 @@ def usual_harmonics(bounds: Bounds, duration: float) -> int:
     """As many as reach what the slowest joint can swing by an eighth of its range, 5 to 10."""
     part = 0.25 * bounds.half
     swing = np.minimum(bounds.speed / part, np.sqrt(bounds.acceleration / part)) / (2.0 * np.pi)
-    return int(np.clip(np.round(duration * swing.min()), 5, 10))
+    waves = duration * float(swing.min())
+    return round(min(max(waves, 5.0), 10.0)) if math.isfinite(waves) else 5
 
 
 def quality(task: Task, x: np.ndarray) -> Quality:

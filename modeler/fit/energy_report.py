@@ -23,8 +23,8 @@ class ModelFigures:
         torque_error: ||tau - W beta|| / ||tau|| with its beta, on the rows of the torque model.
         torque_sigma: sqrt(tr(W C W^T)) / ||tau||: what its covariance C comes to in the same
             torques. Noise of the torques themselves is not in it.
-        imbalance: share of the energy that its rule of integration misses: the work of inertia
-            by the rule against the difference of kinetic energy; None for the torque model.
+        imbalance: share of the energy that integrals and derivatives miss: the work of inertia by
+            the rule against the difference of kinetic energy; None for the torque model.
         bias: what that moves the parameter that it moves most, in sigmas; None for the torque
             model.
     """
@@ -90,8 +90,8 @@ class EnergyReport:
         return [
             *lines,
             "cond: columns of length one; known: sigma below 10 %; error, sigma: of the predicted "
-            "torques; missed: share of the energy that integration misses; bias: what that moves "
-            "at most",
+            "torques; missed: share of the energy that integrals and derivatives miss; bias: what "
+            "that moves at most",
             *self.sentences(),
         ]
 
@@ -109,8 +109,8 @@ class EnergyReport:
         )
         simpson, trapezoid = (item.bias or 0.0 for item in self.figures[1:])
         second = (
-            f"Simpson's rule moves no parameter by more than {simpson:.2g} sigma, the trapezoid "
-            f"would by {trapezoid:.2g}"
+            f"integrals by Simpson's rule, and derivatives, move no parameter by more than "
+            f"{simpson:.2g} sigma; with the trapezoid {trapezoid:.2g}"
         )
         if simpson > _FELT:
             second += "; log faster, or move more slowly"

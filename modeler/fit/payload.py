@@ -128,8 +128,8 @@ def _with_load(
 def _last_link(model: "CompiledModel") -> str:
     """The platform of a parallel robot, else the link of the last joint."""
     closure = model.spec.closure
-    if closure is not None and closure.carrier:
-        return closure.carrier
+    if closure is not None:  # whose joints are the coordinates only
+        return closure.carrier or closure.variables[-1]
     return model.spec.joints[-1].name
 
 

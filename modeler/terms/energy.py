@@ -31,8 +31,8 @@ from modeler.symbolic.kinematics import (
 from modeler.terms.ring import Poly, TrigRing
 
 MOST_PRODUCTS = 500_000
-"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 307,805
-for 5R with general angles and lengths (7 s)."""
+"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 252,027
+for 5R with general angles and lengths (6 s)."""
 
 Entries = Mapping[tuple[int, ...], Mapping[int, Poly]]
 """{indices: {column of the standard parameter: factor}}, in normal form; zeros left out."""

@@ -31,6 +31,7 @@ READING = {  # what each command reads; outputs come after it
     "generate": "generate arm.toml --out new_c",
     "convert": "convert arm.par --out new.toml",
     "simulate": "simulate arm.toml --out new.csv",
+    "excite": "excite arm.toml --choose 1 --from a.parquet b.csv",
     "fit": "fit arm.toml a.parquet b.csv@0:4 --payload-log load.parquet --out new.json",
     "compare": "compare m.json a.parquet@2:",
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",

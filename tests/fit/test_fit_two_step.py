@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
+from modeler.compiled import CompiledModel
+from modeler.core.contract import SignalSpec
 from modeler.core.errors import DataError
 from modeler.estimate.alone import Directions, moves_alone
+from modeler.estimate.along import Alone, along
 from modeler.estimate.excited import inertia_rows
 from modeler.estimate.two_step import two_steps
 from modeler.fit import identify
@@ -197,6 +200,25 @@ def test_logs_without_such_a_piece_are_refused():
     with pytest.raises(DataError, match=r"^one.csv: no piece in which one joint moves") as error:
         two_steps(compiled("wrist"), _observed("wrist", log), _directions("wrist"))
     assert "use --method weighted" in str(error.value) and "\n" not in str(error.value)
+
+
+def test_effects_that_read_more_than_the_motion_are_refused():
+    model = compiled("wrist")
+    warm = dataclasses.replace(model.spec, signals=(SignalSpec("time", "", "s", 0.0),))
+    alone = Alone(np.zeros(3), 0.0, np.eye(3)[0], (-1.0, 1.0))
+    with pytest.raises(DataError, match="some effect of the robot reads time"):
+        along(CompiledModel(warm, model._library), alone, np.eye(3))
+
+
+def test_a_joint_without_a_motor_says_nothing():
+    """Its pieces are left out, and where there are no others, that is told."""
+    log = _log("wrist", only=[0])
+    observation = _observed("wrist", log)
+    idle = tuple(dataclasses.replace(joint, actuated=False) for joint in observation.joints)
+    with pytest.raises(DataError, match="left out: the joint has no motor"):
+        two_steps(
+            compiled("wrist"), dataclasses.replace(observation, joints=idle), _directions("wrist")
+        )
 
 
 def test_missing_torques_are_left_out():

@@ -6,6 +6,7 @@ import pytest
 from modeler.base import base_parameters
 from modeler.core.errors import RobotError
 from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.robot.edit import with_effect
 from modeler.robot.motors import joint_directions
 from modeler.symbolic import derive_model
 from tests.modules import compiled, module
@@ -143,6 +144,12 @@ def test_wrong_motors_are_told(motors, told):
     with pytest.raises(RobotError, match=r"^coupled.toml: \[(motors|relations)\]") as error:
         _coupled(motors)
     assert told in str(error.value) and "\n" not in str(error.value)
+
+
+def test_an_effect_that_is_added_leaves_the_values_of_the_motors():
+    """Fvm1 is viscous friction of the motor m1, not friction of a motor on joint 1."""
+    changed = with_effect(_TEXT, "stribeck", "m2", {"vs": 0.1, "d": 2.0})
+    assert robot_from_text(changed, "x.toml").parameters == read_robot("wrist-coupled").parameters
 
 
 def test_motors_that_are_no_table_are_told():

@@ -27,6 +27,19 @@ def add_derive(commands: Commands) -> None:
     parser.add_argument(
         "--format", choices=sorted(get_args(Form)), default="text", help="of what is printed"
     )
+    _add_formulas(parser)
+    parser.add_argument(
+        "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
+    )
+    parser.add_argument(
+        "--open", action="store_true", help="cut the loops: the tree, as counted leg by leg"
+    )
+    add_json(parser, "write the result for machines")
+    parser.set_defaults(load=_derive)
+
+
+def _add_formulas(parser: argparse.ArgumentParser) -> None:
+    """Which formulas are printed besides the relations."""
     parser.add_argument(
         "--terms", action=argparse.BooleanOptionalAction, help="PG/PJ/PS coefficients or not"
     )
@@ -50,14 +63,6 @@ def add_derive(commands: Commands) -> None:
         help="with --closed-form and --regressor: leave out base parameters that are 0 at the "
         "values of [parameters]",
     )
-    parser.add_argument(
-        "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
-    )
-    parser.add_argument(
-        "--open", action="store_true", help="cut the loops: the tree, as counted leg by leg"
-    )
-    add_json(parser, "write the result for machines")
-    parser.set_defaults(load=_derive)
 
 
 def _derive() -> Run:

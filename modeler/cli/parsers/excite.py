@@ -46,6 +46,7 @@ def add_excite(commands: Commands) -> None:
 
 def _add_motion(parser: argparse.ArgumentParser) -> None:
     add_number(parser, "--duration", "S", float, "seconds, from rest to rest", 10.0)
+    add_number(parser, "--laps", "N", int, "times that this motion is driven in MOTION", 1)
     add_number(parser, "--rate", "HZ", float, "samples per second of MOTION", 200.0)
     add_number(
         parser, "--harmonics", "N", int, "of the Fourier series; default: 5 to 10, by the limits"

@@ -3,9 +3,9 @@
 import argparse
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_robot
-from modeler.cli.places import MotionFile, NewLog, Output, Word
+from modeler.cli.places import MotionOrKind, NewLog, Output, Word
 from modeler.effects import CATALOGUE
-from modeler.simulate.settings import MOTIONS, SimulationSettings
+from modeler.simulate.settings import SimulationSettings
 
 
 def add_simulate(commands: Commands) -> None:
@@ -43,7 +43,7 @@ def add_simulate(commands: Commands) -> None:
 
 def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) -> None:
     parser.add_argument(
-        "--motion", metavar="MOTION", type=_motion, default=default.motion,
+        "--motion", metavar="MOTION", type=MotionOrKind, default=default.motion,
         help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
         "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` or a "
         "log, whose (commanded) positions are then the motion, as long as it is (default "
@@ -72,17 +72,6 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
         parser, "--encoder-counts", "N", int,
         "per turn, 0 for an ideal encoder", default.encoder_counts,
     )  # fmt: skip
-
-
-def _motion(text: str) -> str:
-    """The name of a kind of motion, or a file."""
-    if text in MOTIONS:
-        return Word(text)
-    if not text.endswith((".csv", ".parquet")):
-        raise argparse.ArgumentTypeError(
-            f"got {text}; expected {', '.join(MOTIONS)}, or a .csv or .parquet file"
-        )
-    return MotionFile(text)
 
 
 def _simulate() -> Run:
