@@ -33,6 +33,8 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/motor-side.md",
        "docs/energy-model.md",
        "docs/physical-parameters.md",
+       "docs/reproduce.md",
+       )  # fmt: skip
        )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
