@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",
        "docs/emitted-c.md", "docs/parallel-robots.md", "docs/orthoglide.md", "docs/evra.md",
        "docs/sr400.md", "docs/parallel-examples.md", "docs/diagnosis.md",
-       "docs/converting.md")  # fmt: skip
+       "docs/converting.md", "docs/excitation.md")  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )
