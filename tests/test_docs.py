@@ -34,7 +34,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/energy-model.md",
        "docs/physical-parameters.md",
        "docs/reproduce.md",
-       )  # fmt: skip
+       "docs/excitation.md",
        )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
