@@ -133,7 +133,8 @@ def _given(places: Sequence[str], logs: Sequence[Log]) -> list[Given]:
 
 def _check_load(args: argparse.Namespace) -> None:
     for option in ("payload_mass", "payload_link", "payload_moved"):
-        if getattr(args, option) not in (None, False) and not args.payload_log:
+        value = getattr(args, option)
+        if value is not None and value is not False and not args.payload_log:  # 0 is given too
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
 
