@@ -71,7 +71,8 @@ def estimated(
 def check_way(args: argparse.Namespace) -> None:
     """Refuse options that do not go together."""
     for option in ("payload_mass", "payload_link", "payload_moved"):
-        if getattr(args, option) not in (None, False) and not args.payload_log:
+        value = getattr(args, option)
+        if value is not None and value is not False and not args.payload_log:  # 0 is given too
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
     if args.payload_log and args.method == TWO_STEPS:

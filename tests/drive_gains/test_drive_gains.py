@@ -8,12 +8,14 @@ import pytest
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, RobotError
 from modeler.estimate.compressed import compress
 from modeler.estimate.tls import mixed_tls
 from modeler.fit import Payload, check_currents, identify_gains, known_doubts
 from modeler.fit.mounting import mounted_differently, remounted
 from modeler.observation import observe
+from modeler.robot import builtin_text, robot_from_text
+from modeler.robot.edit import with_drive_gains
 from tests.drive_gains.runs import Runs, runs_of
 
 TRUE = np.array([1.2, 0.9, 25.0])  # N m per unit
@@ -245,3 +247,23 @@ def test_a_load_that_sat_alike_is_not_said_to_have_moved(arm):
     ]
     seen = observe(arm.compiled, [first, *parts])
     assert mounted_differently(arm.compiled, seen, [Payload(("one", "two"))]) == []
+
+
+def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
+    """Not on that of the last coordinate, which the logs would call another robot."""
+    runs = runs_of("five-bar", 2.0, duration=15.0, rate=250.0)
+    assert known_doubts(runs.compiled, runs.seen(np.ones(2)), [runs.payload()], True) == []
+    found = identify_gains(runs.compiled, runs.seen(np.array([3.0, 0.2])), [runs.payload()])
+    np.testing.assert_allclose([*found.gains.values()], [3.0, 0.2], rtol=0.01)
+
+
+@pytest.mark.parametrize("text", ["", "[drive_gains]\n1 = 3 # N m\n", "drive_gains = {1 = 3}\n"])
+def test_gains_in_a_robot_file_are_replaced_or_refused(text):
+    source = text + builtin_text("two-link") if "{" in text else builtin_text("two-link") + text
+    if "{" in text:
+        with pytest.raises(RobotError, match="write it as a table of its own"):
+            with_drive_gains(source, {"1": 2.5, "2": -0.1})
+        return
+    robot = robot_from_text(with_drive_gains(source, {"1": 2.5, "2": -0.1}), "changed")
+    assert robot.drive_gains == {"1": 2.5, "2": -0.1}
+    assert robot.parameters == robot_from_text(source, "as it was").parameters
