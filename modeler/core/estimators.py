@@ -83,8 +83,8 @@ _EVERY = (
         "direct and inverse model identification",
         "min sum_j |y_j - W_j(q_s) beta|^2 / sigma_j^2, q_s(beta) simulated in closed loop",
         "Gautier, Janot and Vandanjon 2013, IEEE TCST 21(2)",
-        "where the controller of the log is not known: the difference between simulated and real "
-        "motion biases the values, and sigma does not say so",
+        "where the controller of the log is not known and none comes near its motion: what they "
+        "differ by goes into the values; sigma is raised by as much",
     ),
     About(
         "consistent",

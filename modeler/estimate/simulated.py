@@ -54,7 +54,9 @@ def didim(problem: Problem) -> Estimate:
     Gauss-Newton: q_s hardly depends on beta, as the controller holds the motion, so each step is
     the weighted fit of the measured torque to the columns along the last simulated motion
     (Gautier, Janot and Vandanjon 2013). The logged motion is used to choose the controller, and the
-    rows, alone.
+    rows, alone; and for the covariance: d d^T is added to it, d = P (W(q_s) - W(q)) beta with P the
+    pseudo-inverse of the fit. By d the values move if the logged motion is right and the simulated
+    one is not, as where the controller of the log is another one.
 
     Raises:
         DataError: a joint without a motor, or a fit that cannot be simulated.
@@ -72,8 +74,10 @@ def _along(problem: Problem, W: np.ndarray) -> Estimate:
     found = least_squares(data, "weighted")
     weight = np.where(counted, 1.0 / found.sigma[problem.joint] ** 2, 0.0)
     pull = (W @ found.covariance) * weight[:, None]
+    shift = pull.T @ ((W - problem.W) @ found.beta)
     return dataclasses.replace(
         found,
+        covariance=found.covariance + np.outer(shift, shift),
         influence=Influence(pull, problem.y - W @ found.beta),
         whole=data.whole(found.sigma),
     )

@@ -1,5 +1,6 @@
 """The table of estimators: complete, told, and refused by name."""
 
+from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -21,3 +22,11 @@ def test_an_unknown_method_is_refused_by_name():
     with pytest.raises(DataError, match='method is "magic"; expected weighted'):
         method_of("magic")
     assert titled("weighted") == "weighted least squares" and titled("magic") == "magic"
+
+
+def test_the_page_says_what_the_table_says():
+    page = (Path(__file__).resolve().parents[2] / "docs" / "estimators.md").read_text("utf-8")
+    for about in ABOUT.values():
+        law = about.law.replace("|", "&#124;")
+        row = f"| `{about.id}` | {about.title} | {law} | {about.source} | {about.avoid} |"
+        assert row in page, about.id
