@@ -148,10 +148,9 @@ def derive_values(
     """
     system = solution.system
     inputs = (*system.data, *solution.known)
-    C = np.zeros((len(inputs), len(inputs)))
+    spread = [(sigmas or {}).get(name, 0.0) ** 2 for name in solution.known]
+    C = np.diag([0.0] * len(data) + spread)
     C[: len(data), : len(data)] = covariance
-    for i, name in enumerate(solution.known, start=len(data)):
-        C[i, i] = (sigmas or {}).get(name, 0.0) ** 2
     point, gradient = _start(solution, data, known, inputs)
     doubtful: dict[str, str] = {}
     for step in solution.steps:
