@@ -8,7 +8,7 @@ from pathlib import Path
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
     "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses", "scoring",
-    "diagnose", "pages",
+    "diagnose", "pages", "excite",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -23,13 +23,26 @@ STAGES: dict[str, set[str]] = {
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
     "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
+    "excite": {"core", "effects", "compiled", "observation", "hypotheses"},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
     "showing": {"core", *NORTH, "show"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
+    "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
     "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
-    "cli": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing", "improve", "api"},
+    "cli": {
+        "core",
+        *NORTH,
+        *SOUTH,
+        "simulate",
+        "show",
+        "derivation",
+        "showing",
+        "improve",
+        "methods",
+        "api",
+    },
 }
 
 # Which packages of others a stage may import, besides the standard library.
@@ -53,10 +66,12 @@ PACKAGES: dict[str, set[str]] = {
     "diagnose": {"numpy", "threadpoolctl"},
     "pages": {"numpy", "scipy"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
+    "excite": {"numpy", "matplotlib", "pyarrow"},
     "show": {"numpy", "matplotlib"},
     "derivation": set(),
     "showing": set(),
     "improve": {"numpy", "threadpoolctl"},
+    "methods": {"numpy"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }
@@ -76,6 +91,7 @@ MODULE_LINES = 400
 FUNCTION_LINES = 40
 
 LONGER: dict[str, str] = {
+    "excite/evolution.py evolve": "one generation, step by step as its source lists them",
     "observation/band.py choose_cutoffs": "each cut-off follows from the one before",
     "observation/consistency.py consistency": "half of it states the bounds that it applies",
     "observation/prepare.py prepare": "the steps of preparation in order, and what each leaves",

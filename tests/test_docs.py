@@ -27,7 +27,12 @@ ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",
        "docs/emitted-c.md", "docs/parallel-robots.md", "docs/orthoglide.md", "docs/evra.md",
        "docs/sr400.md", "docs/parallel-examples.md", "docs/diagnosis.md",
-       "docs/converting.md", "docs/drive-gains.md")  # fmt: skip
+       "docs/converting.md",
+       "docs/closed-forms.md",
+       "docs/drive-gains.md",
+       "docs/motor-side.md",
+       "docs/energy-model.md",
+       )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
 )

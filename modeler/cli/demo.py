@@ -6,9 +6,9 @@ from pathlib import Path
 
 from modeler.api import compile_model, derive, fit, generate, load, observe, read_logs
 from modeler.cli.add import waterfall
+from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.diagnose import lines
-from modeler.cli.fit import judged
 from modeler.compare import verdict, write_pictures, write_report
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose

@@ -19,6 +19,7 @@ from modeler.core.files import check_folder_writable, check_writable, page_place
 from modeler.core.window import file_and_window
 from modeler.robot.builtin import builtin_file, builtin_names
 from modeler.robot.converted import OTHER_PROGRAMS
+from modeler.simulate.settings import MOTIONS
 
 _LOGS = (".csv", ".parquet")
 
@@ -55,6 +56,10 @@ class RobotFile(Input):
         return builtin_file(self) if self in builtin_names() else Path(self)
 
 
+class RobotOrModel(RobotFile):
+    """A robot file, the name of a built-in robot, or a model file."""
+
+
 class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
 
@@ -64,6 +69,24 @@ class LogFile(Input):
     def file(self) -> Path:
         """Without the window."""
         return Path(file_and_window(self)[0])
+
+
+class MotionFile(Input):
+    """A table of a motion: a whole log, or what `modeler excite` writes."""
+
+    what = LogFile.what
+
+
+class MotionOrKind(MotionFile):
+    """Such a file, or the name of a kind of motion."""
+
+    def __new__(cls, text: str) -> "MotionOrKind":
+        """Refuses what is neither, as a wrong usage."""
+        if text not in MOTIONS and not text.endswith(_LOGS):
+            raise argparse.ArgumentTypeError(
+                f"got {text}; expected {', '.join(MOTIONS)}, or a .csv or .parquet file"
+            )
+        return super().__new__(cls, text)
 
 
 class Output(str):

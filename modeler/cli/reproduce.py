@@ -1,37 +1,32 @@
-"""`modeler reproduce PAPER`: a paper's results beside the derived ones."""
+"""`modeler reproduce PAPER`: a paper's results beside the derived ones, its methods run again."""
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import asdict
 
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
-from modeler.derivation import Derivation, derive, load
-from modeler.papers import Line, Paper, Verdict, check_paper, read_paper
-from modeler.papers.check import Derived
-from modeler.papers.coefficients import coefficient_lines
+from modeler.methods import MethodTable, Outcome, run_methods
+from modeler.papers import Derived, Line, Paper, Verdict, check_paper, derived_robot, read_paper
+from modeler.papers.check import SLIP_TEXTS
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:
     """Prints the lines; raises if one is different."""
     paper = read_paper(args.paper)
-    found: dict[str, Derivation] = {}
-    for name in paper.robots:
-        with working(f"deriving {name}"):
-            found[name] = derive(load(name))
-    lines = check_paper(
-        paper, {n: Derived(d.base, d.model.geometry.values) for n, d in found.items()}
-    )
-    for name in paper.coefficients:
-        derivation = found[name]
-        lines += coefficient_lines(derivation.model, derivation.base, paper.misprints)
-    _print(paper, found, lines)
-    args.after = after_reproduce
-    args.different = [line for line in lines if line.verdict is Verdict.DIFFERENT]
-    return {
-        "paper": paper.name,
-        "lines": [asdict(line) | {"verdict": line.verdict.value} for line in lines],
-        "notes": list(paper.notes),
-    }
+    say(paper.title)
+    args.after, args.different = after_reproduce, []
+    found: dict[str, object] = {"paper": paper.name}
+    if args.section != "methods":
+        lines = _lines(paper)
+        args.different += [line.printed for line in lines if line.verdict is Verdict.DIFFERENT]
+        found["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
+        found["notes"] = list(paper.notes)
+    if args.section != "print":
+        tables = _methods(paper)
+        args.different += _failed(tables)
+        found["methods"] = [_table_json(table) for table in tables]
+    return found
 
 
 def after_reproduce(args: argparse.Namespace) -> None:
@@ -41,30 +36,83 @@ def after_reproduce(args: argparse.Namespace) -> None:
         ModelerError: names the lines.
     """
     if args.different:
+        count = len(args.different)
         raise ModelerError(
-            f"{args.paper}: {len(args.different)} lines are different: "
-            + "; ".join(line.printed for line in args.different)
+            f"{args.paper}: {count} line{'s are' if count > 1 else ' is'} different: "
+            + "; ".join(args.different)
         )
 
 
-def _print(paper: Paper, found: dict[str, Derivation], lines: list[Line]) -> None:
-    say(paper.title)
+def _lines(paper: Paper) -> list[Line]:
+    found: dict[str, Derived] = {}
     for name in paper.robots:
-        base = found[name].base
-        say()
-        say(f"{name}: {found[name].robot.title}")
-        say(f"  {len(base.columns)} standard parameters, {base.rank} base parameters")
-        for line in (line for line in lines if line.robot == name):
-            say(f"  [{line.verdict.value}] {line.place}: {line.printed}")
-            if line.verdict not in (Verdict.EQUAL, Verdict.ROUNDED):
-                say(f"      derived: {line.derived}")
-            if line.why:
-                say(f"      {line.why}")
+        variant = paper.variants.get(name)
+        with working(f"deriving {name}"):
+            found[name] = (
+                derived_robot(name, variant.gravity, variant.of)
+                if variant is not None
+                else derived_robot(name)
+            )
+    lines = check_paper(paper, found)
+    for name in paper.robots:
+        _say_robot(name, found[name], [line for line in lines if line.robot == name])
     if paper.notes:
         say()
-        say("Other slips of the print:")
+        say("Seen in the text, not computed here:")
     for note in paper.notes:
         say(f"  * {note}")
     say()
     counts = {v: sum(line.verdict is v for line in lines) for v in Verdict}
     say(", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count))
+    return lines
+
+
+def _say_robot(name: str, derived: Derived, lines: Sequence[Line]) -> None:
+    say()
+    say(f"{name}: {derived.robot.title}")
+    for line in lines:
+        slip = f": {SLIP_TEXTS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
+        say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
+        if line.verdict is Verdict.MEASURED:
+            say(f"      must hold: {line.derived}")
+        if line.verdict in (Verdict.MISPRINT, Verdict.DIFFERENT):
+            say(f"      derived: {line.derived}")
+        if line.why:
+            say(f"      {line.why}")
+
+
+def _methods(paper: Paper) -> list[MethodTable]:
+    with progress(f"simulating the experiment of {paper.name}") as report:
+        tables = run_methods(paper, report)
+    for table in tables:
+        say()
+        say(table.title)
+        for sentence in table.setting:
+            say(f"  {sentence}")
+        cells = [(row.what, row.printed, row.ours) for row in table.rows]
+        heads = ("", "printed", "ours")
+        wide = [max(len(cell[i]) for cell in (heads, *cells)) for i in range(3)]
+        say("  " + "  ".join(f"{head:<{w}}" for head, w in zip(heads, wide, strict=True)).rstrip())
+        for row, cell in zip(table.rows, cells, strict=True):
+            text = "  ".join(f"{part:<{w}}" for part, w in zip(cell, wide, strict=True))
+            say(f"  {text}  [{row.outcome.value}]" + (f" {row.why}" if row.why else ""))
+    say()
+    rows = [row for table in tables for row in table.rows]
+    counts = {o: sum(row.outcome is o for row in rows) for o in Outcome}
+    told = ", ".join(f"{count} {outcome.value}" for outcome, count in counts.items() if count)
+    say(f"methods: {told or 'none of this paper is run here'}")
+    return tables
+
+
+def _failed(tables: Sequence[MethodTable]) -> list[str]:
+    return [
+        f"{table.title}: {row.what}"
+        for table in tables
+        for row in table.rows
+        if row.outcome is Outcome.FAILED
+    ]
+
+
+def _table_json(table: MethodTable) -> dict[str, object]:
+    rows = [asdict(row) | {"outcome": row.outcome.value} for row in table.rows]
+    return {"title": table.title, "setting": list(table.setting), "rows": rows}

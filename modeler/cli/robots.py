@@ -16,7 +16,7 @@ from modeler.robot.place import near
 
 def robot_of(args: argparse.Namespace) -> Robot:
     """The robot that the arguments mean; a [home] that is missing or poor is found, and told."""
-    robot = _with_effects(args)
+    robot = robot_with_effects(args)
     if not robot.loops:
         return robot
     from modeler.symbolic import with_home  # not needed by commands that answer at once
@@ -34,7 +34,8 @@ def robot_of(args: argparse.Namespace) -> Robot:
     return robot_from_text(text, f"{args.robot} with its [home]")
 
 
-def _with_effects(args: argparse.Namespace) -> Robot:
+def robot_with_effects(args: argparse.Namespace) -> Robot:
+    """The robot that the arguments name, with the effects that they give it."""
     robot = read_told(args.robot)
     if args.effects is None:
         return robot

@@ -1,16 +1,23 @@
 """`modeler simulate ROBOT --out LOG`."""
 
 import argparse
+import math
 from pathlib import Path
 
 from modeler.cli.console import Json, progress, say
 from modeler.cli.robots import robot_of
+from modeler.core.errors import DataError
+from modeler.robot import Robot
 from modeler.simulate import (
     KEPT,
+    MOTIONS,
+    Reference,
     SimulationSettings,
+    at_rate,
     check_suffix,
     drive_gains,
     hidden_from_text,
+    read_motion,
     simulate,
     told_hidden,
     write_log,
@@ -23,7 +30,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
     check_suffix(Path(args.out))
     robot = robot_of(args)
     settings = SimulationSettings(
-        motion=args.motion,
+        motion=args.motion if args.motion in MOTIONS else "exciting",
         duration=args.duration,
         rate=args.rate,
         seed=args.seed,
@@ -34,6 +41,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         controller=args.controller,
         hidden=tuple(hidden_from_text(text) for text in args.hide),
         drive_gains=drive_gains(args.drive_gain, robot),
+        commanded=None if args.motion in MOTIONS else _commanded(args, robot),
     )
     with progress(f"simulating {robot.name}") as report:
         log = simulate(robot, settings, report)
@@ -57,6 +65,13 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "hidden": told_hidden(log),
         "range_share": log.range_share,
     }
+
+
+def _commanded(args: argparse.Namespace, robot: Robot) -> Reference:
+    """The motion of the file, at the rate that is asked for."""
+    if not (math.isfinite(args.rate) and args.rate > 0.0):
+        raise DataError(f"--rate: got {args.rate:g}; expected a number above 0")
+    return at_rate(read_motion(args.motion, [joint.name for joint in robot.coordinates]), args.rate)
 
 
 def _say_narrowed(share: float) -> None:

@@ -2,11 +2,19 @@
 
 from typing import Literal
 
-Method = Literal["weighted", "ordinary", "consistent"]
+Method = Literal[
+    "weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim", "consistent",
+]  # fmt: skip
 """Estimators; `core.estimators` says what each is."""
+
+ModelKind = Literal["torque", "energy"]
+"""What a row of the fit states: a joint's torque, or the energy balance of a window."""
 
 GAIN_METHOD = "tls"
 """Total least squares, for drive gains besides."""
+
+TWO_STEPS = "two-step"
+"""Each joint that moves alone, then the parameters."""
 
 Derivatives = Literal["auto", "log", "position"]
 """Whether velocities are taken from the log or differentiated; auto: the quieter."""

@@ -6,10 +6,12 @@ import numpy as np
 
 from modeler.estimate.least_squares import Estimate
 from modeler.observation import Observation
+from modeler.observation.row_filter import SPREAD
 
 _WORTH = 1.2  # a factor above it is said
 _LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter
 _SPREADS = 1.0  # standard deviations of the autocorrelation of white residuals
+_FADED = 0.01
 _TOLD = 0.2  # autocorrelation that is told: filtering leaves 0.1
 
 
@@ -48,10 +50,10 @@ def coloured(
         C B C,  B = sum_j sum_k r_j(|k|) sum_t w_j(t) w_j(t+k)^T / sigma_j^2,
 
     w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
-    sum over k ends with the first r_j below one standard deviation of that of white noise; the
-    first lag always counts, rows of one parallel filter correlate by 0.1).
-    An estimator with an influence has pull_t sigma_j in place of C w_t / sigma_j. Each sigma is
-    multiplied by the square root of the ratio of the diagonals, never by less than 1.
+    sum over k ends with the first r_j below one standard deviation of that of white noise). r_j is
+    at least that of white noise through the parallel filter. An estimator with an influence has
+    pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the square root of the
+    ratio of the diagonals, never by less than 1.
 
     Args:
         observation: says which row is which sample and joint.
@@ -60,16 +62,16 @@ def coloured(
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
     """
-    C, own_way, memory = estimate.covariance, estimate.influence, []
+    C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
-    extra = np.zeros(len(C))  # diagonal of C (B - C^-1) C
+    extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
-        r = autocorrelation(residual[own], sample, observation.segment)
-        sigma = estimate.sigma[j]
-        rows = W[own] @ C / sigma if own_way is None else own_way.pull[own] * sigma
+        r = _at_least(autocorrelation(residual[own], sample, observation.segment), filtered)
+        rms = np.sqrt(np.mean(residual[own] ** 2))
+        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.pull[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:
@@ -116,6 +118,27 @@ def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarra
     right = np.searchsorted(sample, sample + lag).clip(0, len(sample) - 1)
     together = (sample[right] == sample + lag) & (segment[sample[right]] == segment[sample])
     return np.flatnonzero(together), right[together]
+
+
+def _of_the_filter(observation: Observation) -> np.ndarray:
+    """r(0) = 1, r(1), ... of white noise through the parallel filter, down to 0.01.
+
+    Means with Gaussian weights of standard deviation s, d apart, correlate by exp(-d^2 / 4 s^2).
+    """
+    cutoff = observation.report.processing.parallel_cutoff
+    if not cutoff:
+        return np.ones(1)
+    lags = np.arange(_LAGS) * _spacing(observation) * cutoff / SPREAD
+    r = np.exp(-(lags**2) / 4.0)
+    return r[: max(1, int(np.argmax(r < _FADED)))]
+
+
+def _at_least(r: np.ndarray, floor: np.ndarray) -> np.ndarray:
+    """The estimate, where it is not less than what the filter alone makes."""
+    longer = np.zeros(max(len(r), len(floor)))
+    longer[: len(r)] = r
+    longer[: len(floor)] = np.maximum(longer[: len(floor)], floor)
+    return longer
 
 
 def _spacing(observation: Observation) -> float:

@@ -90,7 +90,7 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
     common = np.sqrt(np.sum(data.residual_norms(beta) ** 2) / degrees)
     iterations, settled = 0, True
     if method == "ordinary":
-        sigma = np.full(len(data.rows), max(common, _floor(data).max()))
+        sigma = np.full(len(data.rows), max(common, least_sigma(data).max()))
         covariance = covariance * sigma[0] ** 2
     else:
         cancelling = _cancelling(data, beta)
@@ -122,8 +122,8 @@ def _rms(data: Compressed) -> np.ndarray:
     return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
 
 
-def _floor(data: Compressed) -> np.ndarray:
-    """Smallest sigma: exact data would otherwise divide by zero."""
+def least_sigma(data: Compressed) -> np.ndarray:
+    """(n,) the smallest sigma of each joint: exact data would otherwise divide by zero."""
     rms = _rms(data)
     return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
 
@@ -136,7 +136,7 @@ def _cancelling(data: Compressed, beta: np.ndarray) -> np.ndarray:
 
 def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np.ndarray:
     """(n,) sigma from the spread of the residuals, kept away from 0."""
-    sigma = np.maximum(spread, _floor(data))
+    sigma = np.maximum(spread, least_sigma(data))
     rms = _rms(data)
     driven = ~data.free & (rms > 0.0)
     if driven.any():

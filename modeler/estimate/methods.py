@@ -8,7 +8,11 @@ from modeler.core.errors import DataError
 from modeler.core.estimators import ABOUT, About
 from modeler.estimate.buildable import buildable
 from modeler.estimate.least_squares import Estimate, least_squares
+from modeler.estimate.ordinary import ordinary
 from modeler.estimate.problem import Problem
+from modeler.estimate.ridge import ridge
+from modeler.estimate.robust import robust
+from modeler.estimate.simulated import didim, iv, iv_direct
 
 
 @dataclass(frozen=True)
@@ -44,13 +48,14 @@ def _weighted(problem: Problem) -> Estimate:
     return least_squares(problem.data, "weighted")
 
 
-def _ordinary(problem: Problem) -> Estimate:
-    return least_squares(problem.data, "ordinary")
-
-
 _FUNCTIONS: dict[Method, Callable[[Problem], Estimate]] = {
     "weighted": _weighted,
-    "ordinary": _ordinary,
+    "ordinary": ordinary,
+    "robust": robust,
+    "ridge": ridge,
+    "iv": iv,
+    "iv-direct": iv_direct,
+    "didim": didim,
     "consistent": buildable,
 }
 METHODS: dict[str, Estimator] = {id: Estimator(ABOUT[id], _FUNCTIONS[id]) for id in _FUNCTIONS}

@@ -1,5 +1,6 @@
 """Does the fit predict motion like that of its logs? What was left out answers."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,12 @@ class Crossed:
     stretches: int
 
 
-def crossed(observation: Observation, rows: np.ndarray, sigma: np.ndarray) -> Crossed:
+def crossed(
+    observation: Observation,
+    rows: np.ndarray,
+    sigma: np.ndarray,
+    refit: Callable[[np.ndarray], np.ndarray] | None = None,
+) -> Crossed:
     """Cross-validation over stretches of half a swing.
 
     A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
@@ -39,22 +45,23 @@ def crossed(observation: Observation, rows: np.ndarray, sigma: np.ndarray) -> Cr
         observation: of all logs.
         rows: (rows,) True for those to use.
         sigma: (n,) standard deviation of a row of each joint.
+        refit: beta (c,) without the samples (s,) that are held out; None: least squares of the
+            other rows.
     """
     swing = _swing(observation)
     number = _stretches(observation, swing)
     seen = np.unique(number[observation.row_sample[rows]])
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
     joint = observation.row_joint
-    weight = 1.0 / sigma[joint]
-    parts = [
-        triangle((np.column_stack([observation.W, observation.y]) * weight[:, None])[rows & own])
-        for own in (fold == k for k in range(min(FOLDS, len(seen))))
-    ]
+    weighed = np.column_stack([observation.W, observation.y]) / sigma[joint][:, None]
+    parts = [triangle(weighed[rows & (fold == k)]) for k in range(min(FOLDS, len(seen)))]
     left = np.zeros(len(sigma))
     for k in range(len(parts)):
-        others = [part for i, part in enumerate(parts) if i != k]
-        beta = _solved(np.vstack(others)) if others else np.zeros(len(observation.names))
         own = rows & (fold == k)
+        if refit is None:
+            beta = solved(np.vstack([weighed[:0], *parts[:k], *parts[k + 1 :]]))
+        else:
+            beta = refit(np.searchsorted(seen, number) % FOLDS == k)
         residual = observation.y[own] - observation.W[own] @ beta
         left += np.bincount(joint[own], residual**2, len(sigma))
     total = np.bincount(joint[rows], observation.y[rows] ** 2, len(sigma))
@@ -84,7 +91,7 @@ def _stretches(observation: Observation, swing: float) -> np.ndarray:
     return number
 
 
-def _solved(whole: np.ndarray) -> np.ndarray:
+def solved(whole: np.ndarray) -> np.ndarray:
     """(c,) least squares of a triangle [W y]; 0 along directions that it does not see."""
     W, y = whole[:, :-1], whole[:, -1]
     length = np.linalg.norm(W, axis=0)

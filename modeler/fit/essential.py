@@ -1,5 +1,6 @@
 """Essential parameters: the others may be left out and no F-test notices."""
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,7 @@ class Essential:
         error_after: with the essential ones.
         ratio: F statistic of all dropped parameters together.
         limit: the F quantile that it stays under.
+        reduced: the estimate of the essential parameters alone, columns as `names`.
     """
 
     names: tuple[str, ...]
@@ -33,6 +35,7 @@ class Essential:
     error_after: float
     ratio: float
     limit: float
+    reduced: Estimate
 
     def sentence(self) -> str:
         """What was found."""
@@ -62,12 +65,14 @@ def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Es
     whole = data.whole(full.sigma) if full.whole is None else full.whole
     kept, dropped, ratio, limit = _eliminate(whole, full)
     left = tuple(data.names[i] for i in dropped)
+    aside = [tangle.name for tangle in full.rank.aside]
+    own = data.without([*left, *aside])
+    reduced = least_squares(own, "ordinary" if method == "ordinary" else "weighted")
+    if kept and method not in ("weighted", "ordinary"):
+        values, root = solve_by_qr(whole[:, kept], whole[:, -1])
+        reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))
-    if method in ("weighted", "ordinary"):
-        aside = [tangle.name for tangle in full.rank.aside]
-        beta[kept] = least_squares(data.without([*left, *aside]), method).beta
-    elif kept:
-        beta[kept], _ = solve_by_qr(whole[:, kept], whole[:, -1])
+    beta[kept] = reduced.beta
     return Essential(
         names=tuple(data.names[i] for i in kept),
         dropped=left,
@@ -76,6 +81,7 @@ def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Es
         error_after=relative_error(data, beta),
         ratio=float(ratio),
         limit=limit,
+        reduced=reduced,
     )
 
 

@@ -1,5 +1,6 @@
 """From an observation to a fitted model."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
 from modeler.estimate.methods import method_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
+from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
 
@@ -99,7 +101,21 @@ def fit_equations(
                    *_sentences(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
         standard=estimate.standard,
+        own=estimate.sentences,
+        essential=_reduced(observation, equations, alive, essential),
     )  # fmt: skip
+
+
+def _reduced(
+    observation: Observation, equations: Equations, alive: np.ndarray, essential: Essential
+) -> Reduced | None:
+    """The essential parameters alone, as sure as their own residuals let them be."""
+    at = [equations.names.index(name) for name in essential.names]
+    W, reduced = equations.W[:, at], essential.reduced
+    factors = coloured(observation, W, equations.y, alive, reduced).factors
+    sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    units = dict(zip(equations.names, equations.units, strict=True))
+    return reduced_model(essential, reduced, sigma, units)
 
 
 def _problem(
@@ -118,6 +134,26 @@ def _problem(
     )
     return Problem(
         observation, equations.W, equations.y, alive, equations.names, equations.units, data, model
+    )
+
+
+def parts_of(
+    observation: Observation, estimate: Estimate, essential: Essential
+) -> tuple[tuple[ParameterEstimate, ...], tuple[JointFit, ...], Compressed]:
+    """Parameters and joints of an estimate that was made in another way, and all rows.
+
+    The standard deviations of its joints are those of their residuals.
+    """
+    alive = ~np.isin(observation.row_joint, dead_joints(observation))
+    equations = base_equations(observation)
+    data = _problem(observation, equations, alive, None).data
+    rms = data.residual_norms(estimate.beta) / np.sqrt(np.maximum(data.rows, 1))
+    seen = dataclasses.replace(estimate, sigma=rms)
+    sigma = np.sqrt(np.diag(estimate.covariance))
+    return (
+        _parameters(estimate, essential, equations, sigma),
+        _joints(observation, data, seen),
+        data,
     )
 
 
@@ -197,7 +233,7 @@ def _status(estimate: Estimate) -> str:
 
 def _sentences(estimate: Estimate, essential: Essential) -> list[str]:
     said = [tangle.sentence() for tangle in estimate.rank.aside]
-    if not estimate.settled:
+    if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
         said.append(
             f"the joint weights still change after {MAX_ITERATIONS} iterations; "
             'record more rows, or use method "ordinary"'

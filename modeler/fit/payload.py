@@ -64,9 +64,8 @@ def identify_with_payloads(
     Raises:
         DataError: a log or link that is not there, every log loaded, a mass that is not positive.
     """
-    return fit_equations(
-        observation, loaded_equations(model, observation, payloads).equations, method, model
-    )
+    equations = loaded_equations(model, observation, payloads).equations
+    return fit_equations(observation, equations, method, model)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,50 +8,12 @@ import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
 from modeler.fit.bodies import bodies_told
+from modeler.fit.directions import Directed, directed_from_json, direction_lines
+from modeler.fit.energy_report import EnergyReport, energy_report_from_json
+from modeler.fit.parameter import ParameterEstimate as ParameterEstimate
+from modeler.fit.parameter import parameter_lines, read_parameter
+from modeler.fit.reduced import Reduced, reduced_from_json
 from modeler.observation import Processing, processing_from_json
-
-
-@dataclass(frozen=True)
-class ParameterEstimate:
-    """One estimated parameter.
-
-    Attributes:
-        name: base parameter, or load parameter.
-        unit: SI.
-        value: 0 if it was set aside.
-        sigma: standard deviation; None if it was set aside.
-        essential: False if the model does as well without it.
-        status: "estimated" | "set aside".
-        interval: 95 %, of parameters of an effect whose shapes were fitted too; None for others.
-    """
-
-    name: str
-    unit: str
-    value: float
-    sigma: float | None
-    essential: bool
-    status: str
-    interval: tuple[float, float] | None = None
-
-    @property
-    def relative_sigma_percent(self) -> float | None:
-        """100 sigma / |value|; None where that means nothing."""
-        if self.sigma is None or self.value == 0.0:
-            return None
-        return 100.0 * self.sigma / abs(self.value)
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        return {
-            "name": self.name,
-            "value": self.value,
-            "sigma": self.sigma,
-            "relative_sigma_percent": self.relative_sigma_percent,
-            "essential": self.essential,
-            "unit": self.unit,
-            "status": self.status,
-            "interval": None if self.interval is None else list(self.interval),
-        }
 
 
 @dataclass(frozen=True)
@@ -118,9 +80,13 @@ class FitResult:
         sentences: what a reader must know, plain text.
         processing: with all choices filled in; use it for held-out logs.
         verdict: usable or not; None if nobody has judged it.
+        standard: all standard parameters by name, SI, of an estimator that ends in them.
+        own: those of the sentences that the estimator says of itself; not kept in model files.
+        essential: the reduced model; None if it has no parameter, or in files that lack it.
+        directions: friction by direction, of joints whose viscous friction differs.
+        energy: how it compares with the torque model; None for the torque model itself.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
-        standard: all standard parameters by name, SI, of an estimator that ends in them.
     """
 
     robot: str
@@ -139,9 +105,13 @@ class FitResult:
     sentences: tuple[str, ...]
     processing: Processing
     verdict: Verdict | None = None
+    standard: Mapping[str, float] = field(default_factory=dict)
+    own: tuple[str, ...] = ()
+    essential: Reduced | None = None
+    directions: tuple[Directed, ...] = ()
+    energy: EnergyReport | None = None
     gains: tuple[ParameterEstimate, ...] = ()
     singular_values: tuple[float, ...] = ()
-    standard: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def beta(self) -> np.ndarray:
@@ -150,20 +120,8 @@ class FitResult:
 
     def summary(self) -> list[str]:
         """Lines of text: parameters, joints, remarks."""
-        every = (*self.gains, *self.parameters, *self.loads)
-        width = max([9, *(len(p.name) for p in every)])
-        lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}  unit"]
-        for parameter in every:
-            if parameter.sigma is None:
-                lines.append(f"{parameter.name:<{width}} {'set aside':>13}")
-                continue
-            share = parameter.relative_sigma_percent
-            percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
-            mark = "" if parameter.essential else "  (not essential)"
-            lines.append(
-                f"{parameter.name:<{width}} {parameter.value:>13.6g} {parameter.sigma:>10.3g} "
-                f"{percent:>8}  {parameter.unit}{mark}"
-            )
+        lines = parameter_lines((*self.gains, *self.parameters, *self.loads))
+        lines += direction_lines(self.directions)
         lines += [
             f"{self.rows} rows of {self.samples} samples, condition number "
             f"{self.condition_number:.4g} ({self.condition_scaled:.4g} with columns of length one)",
@@ -174,6 +132,8 @@ class FitResult:
             share_text = "-" if error is None else f"{100.0 * error:.2f} %"
             lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
         lines += [*bodies_told(self.standard), *self.sentences]
+        lines += self.essential.summary() if self.essential is not None else []
+        lines += self.energy.summary() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
             lines += [*(f"doubt: {line}" for line in others), self.verdict.line]
@@ -208,6 +168,10 @@ class FitResult:
             "sentences": list(self.sentences),
             "processing": self.processing.to_json(),
             "standard": dict(self.standard),
+            "essential": None if self.essential is None else self.essential.to_json(),
+            "directions": [item.to_json() for item in self.directions],
+            "model": "torque" if self.energy is None else "energy",
+            "energy": None if self.energy is None else self.energy.to_json(),
             **_verdict_to_json(self.verdict),
         }
 
@@ -230,15 +194,18 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             relative_error=float(raw["relative_error"]),
             essential_error=float(raw["essential_error"]),
             joints=tuple(JointFit(name=name, **entry) for name, entry in raw["joints"].items()),
-            parameters=tuple(_parameter(entry) for entry in raw["parameters"]),
+            parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
             covariance=covariance,
-            loads=tuple(_parameter(entry) for entry in raw["loads"]),
+            loads=tuple(read_parameter(entry) for entry in raw["loads"]),
             sentences=tuple(raw["sentences"]),
             processing=processing_from_json(raw["processing"]),
             verdict=_verdict_from_json(raw),
-            gains=tuple(_parameter(entry) for entry in raw.get("gains", [])),
-            singular_values=tuple(map(float, raw.get("singular_values", []))),
             standard={str(k): float(v) for k, v in raw.get("standard", {}).items()},
+            essential=reduced_from_json(raw.get("essential")),
+            directions=tuple(directed_from_json(item) for item in raw.get("directions", ())),
+            energy=energy_report_from_json(raw.get("energy")),
+            gains=tuple(read_parameter(entry) for entry in raw.get("gains", [])),
+            singular_values=tuple(map(float, raw.get("singular_values", []))),
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
@@ -263,15 +230,6 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
         raise ValueError("its verdict is not as saved")
     return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
-
-
-def _parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
-    fields = {k: v for k, v in entry.items() if k != "relative_sigma_percent"}
-    interval = fields.pop("interval", None)
-    if interval is not None:
-        low, high = interval
-        interval = float(low), float(high)
-    return ParameterEstimate(**fields, interval=interval)
 
 
 def _finite(value: float) -> float | None:

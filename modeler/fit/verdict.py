@@ -1,7 +1,7 @@
 """Usable or not, what for, why, and what to do: how a fit ends."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from modeler.estimate.least_squares import solve_by_qr
 from modeler.estimate.possible import Nearest, carried_by, machine_of, nearest_possible
 from modeler.fit.clock import time_doubts
 from modeler.fit.crossed import Crossed, crossed
+from modeler.fit.directions import friction_by_direction
 from modeler.fit.doubts import (
     LITTLE,
     WIDE,
@@ -45,6 +46,7 @@ def with_verdict(
     result: FitResult,
     told: Sequence[Told] = (),
     bare: Sequence[str] | None = None,
+    refit: Callable[[np.ndarray], np.ndarray] | None = None,
 ) -> FitResult:
     """The fit with its verdict.
 
@@ -60,24 +62,21 @@ def with_verdict(
         result: of the fit.
         told: findings of other stages about the logs; one that is certain makes the fit unusable.
         bare: names of the logs without a load; None: all.
+        refit: how the fit is made without some samples; None: by least squares of the torques.
     """
     rows = _rows(observation, bare)
     sigma = np.array([joint.sigma for joint in result.joints])
-    data = compress(
-        observation.W[rows],
-        observation.y[rows],
-        observation.row_joint[rows],
-        len(sigma),
-        observation.names,
-    )
-    seen = crossed(observation, rows, sigma)
+    W, y, joint = observation.W[rows], observation.y[rows], observation.row_joint[rows]
+    data = compress(W, y, joint, len(sigma), observation.names)
+    seen = crossed(observation, rows, sigma, refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
     found += [*scarce(result, seen), *undescribed(result)]
     found += systematic(result, _lasting(observation, rows, result))
     found += undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
-    return dataclasses.replace(result, verdict=_verdict(found, result, seen))
+    directions = friction_by_direction(model.spec, result)
+    return dataclasses.replace(result, verdict=_verdict(found, result, seen), directions=directions)
 
 
 def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:

@@ -40,6 +40,7 @@ class Segment:
         whole: (n,) False within the edge of the position filter.
         valid: (n, joints) True where the torque is a measurement that counts.
         lost: why the others do not count, samples (joints,) by cause; the first cause that applies.
+        commanded: (n, joints) commanded positions, filtered like q; None where none were logged.
     """
 
     run: int
@@ -53,6 +54,7 @@ class Segment:
     whole: np.ndarray
     valid: np.ndarray
     lost: Mapping[str, np.ndarray]
+    commanded: np.ndarray | None = None
 
     @property
     def samples(self) -> int:
@@ -93,8 +95,9 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
         whole[:edge] = whole[-edge:] = False
     valid, lost = _counted(piece, whole, edge, cutoff, processing.keep_saturated)
     tau = _later(piece, processing.delay)
+    wanted = None if piece.commanded is None else low_pass(piece.commanded, piece.step, cutoff)
     return Segment(
-        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, valid, lost
+        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, valid, lost, wanted
     )
 
 

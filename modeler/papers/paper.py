@@ -1,12 +1,14 @@
-"""What a paper prints, as data: counts and relations, each with its place in the paper.
+"""What a paper prints, as short quotations, and what we conclude from it.
 
-One file per paper in `library/`. Relations are written in the robot file's names; where the print
-is wrong, the file says so, with the right relation and the reason.
+One file per paper in `library/`. A quotation is the print letter by letter, without the marks of
+typesetting: subscripts stand on the line, `^` is a power. What is compared is read from the
+quotation itself. Where the print is not what is derived, the file states the difference, derived
+minus printed, and the reason; nothing else passes.
 """
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -14,47 +16,65 @@ from modeler.core.errors import RobotError
 
 _FOLDER = Path(__file__).parent / "library"
 
+SLIPS = ("misprint", "omission", "error", "scan")
+"""Why a print differs: a slip of the pen, something left out, a wrong statement, or perhaps only
+the scanned text that was read and not the paper."""
+
 
 @dataclass(frozen=True)
-class PrintedCount:
-    """A number that the paper prints.
+class PrintedLine:
+    """One statement about a robot: quoted, or ours.
 
     Attributes:
-        robot: built-in robot that it is about.
-        place: in the paper.
-        what: one of `modeler.papers.check.COUNTS`.
-        printed: the number.
-        right: what it should be; None if the print is right.
-        why: reason of a misprint, or a remark.
+        robot: built-in robot, or one of `Paper.variants`.
+        place: in the paper: section, equation or table.
+        quote: the print; "" if the statement is our consequence.
+        ours: our consequence, in our names; "" if it is printed.
+        check: how it is compared: "relation", "numbers", "names", "arithmetic", "row", "tied",
+            "rows", "angular", "energy", or one of the wrist's coefficient functions.
+        given: further quotations that it rests on: assumptions, or sums put in.
+        legs: what stands for i; one line each.
+        gives: what is derived, one expression per number, or the expression of a set.
+        difference: derived minus printed, in our names; "" if they are to be the same.
+        slip: one of `SLIPS`, where there is a difference.
+        why: reason of the difference, or a remark.
+        of: "M13R = Off13/g - Off13R/g": what a left side is that the robot does not have, in base
+            parameters or in joint variables.
+        through: robot whose base parameters stand on the right side of a relation, leg by leg.
+        strip: ending of names that the robot lacks, a leg that stands alone.
+        seal: fingerprint of a quotation that holds measured numbers.
+        measured: nothing derives its numbers; `gives` says what must hold of them.
     """
 
     robot: str
     place: str
-    what: str
-    printed: int
-    right: int | None
-    why: str
+    check: str
+    quote: str = ""
+    ours: str = ""
+    given: tuple[str, ...] = ()
+    legs: tuple[str, ...] = ("",)
+    gives: tuple[str, ...] = ()
+    difference: str = ""
+    slip: str = ""
+    why: str = ""
+    of: str = ""
+    through: str = ""
+    strip: str = ""
+    seal: str = ""
+    measured: bool = False
+
+    @property
+    def text(self) -> str:
+        """What is stated."""
+        return self.quote or self.ours
 
 
 @dataclass(frozen=True)
-class PrintedRelation:
-    """A grouping relation that the paper prints, in the robot file's names.
+class Variant:
+    """A built-in robot with gravity along another axis."""
 
-    Attributes:
-        robot: built-in robot that it is about.
-        place: in the paper.
-        base: name of the base parameter.
-        printed: its right side; decimals stand for values rounded to their last digit.
-        right: what it should be; None if the print is right, "" if it is no base parameter.
-        why: reason of a misprint, or a remark.
-    """
-
-    robot: str
-    place: str
-    base: str
-    printed: str
-    right: str | None
-    why: str
+    of: str
+    gravity: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -64,22 +84,24 @@ class Paper:
     Attributes:
         name: of the command, "guegan-2003".
         title: authors, title, year.
-        robots: built-in robots in the order in which they are shown.
-        counts: printed numbers.
-        relations: printed relations.
-        coefficients: robots whose files quote the paper's coefficient functions.
-        misprints: lines of these that are wrong in the print, as "function S112".
-        notes: other slips of the print, one text each.
+        robots: in the order in which they are shown.
+        variants: robots that no file describes, by name.
+        lines: all statements, in the order of the paper.
+        names: the paper's names where they are not ours with another index: print -> ours.
+        coefficients: robot whose file quotes the paper's coefficient functions, or "".
+        slips: of these quotations: "function S112" -> kind, difference, reason.
+        notes: other slips of the print, which nothing here computes, one text each.
     """
 
     name: str
     title: str
     robots: tuple[str, ...]
-    counts: tuple[PrintedCount, ...]
-    relations: tuple[PrintedRelation, ...]
-    coefficients: tuple[str, ...]
-    misprints: tuple[str, ...]
-    notes: tuple[str, ...]
+    variants: Mapping[str, Variant]
+    lines: tuple[PrintedLine, ...]
+    names: Mapping[str, str]
+    coefficients: str = ""
+    slips: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 def paper_names() -> tuple[str, ...]:
@@ -96,43 +118,30 @@ def read_paper(name: str) -> Paper:
     if name not in paper_names():
         raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(paper_names())}')
     document = tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
-    counts = [_count(entry) for entry in document.get("count", [])]
-    relations = [r for entry in document.get("relation", []) for r in _relations(entry)]
-    robots = dict.fromkeys([c.robot for c in counts] + [r.robot for r in relations])
+    lines = tuple(_line(entry) for entry in document["line"])
+    coefficients = document.get("coefficients", "")
+    named = [name for line in lines for name in (line.robot, line.through) if name]
+    robots = dict.fromkeys(named + [coefficients] * bool(coefficients))
     return Paper(
         name=name,
         title=document["title"],
         robots=tuple(robots),
-        counts=tuple(counts),
-        relations=tuple(relations),
-        coefficients=tuple(document.get("coefficients", [])),
-        misprints=tuple(document.get("misprints", [])),
+        variants={
+            key: Variant(entry["of"], tuple(str(axis) for axis in entry["gravity"]))
+            for key, entry in document.get("variants", {}).items()
+        },
+        lines=lines,
+        names=document.get("names", {}),
+        coefficients=coefficients,
+        slips=document.get("slips", {}),
         notes=tuple(document.get("notes", [])),
     )
 
 
-def _count(entry: Mapping[str, Any]) -> PrintedCount:
-    return PrintedCount(
-        entry["robot"], entry["place"], entry["what"], entry["printed"], entry.get("right"),
-        entry.get("why", ""),
-    )  # fmt: skip
-
-
-def _relations(entry: Mapping[str, Any]) -> list[PrintedRelation]:
-    """One relation, or one for each leg where {i} stands in it."""
-    legs = entry.get("legs", [""])
-
-    def text(key: str, leg: str) -> str:
-        return entry[key].replace("{i}", leg)
-
-    return [
-        PrintedRelation(
-            robot=entry["robot"],
-            place=entry["place"],
-            base=text("base", leg),
-            printed=text("printed", leg),
-            right=text("right", leg) if "right" in entry else None,
-            why=entry.get("why", ""),
-        )
-        for leg in legs
-    ]
+def _line(entry: Mapping[str, Any]) -> PrintedLine:
+    known = {f.name for f in fields(PrintedLine)}
+    assert set(entry) <= known, f"{set(entry) - known} is no key of a line"
+    assert bool(entry.get("quote")) != bool(entry.get("ours")), f"{entry} is quoted or ours"
+    assert entry.get("slip", "scan") in SLIPS, f"{entry['slip']} is no slip"
+    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()}
+    return PrintedLine(**values)

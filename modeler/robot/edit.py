@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from modeler.core.errors import RobotError
@@ -159,11 +159,11 @@ def with_effects(text: str, effects: Effects) -> str:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     kept, table = [], ""
-    catalogue = _catalogue(text)
+    catalogue, motors = _catalogue(text), tomllib.loads(text).get("motors", {})
     for line in text.splitlines():
         if line.startswith("["):
             table = line.split("#")[0].strip()
-        gone = table == "[parameters]" and not _belongs(_key(line), effects, catalogue)
+        gone = table == "[parameters]" and not _belongs(_key(line), effects, catalogue, motors)
         if table != "[effects]" and not gone:
             kept.append(line)
     lines = ["[effects]", *(f"{name} = {_toml(joints)}" for name, joints in effects.items())]
@@ -185,7 +185,8 @@ def _others(text: str, effects: Effects, catalogue: Sequence[Effect]) -> dict:
     document = tomllib.loads(text)
     document.pop("effects", None)
     values = document.get("parameters", {})
-    kept = {n: v for n, v in values.items() if _belongs(n, effects, catalogue)}
+    motors = document.get("motors", {})
+    kept = {n: v for n, v in values.items() if _belongs(n, effects, catalogue, motors)}
     return document | {"parameters": kept}
 
 
@@ -195,11 +196,16 @@ def _key(line: str) -> str:
     return found[1] if found else ""
 
 
-def _belongs(parameter: str, effects: Effects, catalogue: Sequence[Effect]) -> bool:
-    """True if the parameter is a link's, or one of these effects'; the longest prefix tells."""
+def _belongs(
+    parameter: str, effects: Effects, catalogue: Sequence[Effect], motors: Collection[str]
+) -> bool:
+    """True if the parameter is a link's, or one of these effects'.
+
+    Its prefix is the longest, or one that a motor's name follows: Fvm1 is Fv of a motor m1.
+    """
     owners = {c.prefix: e.id for e in catalogue for form in e.forms for c in form.columns}
     prefixes = [p for p in (*INERTIAL, *owners) if parameter.startswith(p)]
-    prefix = max(prefixes, key=len, default="")
+    prefix = max(prefixes, key=lambda p: (parameter[len(p) :] in motors, len(p)), default="")
     if prefix not in owners:
         return True
     for name, joints in effects.items():

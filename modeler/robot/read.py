@@ -28,6 +28,7 @@ from modeler.robot.effects import needs_reference, read_effects
 from modeler.robot.joint import Joint
 from modeler.robot.legs import expanded, leg_names
 from modeler.robot.loops import read_home, read_loops
+from modeler.robot.motors import check_driven, motor_rows, read_motors, with_driven
 from modeler.robot.own_effects import read_own_effects
 from modeler.robot.place import Place, listed, near, shown
 from modeler.robot.platform import read_platform
@@ -47,7 +48,7 @@ from modeler.robot.table import Row, table_joints, table_rows
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
-    "parameters", "reference", "drive_gains", "limits", "physical", "terms",
+    "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -104,12 +105,16 @@ def robot_from_text(text: str, where: str) -> Robot:
     document = expanded(_document(text, place), place)
     platform_rows, platform = read_platform(document.get("platform"), place.at("[platform]"))
     rows = table_rows(document["mdh"], place.at("[mdh]"), platform_rows)
+    rows += motor_rows(document.get("motors", {}), rows, place.at("[motors]"))
     variables = _joint_columns(rows)
     symbols = read_symbols(document.get("symbols", {}), variables, place.at("[symbols]"))
     values: dict[str, float] = {}
     for symbol, expression in symbols.items():
         values[symbol] = form_at(expression, values, place).constant
-    relations = read_relations(document.get("relations", {}), rows, values, place.at("[relations]"))
+    motors, driven = read_motors(document.get("motors", {}), rows, values, place.at("[motors]"))
+    stated = table_at(document.get("relations", {}), place.at("[relations]"), "[relations]")
+    stated = with_driven(stated, driven, place.at("[relations]"))
+    relations = read_relations(stated, rows, values, place.at("[relations]"))
     robot = Robot(
         name=document["name"],
         title=_title(document, place),
@@ -117,10 +122,12 @@ def robot_from_text(text: str, where: str) -> Robot:
         symbols=symbols,
         joints=table_joints(rows, values),
         relations=relations,
+        motors={m: {j: float(c) for j, c in row.items()} for m, row in motors.items()},
         platform=platform,
         notes=_text(document, "notes", "", place),
         text=text,
     )
+    check_driven(robot, place.at("[motors]"))
     return _with_tables(robot, document, values, place)
 
 
@@ -137,6 +144,7 @@ def _with_tables(
         robot.platform,
     )  # fmt: skip
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
+    links |= dict.fromkeys(robot.motors, ())
     links |= read_links(document.get("links", {}), moving, place.at("[links]"))
     robot = dataclasses.replace(robot, links=links, effects=effects)
     every = _parameter_names(robot, moving, place)

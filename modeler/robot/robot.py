@@ -126,6 +126,9 @@ class Robot:
         effects: physical effects beyond rigid links, in catalogue order.
         coupling: motor rows that turn with several joints: name of the joint whose motor it is ->
             {joint: coefficient}; motor speed = sum of coefficient * qd (gear ratio taken out).
+        motors: rows of motors that drive the joints through a coupling, in table order: motor ->
+            {joint: coefficient}, q_m = G q_a (see `modeler.robot.motors`); empty where each joint
+            has its own.
         priority: names or patterns (`ZZ*`, `Ia?`) of parameters that are kept first when
             parameters group; the others follow in table order.
         parameters: nominal values of standard parameters, SI units.
@@ -154,6 +157,7 @@ class Robot:
     own_effects: tuple[Effect, ...] = ()
     effects: tuple[EffectUse, ...] = ()
     coupling: Mapping[str, Mapping[str, float]] = field(default_factory=lambda: _EMPTY)
+    motors: Mapping[str, Mapping[str, float]] = field(default_factory=lambda: _EMPTY)
     priority: tuple[str, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)

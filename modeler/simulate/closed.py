@@ -11,7 +11,7 @@ import numpy as np
 
 from modeler.robot import Limits, Robot
 from modeler.simulate.closed_motion import ClosedMotion, closed_motion
-from modeler.simulate.closing import motor_torques, rates
+from modeler.simulate.closing import followed, motor_torques, rates
 from modeler.simulate.constraints import Constraints, constraints_of, sampled
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.hidden_bodies import machine
@@ -29,7 +29,7 @@ from modeler.simulate.sensors import (
 )
 from modeler.simulate.settings import SimulationSettings
 from modeler.simulate.sharing import told_once
-from modeler.simulate.trajectory import Reference, reference_motion
+from modeler.simulate.trajectory import Reference, reference_motion, widened
 
 
 def simulate_closed(
@@ -67,6 +67,9 @@ def closed_command(
     """Limits of the coordinates, from those of `robot.moving`, and the motion of the settings."""
     names = [joint.name for joint in robot.moving]
     limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
+    if (asked := settings.commanded) is not None:
+        closed = followed(robot, constraints, asked.q, progress)
+        return widened(limits, asked), ClosedMotion(asked, closed, 1.0)
 
     def motion(near: tuple[Limits, ...]) -> Reference:
         return reference_motion(

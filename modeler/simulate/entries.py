@@ -12,8 +12,11 @@ from modeler.simulate.log import check_suffix as check_suffix
 from modeler.simulate.log import told_hidden as told_hidden
 from modeler.simulate.log import write_log as write_log
 from modeler.simulate.log import write_truth as write_truth
+from modeler.simulate.motion_file import at_rate as at_rate
+from modeler.simulate.motion_file import read_motion as read_motion
 from modeler.simulate.parameters import PlantParameters as PlantParameters
 from modeler.simulate.parameters import plant_parameters as plant_parameters
 from modeler.simulate.run import simulate as simulate
 from modeler.simulate.settings import MOTIONS as MOTIONS
 from modeler.simulate.settings import SimulationSettings as SimulationSettings
+from modeler.simulate.trajectory import Reference as Reference

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
+from modeler.robot.motors import joint_directions
 from modeler.simulate.closed import closed_command, simulate_closed
 from modeler.simulate.closed_plant import build_closed_plant, inner_states
 from modeler.simulate.constraints import constraints_of
@@ -33,7 +34,7 @@ from modeler.simulate.sensors import (
 )
 from modeler.simulate.settings import SimulationSettings, check_settings
 from modeler.simulate.sharing import told_once
-from modeler.simulate.trajectory import Reference, reference_motion
+from modeler.simulate.trajectory import Reference, reference_motion, widened
 from modeler.simulate.transmission import settled
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
@@ -125,12 +126,23 @@ def _task(
 ) -> _Task:
     """Of a robot without loops."""
     limits = of_free(robot, every)
-    reference = reference_motion(
-        settings.motion, limits, settings.duration, settings.rate, settings.seed
-    )
+    if (reference := settings.commanded) is not None:
+        limits = widened(limits, reference)
+    else:
+        reference = reference_motion(
+            settings.motion, limits, settings.duration, settings.rate, settings.seed,
+            _driven_directions(robot),
+        )  # fmt: skip
     plant = build_plant(*machine(robot, parameters, hidden), every, hidden)
     along = np.zeros((reference.time.size, plant.states))
     return _Task(plant, limits, reference, along, 1.0)
+
+
+def _driven_directions(robot: Robot) -> np.ndarray:
+    """(joints with a motor, coordinates) how the coordinates move with each such joint."""
+    ways = np.array([*joint_directions(robot).values()])
+    passive = [k for k, joint in enumerate(robot.coordinates) if not joint.actuated]
+    return ways[~np.any(ways[:, passive] != 0, axis=1)]
 
 
 def _closed_task(

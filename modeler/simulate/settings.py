@@ -4,12 +4,16 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits
 from modeler.simulate.hidden import HiddenEffect
 
-MOTIONS = ("exciting", "point-to-point")
+if TYPE_CHECKING:
+    from modeler.simulate.trajectory import Reference
+
+MOTIONS = ("exciting", "point-to-point", "one-joint")
 """What the commanded motion may be."""
 
 _MOST = {
@@ -26,8 +30,9 @@ class SimulationSettings:
     """Motion, controller and sensors of a simulated measurement.
 
     Attributes:
-        motion: "exciting" (moves at several speeds, then a Fourier series) or "point-to-point"
-            (moves between random points, as fast as the limits allow).
+        motion: "exciting" (moves at several speeds, then a Fourier series), "point-to-point"
+            (moves between random points, as fast as the limits allow) or "one-joint" (one joint
+            after the other moves alone, at random configurations).
         duration: s.
         rate: control ticks and samples per second.
         seed: of motion and noise; another seed is another measurement of the same robot.
@@ -48,6 +53,7 @@ class SimulationSettings:
         hidden: effects that the machine has and the robot file lacks.
         drive_gains: torque per drive unit by joint, N m or N; what the log holds of such a joint
             is the current, its torque over this, and not the torque.
+        commanded: the motion itself, at `rate`, in place of `motion` and `duration`.
     """
 
     motion: str = "exciting"
@@ -66,6 +72,7 @@ class SimulationSettings:
     process_noise: float = 0.0
     hidden: tuple[HiddenEffect, ...] = ()
     drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    commanded: "Reference | None" = None
 
 
 def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:

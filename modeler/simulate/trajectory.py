@@ -15,6 +15,8 @@ _PAUSE = 0.05  # s, between moves
 _HARMONICS = 6
 _LOWEST = 0.1  # Hz, fundamental of the series
 _AS_FAST_AS_CAN_BE = (1.0,)
+_REST = 0.2  # s, before and after a joint moves alone
+_ALONE = (1.0, 0.5)  # of the top speed, of a joint that moves alone
 _PEAK_SPEED = 15 / 8  # of a quintic move of unit length and duration
 _PEAK_ACCELERATION = 10 / np.sqrt(3)
 
@@ -35,11 +37,27 @@ class Reference:
 
 
 def reference_motion(
-    motion: str, limits: tuple[Limits, ...], duration: float, rate: float, seed: int
+    motion: str,
+    limits: tuple[Limits, ...],
+    duration: float,
+    rate: float,
+    seed: int,
+    directions: np.ndarray | None = None,
 ) -> Reference:
-    """`exciting_reference`, or `point_to_point_reference` if `motion` is "point-to-point"."""
+    """The motion of that name: "exciting", "point-to-point" or "one-joint"."""
+    if motion == "one-joint":
+        return one_joint_reference(limits, duration, rate, seed, directions)
     make = point_to_point_reference if motion == "point-to-point" else exciting_reference
     return make(limits, duration, rate, seed)
+
+
+def widened(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
+    """Limits that hold the motion."""
+    peaks = (motion.q.min(0), motion.q.max(0), np.abs(motion.qd).max(0), np.abs(motion.qdd).max(0))
+    return tuple(
+        Limits(min(li.lower, low), max(li.upper, high), max(li.speed, v), max(li.acceleration, a))
+        for li, low, high, v, a in zip(limits, *(p.tolist() for p in peaks), strict=True)
+    )
 
 
 def point_to_point_reference(
@@ -61,6 +79,81 @@ def point_to_point_reference(
             "more, or faster [limits]"
         )
     return Reference(time, *path)
+
+
+def one_joint_reference(
+    limits: tuple[Limits, ...],
+    duration: float,
+    rate: float,
+    seed: int,
+    directions: np.ndarray | None = None,
+) -> Reference:
+    """One joint after the other moves alone, at ever new configurations of the others.
+
+    For a two-step identification (Hanssen, Hovland and Brogardh 2000, section 5): all coordinates
+    go to a random place, and one joint goes there and back over its range at several speeds.
+
+    Args:
+        limits: of the coordinates, in the order of q.
+        duration: s.
+        rate: samples per second.
+        seed: of the places.
+        directions: (joints, coordinates), the coordinates per joint; None: they are the joints.
+
+    Raises:
+        DataError: no time for one joint, or what `exciting_reference` refuses.
+    """
+    along = np.eye(len(limits)) if directions is None else directions
+    path, time = _at_rest(limits, duration, rate)
+    rng = np.random.default_rng([seed, 6])
+    middle = path[0, 0].copy()
+    now, here, turn = _PAUSE, middle.copy(), 0
+    while True:
+        steps, there = _there_and_back(limits, middle, here, along[turn % len(along)], rng)
+        moves = [(step, _move_time(step, limits, level)) for step, level in steps]
+        home = _move_time(middle - there, limits, 1.0)
+        if now + sum(lasts + _REST for _, lasts in moves) + home + _PAUSE > time[-1]:
+            break
+        for step, lasts in moves:
+            _add_move(path, time, now, lasts, step)
+            now += lasts + _REST
+        here, turn = there, turn + 1
+    _check_moved(turn, duration)
+    _add_move(path, time, now, _move_time(middle - here, limits, 1.0), middle - here)
+    return Reference(time, *path)
+
+
+def _check_moved(turns: int, duration: float) -> None:
+    if not turns:
+        raise DataError(
+            f"reference motion: got duration {duration} s, too short for one joint to move there "
+            "and back; expected more, or faster [limits]"
+        )
+
+
+def _there_and_back(
+    limits: tuple[Limits, ...],
+    middle: np.ndarray,
+    here: np.ndarray,
+    way: np.ndarray,
+    rng: np.random.Generator,
+) -> tuple[list[tuple[np.ndarray, float]], np.ndarray]:
+    """Steps and their speeds: to a random place, then along `way` over its range; and the place."""
+    reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
+    place = middle + reach * np.round(rng.uniform(-1, 1, len(limits)), 10)
+    first, last = _ends(place, way, middle - reach, middle + reach)
+    there, along = place + first * way, (last - first) * way
+    alone = [(sign * along, level) for level in _ALONE for sign in (1, -1)]
+    return [(there - here, 1.0), *alone], there
+
+
+def _ends(
+    place: np.ndarray, way: np.ndarray, lower: np.ndarray, upper: np.ndarray
+) -> tuple[float, float]:
+    """How far along `way` one can go from `place`, back and forth, within the range."""
+    moved = way != 0
+    sides = np.stack([(lower - place)[moved] / way[moved], (upper - place)[moved] / way[moved]])
+    return float(np.max(np.min(sides, axis=0))), float(np.min(np.max(sides, axis=0)))
 
 
 def exciting_reference(

@@ -208,7 +208,7 @@ def _power_defect(
 
 def _joints(table: CoefficientTable, name: str) -> tuple[int, ...]:
     """Indices of the joints of a function, of one that is zero too."""
-    order = [joint.name for joint in table.closed.robot.moving]
+    order = [joint.name for joint in table.closed.robot.free]
     for letter, count in (("g", 1), ("J", 2), ("S", 3)):
         for at in product(range(len(order)), repeat=count):
             if function_name(letter, [order[i] for i in at]) == name:

@@ -83,7 +83,8 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     squares of cosines.
 
     Args:
-        model: any serial or tree-structured robot.
+        model: any serial or tree-structured robot; joints may follow others by linear relations.
+            Of a robot with loops, the opened tree: torques are those along its free variables.
         base: write it in the base parameters: factors of their columns only.
 
     Raises:
@@ -95,7 +96,7 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     columns = everything if base is None else [p.column for p in base.parameters]
     found = dynamics(model, algebra, columns)
     factor = _gravity_factor(algebra)
-    names = [joint.name for joint in model.robot.moving]
+    names = [joint.name for joint in model.robot.free]
     keep = _kept_by_paper(model.robot)
     functions = [
         _function("g", names, at, _divided(entry, factor, algebra), algebra, keep)

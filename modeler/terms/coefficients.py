@@ -2,7 +2,7 @@
 
 import random
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -131,6 +131,12 @@ def coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coefficient
             closed.algebra.static_ring,
         ),
     )
+
+
+def independent_coefficients(table: CoefficientTable) -> CoefficientTable:
+    """The table with those coefficients only from which the others follow over Q."""
+    kept = set(table.relations.independent)
+    return replace(table, coefficients=tuple(c for c in table.coefficients if c.name in kept))
 
 
 def vector_of(form: Form) -> dict[Any, Any]:

@@ -11,23 +11,28 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy
+from sympy.polys.domains import QQ
 
 from modeler.core.errors import DerivationError
 from modeler.effects import EnergyBlock
 from modeler.symbolic import LinkColumn, StandardColumn, SymbolicModel, in_block
+from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.kinematics import (
+    Pose,
     Screw,
     Vector,
     dot,
     gravity_in_frames,
+    plus,
     poses,
     screws,
+    times,
 )
 from modeler.terms.ring import Poly, TrigRing
 
 MOST_PRODUCTS = 500_000
-"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 307,805
-for 5R with general angles and lengths (7 s)."""
+"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 252,027
+for 5R with general angles and lengths (6 s)."""
 
 Entries = Mapping[tuple[int, ...], Mapping[int, Poly]]
 """{indices: {column of the standard parameter: factor}}, in normal form; zeros left out."""
@@ -58,17 +63,46 @@ def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> Dy
         DerivationError: more than `MOST_PRODUCTS` products; says how many.
     """
     frames = poses(model.geometry, ring)
-    carried = screws(model.geometry, frames, ring)
-    wanted = [(place, model.columns[place]) for place in columns]
+    carried = carried_screws(model.geometry, frames, ring)
+    wanted = [(place, part) for place in columns for part in model.columns[place].parts]
     _check_size(model, carried, wanted)
     inertia = _inertia(carried, wanted, ring)
     _add_rotors(inertia, wanted, ring)
-    down = gravity_in_frames(model.geometry, frames, ring)
+    down = [ring_vector(v, ring) for v in gravity_in_frames(model.geometry, frames, ring)]
     return Dynamics(
         _without_zeros(inertia),
-        _without_zeros(_christoffel(inertia, model.geometry.joints, ring)),
+        _without_zeros(_christoffel(inertia, model.geometry.coordinates, ring)),
         _without_zeros(_gravity(carried, down, wanted, ring)),
     )
+
+
+def carried_screws(
+    geometry: Geometry, frames: Sequence[Pose], ring: TrigRing
+) -> list[dict[int, Screw]]:
+    """For every row, the screw of each free variable that moves it, in normal form.
+
+    A row that follows others passes its screw on to them, times its coefficients.
+    """
+    found: list[dict[int, Screw]] = []
+    for rows in screws(geometry, frames, ring):
+        total: dict[int, Screw] = {}
+        for index, screw in rows.items():
+            for k, coefficient in geometry.forms[index].items():
+                factor = QQ(coefficient.numerator, coefficient.denominator)
+                e, m = times(factor, screw.e), times(factor, screw.m)
+                if k in total:
+                    e, m = plus(total[k].e, e), plus(total[k].m, m)
+                total[k] = Screw(e, m)
+        normal = {
+            k: Screw(ring_vector(x.e, ring), ring_vector(x.m, ring)) for k, x in total.items()
+        }
+        found.append({k: x for k, x in normal.items() if any(x.e) or any(x.m)})
+    return found
+
+
+def ring_vector(vector: Vector, ring: TrigRing) -> Vector:
+    """The vector in normal form."""
+    return [ring.normal(ring.ring(x)) for x in vector]
 
 
 def _check_size(
@@ -111,8 +145,16 @@ def _inertia(
         link = carried[column.row]
         for i, j in _pairs(link):
             factor = ring.normal(_kinetic_factor(column.prefix, link[i], link[j], ring))
-            entries.setdefault((i, j), {})[place] = factor
+            _add(entries, (i, j), place, factor)
     return entries
+
+
+def _add(
+    entries: dict[tuple[int, ...], dict[int, Poly]], at: tuple[int, ...], place: int, factor: Poly
+) -> None:
+    """Parts of one parameter add up: similar legs share theirs."""
+    entry = entries.setdefault(at, {})
+    entry[place] = entry[place] + factor if place in entry else factor
 
 
 def _kinetic_factor(prefix: str, a: Screw, b: Screw, ring: TrigRing) -> Poly:
@@ -143,7 +185,7 @@ def _add_rotors(
         for i, j in _pairs(column.shaft):
             value = column.shaft[i] * column.shaft[j]
             factor = ring.static(sympy.Rational(value.numerator, value.denominator))
-            entries.setdefault((i, j), {})[place] = factor
+            _add(entries, (i, j), place, factor)
 
 
 def _gravity(
@@ -161,7 +203,7 @@ def _gravity(
                     factor = -dot(screw.m, g)
                 else:
                     factor = -_cross_entry(g, screw.e, _MOMENTS[column.prefix])
-                entries.setdefault((i,), {})[place] = ring.normal(factor)
+                _add(entries, (i,), place, ring.normal(factor))
     return entries
 
 

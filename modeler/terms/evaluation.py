@@ -43,7 +43,7 @@ def evaluate(
 
     Args:
         closed: the formulas.
-        q: (joints,) rad, m.
+        q: (joints,) positions of the free joints, rad or m.
         parameters: values of the standard parameters by name; those left out are 0.
     """
     algebra = closed.algebra
@@ -71,8 +71,9 @@ def evaluate(
 def motion_values(algebra: TrigRing, q: Sequence[float]) -> list[float]:
     """Values of the motion generators."""
     values: list[float] = []
-    for motion, angle in zip(algebra.motions, q, strict=True):
-        values += [angle] if motion.variable is not None else [sin(angle), cos(angle)]
+    for motion in algebra.motions:
+        at = sum(float(coefficient) * q[k] for k, coefficient in motion.form.items())
+        values += [at] if motion.variable is not None else [sin(at), cos(at)]
     return values
 
 

@@ -31,12 +31,14 @@ class PhysicalParameters:
             about the mass centre, rotor inertia; then lengths and angles, gravity left out.
         masses: those letters that stand alone as the mass of a link.
         standard: {column: the standard parameter as a polynomial}.
+        kinds: {letter: "mass", "centre", "inertia", "rotor inertia" or "length"}.
     """
 
     ring: PolyRing
     letters: tuple[str, ...]
     masses: tuple[str, ...]
     standard: Mapping[int, Poly]
+    kinds: Mapping[str, str]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -73,7 +75,12 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
         RobotError: an entry of `[physical]` is no polynomial, or uses the name of a joint's sine.
     """
     static = [str(symbol) for symbol in algebra.static_ring.symbols]
-    links = {joint.name: _link(model, joint) for joint in model.robot.moving}
+    bodies = {column.row for column in model.columns if isinstance(column, LinkColumn)}
+    links = {
+        joint.name: _link(model, joint)
+        for row, joint in enumerate(model.robot.joints)
+        if row in bodies
+    }
     rotors = [c.name for c in model.columns if in_block(c, EnergyBlock.KINETIC)]
     zeros = _zero_symbols(model)
     known = {*static, *zeros}
@@ -83,7 +90,9 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     masses = [x.mass.text for x in links.values() if x.mass.text in letters]
     gravity = _gravity_only(algebra)
     lengths = [name for name in _lengths(algebra) if name not in gravity]
-    return PhysicalParameters(ring, tuple(letters + lengths), tuple(masses), standard)
+    kinds = dict.fromkeys(rotors, "rotor inertia") | dict.fromkeys(lengths, "length")
+    kinds = _kinds(links.values()) | kinds
+    return PhysicalParameters(ring, tuple(letters + lengths), tuple(masses), standard, kinds)
 
 
 def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
@@ -108,6 +117,17 @@ def _letters(links: Any) -> list[str]:
             for name in sorted(set().union(*(entry.names for entry in group))):
                 found.setdefault(name)
     return list(found)
+
+
+def _kinds(links: Any) -> dict[str, str]:
+    """What each letter is; one that is several is what is measured with more trouble."""
+    found: dict[str, str] = {}
+    for kind in ("mass", "centre", "inertia"):
+        for link in links:
+            entries = (link.mass,) if kind == "mass" else getattr(link, kind)
+            for entry in entries:
+                found |= dict.fromkeys(entry.names, kind)
+    return found
 
 
 def _zero_symbols(model: SymbolicModel) -> frozenset[str]:

@@ -68,7 +68,7 @@ def exact_state(table: CoefficientTable) -> ExactState:
     physical = [values.get(name, Fraction(0)) for name in table.physical.names]
     shift = len(physical) - table.closed.algebra.static_ring.ngens
     chi = {c: poly_value(poly, physical) for c, poly in table.physical.standard.items()}
-    count = len(table.closed.algebra.motions)
+    count = table.closed.algebra.geometry.coordinates
     speeds = tuple(_SPEEDS[i % len(_SPEEDS)] for i in range(count))
     return ExactState(tuple(motion), speeds, tuple(physical[shift:]), chi)
 
@@ -97,7 +97,7 @@ def _half_slope_power(
     rest = (0,) * algebra.static_ring.ngens
     monomial = algebra.ring.zero.new({at + rest: QQ(1)})
     total = Fraction(0)
-    for k in range(len(algebra.motions)):
+    for k in range(algebra.geometry.coordinates):
         for moved, value in algebra.derivative(monomial, k).items():
             slope = as_fraction(value) * state.value(moved[: algebra.moving], vector)
             total += slope * state.speed_product((*joints, k))

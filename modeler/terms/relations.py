@@ -12,6 +12,10 @@ from sympy.polys.matrices import DomainMatrix
 from modeler.base.residues import row_echelon
 from modeler.terms.ring import Poly
 
+MOST_MONOMIALS = 150
+"""Monomials of a map up to which its determinant is expanded: 67 for a PUMA 560, 106 for a tree of
+three joints with general angles (1 s); minutes at 216."""
+
 Vector: TypeAlias = Mapping[Any, Any]
 """Sparse vector over Q: {place: rational number}."""
 
@@ -90,7 +94,8 @@ class BaseMap:
         rows: names of coefficients, independent when the geometry is known.
         columns: names of the base parameters that occur.
         entries: {(row, column): factor, a polynomial of the geometry}.
-        determinant: of the square matrix, a polynomial of the geometry; None if it is not square.
+        determinant: of the square matrix, a polynomial of the geometry; None if it is not square,
+            or has so many monomials that nobody would read it.
     """
 
     rows: tuple[str, ...]
@@ -114,7 +119,8 @@ def base_map(
     place = {k: i for i, k in enumerate(used)}
     entries = {(r, place[k]): factor for r, form in enumerate(forms) for k, factor in form.items()}
     determinant = None
-    if len(used) == len(rows) and rows:
+    size = sum(len(factor) for factor in entries.values())
+    if len(used) == len(rows) and rows and size <= MOST_MONOMIALS:
         determinant = _matrix(entries, len(used), ring).det()
         determinant = ring(determinant)
     return BaseMap(tuple(rows), tuple(names[k] for k in used), entries, determinant)

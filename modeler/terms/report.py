@@ -127,7 +127,10 @@ def _map(table: CoefficientTable) -> str:
     lines += ["```text", *forward_lines(table), "```", ""]
     determinant, size = determinant_text(table), len(table.map.rows)
     if determinant is None:
-        lines.append(f"This map is {size} x {len(table.map.columns)}, not square.")
+        why = (
+            "not square" if size != len(table.map.columns) else "its determinant too long to print"
+        )
+        lines.append(f"This map is {size} x {len(table.map.columns)}, {why}.")
     else:
         lines.append(f"Determinant of this {size} x {size} map: **{determinant}**.")
         lines += ["", "Backwards:", "", "```text", *backward_lines(table), "```"]

@@ -1,12 +1,11 @@
 """Polynomials in the sines and cosines of the joints: an algebra for the recursions, exact over Q.
 
-Generators, in this order: for every joint its motion (`s1`, `c1` of a revolute joint, `q4` of a
-prismatic one), then what the geometry is made of: letters of lengths and of gravity, sine and
+Generators, in this order: for every free joint its motion (`s1`, `c1` of a revolute joint, `q4` of
+a prismatic one), then what the geometry is made of: letters of lengths and of gravity, sine and
 cosine of every general constant angle, square roots of numbers. Normal form: no square of a sine.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import comb
 from typing import Any, TypeAlias
 
@@ -17,19 +16,10 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from modeler.core.errors import DerivationError
 from modeler.symbolic.geometry import Geometry, Row
+from modeler.terms.motions import Motion, motions_of
 
 Poly: TypeAlias = PolyElement
 """Sparse polynomial: {exponents: rational number}."""
-
-
-@dataclass(frozen=True)
-class Motion:
-    """Place of one joint's generators: sine and cosine, or the prismatic variable alone."""
-
-    joint: str
-    sine: int | None
-    cosine: int | None
-    variable: int | None
 
 
 class TrigRing:
@@ -37,7 +27,7 @@ class TrigRing:
 
     Attributes:
         ring: all generators.
-        motions: per joint variable, its generators.
+        motions: angles and travels, with their generators.
         moving: number of generators that depend on q; they stand first.
         static_ring: the others alone.
         squares: {place of a constant sine: place of its cosine}, in `ring`.
@@ -46,7 +36,9 @@ class TrigRing:
 
     def __init__(self, geometry: Geometry) -> None:
         self.geometry = geometry
-        names, self.motions = _motion_generators(geometry)
+        self._found = motions_of(geometry)
+        self.motions = self._found.each
+        names = list(self._found.names)
         self.moving = len(names)
         atoms = _atoms(geometry)
         static = [str(atom) for atom in atoms]
@@ -86,19 +78,25 @@ class TrigRing:
     def variable(self, row: Row) -> Poly:
         """Rate * q + offset of a prismatic joint."""
         assert row.index is not None
-        place = self.motions[row.index].variable
-        assert place is not None
-        return self.ring.gens[place] * row.rate + self.static(row.r)
+        total = self.static(row.r)
+        for k, coefficient in self.geometry.forms[row.index].items():
+            factor = QQ(coefficient.numerator, coefficient.denominator) * row.rate
+            total = total + self.ring.gens[self._found.travel(k)] * factor
+        return total
 
     def cos_sin(self, row: Row) -> tuple[Poly, Poly]:
         """Cosine and sine of theta = rate * q + offset, by the addition theorem."""
-        C, S = self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
+        c, s = self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
         if row.index is None or not row.joint.angular:
-            return C, S
-        motion = self.motions[row.index]
-        assert motion.sine is not None and motion.cosine is not None
-        c, s = self.ring.gens[motion.cosine], self.ring.gens[motion.sine] * row.rate
-        return c * C - s * S, s * C + c * S
+            return c, s
+        for place, turns in self._found.turns[row.index].items():
+            motion = self.motions[place]
+            assert motion.sine is not None and motion.cosine is not None
+            turn = self.ring.gens[motion.sine] * (row.rate if turns > 0 else -row.rate)
+            for _ in range(abs(turns)):
+                cosine = self.ring.gens[motion.cosine]
+                c, s = c * cosine - s * turn, s * cosine + c * turn
+        return self.normal(c), self.normal(s)
 
     def normal(self, poly: Poly) -> Poly:
         """The same function without squares of sines and of roots."""
@@ -112,8 +110,19 @@ class TrigRing:
         return poly
 
     def derivative(self, poly: Poly, index: int) -> Poly:
-        """d poly / d q of the joint variable `index`, in normal form."""
-        motion = self.motions[index]
+        """d poly / d u of the free variable `index`, in normal form."""
+        total = self.ring.zero
+        for motion in self.motions:
+            rate = motion.form.get(index)
+            if rate:
+                slope = self._slope(poly, motion)
+                total = total + (
+                    slope if rate == 1 else slope * QQ(rate.numerator, rate.denominator)
+                )
+        return total
+
+    def _slope(self, poly: Poly, motion: Motion) -> Poly:
+        """The derivative by the angle or travel of one motion."""
         if motion.variable is not None:
             return poly.diff(self.ring.gens[motion.variable])
         s, c = motion.sine, motion.cosine
@@ -177,22 +186,6 @@ def _without_roots(poly: Poly, place: int, number: Any) -> Poly:
 
 def _clean(ring: PolyRing, found: Mapping[tuple[int, ...], Any]) -> Poly:
     return ring.zero.new({key: QQ.convert(value) for key, value in found.items() if value})
-
-
-def _motion_generators(geometry: Geometry) -> tuple[list[str], tuple[Motion, ...]]:
-    names: list[str] = []
-    motions: list[Motion] = []
-    for row in geometry.rows:
-        if row.index is None:
-            continue
-        at, joint = len(names), row.joint.name
-        if row.joint.angular:
-            names += [f"s{joint}", f"c{joint}"]
-            motions.append(Motion(joint, at, at + 1, None))
-        else:
-            names.append(f"q{joint}")
-            motions.append(Motion(joint, None, None, at))
-    return names, tuple(motions)
 
 
 def _atoms(geometry: Geometry) -> list[sympy.Expr]:

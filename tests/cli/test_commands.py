@@ -12,7 +12,8 @@ from modeler.cli import main, parser
 from modeler.fit.integrity import checksums
 
 COMMANDS = (
-    "derive", "generate", "convert", "fit", "compare", "simulate", "robots", "effects", "demo",
+    "derive", "generate", "convert", "fit", "compare", "physical", "simulate", "excite", "robots",
+    "effects", "demo", "estimators",
 )  # fmt: skip
 
 
@@ -85,6 +86,39 @@ def test_derive_wrist_prints_all_coefficients(capsys):
 def test_formats(capsys, form, sign):
     status, out, _ = run(capsys, "derive", "two-link", "--format", form, "--closed-form")
     assert status == 0 and sign in out
+
+
+def test_closed_forms_and_columns(capsys, tmp_path):
+    """Of a robot whose loop is linear relations; the JSON has the same lines."""
+    path = tmp_path / "d.json"
+    asked = ("--closed-form", "--regressor", "--json", path)
+    status, out, err = run(capsys, "derive", "sr400", *asked)
+    assert (status, err) == (0, "") and "J66 = ZZ6" in out and "# column of XX2R" in out
+    found = json.loads(path.read_text())
+    for key, result in (("closed_form", "J66"), ("regressor", "phi6_ZZ6")):
+        lines = {d["name"]: d["formula"] for d in found[key]["definitions"] if d["result"]}
+        assert f"{result} = {lines[result]}" in out.splitlines()
+        assert found[key]["angles"]["2m7"] == "q2 - q7" and found[key]["equation"]
+
+
+def test_expanded_and_nonzero_forms(capsys):
+    _, short, _ = run(capsys, "derive", "two-link", "--closed-form", "--nonzero")
+    _, expanded, _ = run(capsys, "derive", "two-link", "--closed-form", "--expanded")
+    assert "S112 = -2*L1*k2" not in short and "S112 = -2*L1*MX2*s2" in short
+    assert "S112 =\n" in expanded and "k2" not in expanded
+
+
+@pytest.mark.parametrize("asked", [("--nonzero",), ("--expanded",), ("--nonzero", "--terms")])
+def test_options_that_would_do_nothing_are_refused(capsys, asked):
+    status, out, err = run(capsys, "derive", "two-link", *asked)
+    assert (status, out) == (1, "") and err.count("\n") == 1
+    assert err.startswith(f"modeler: {asked[0]} changes nothing by itself; add --closed-form or")
+
+
+def test_nonzero_without_nominal_values_is_refused(capsys):
+    status, _, err = run(capsys, "derive", "rx90", "--closed-form", "--nonzero")
+    assert status == 1 and err.startswith("modeler: robot rx90: all inertial base parameters are 0")
+    assert "state them in [parameters]" in err
 
 
 def test_effects_may_be_changed_for_a_run(capsys, tmp_path):
@@ -400,4 +434,5 @@ def test_misspelt_effects_are_guessed(capsys):
 
 def test_every_command_is_listed():
     text = parser().format_help()
-    assert all(f"    {command} " in text for command in COMMANDS)
+    first = {line.split()[0] for line in text.splitlines() if line.strip()}
+    assert first >= set(COMMANDS)

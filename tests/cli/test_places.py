@@ -31,14 +31,17 @@ READING = {  # what each command reads; outputs come after it
     "generate": "generate arm.toml --out new_c",
     "convert": "convert arm.par --out new.toml",
     "simulate": "simulate arm.toml --out new.csv",
+    "excite": "excite arm.toml --choose 1 --from a.parquet b.csv",
     "fit": "fit arm.toml a.parquet b.csv@0:4 --payload-log load.parquet --out new.json",
     "compare": "compare m.json a.parquet@2:",
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
     "add": "add m.json spring a.parquet --holdout other.parquet@:3 --out new.json",
     "effects": "effects --robot arm.toml",
+    "estimators": "estimators arm.toml a.parquet --holdout other.parquet",
     "robots": "robots --show arm.toml",
     "reproduce": "reproduce houda",
     "demo": "demo --out new",
+    "physical": "physical arm.toml",
     "show": "show arm.toml",
 }
 

@@ -11,7 +11,8 @@ from typing import get_args
 import pytest
 
 from modeler.cli import parser
-from modeler.cli.derive import _CLOSED_FORMS, _FORMS, _TABLES
+from modeler.cli.closed_forms import _CLOSED_FORMS, _COMMENT, _SHEETS, _TABLES
+from modeler.cli.derive import _FORMS
 from modeler.cli.parsers.derive import Form
 from modeler.effects import CATALOGUE
 from modeler.simulate import HIDDEN
@@ -71,7 +72,8 @@ def test_long_packages_would_be_noticed() -> None:
 
 
 def test_choices_are_those_that_commands_know() -> None:
-    assert set(_FORMS) == set(_CLOSED_FORMS) == set(_TABLES) == set(get_args(Form))
+    for forms in (_FORMS, _CLOSED_FORMS, _SHEETS, _TABLES, _COMMENT):
+        assert set(forms) == set(get_args(Form))
     assert set(HIDDEN) == {effect.id for effect in CATALOGUE}  # what --hide offers
 
 

@@ -104,13 +104,14 @@ def test_motion_out_of_reach_is_told_by_the_simulator():
         simulate(robot, SimulationSettings(duration=4, rate=50))
 
 
-def test_closed_forms_of_tied_robots_are_refused(capsys):
+@pytest.mark.parametrize("asked", [("--terms",), ("--closed-form", "--expanded")])
+def test_coefficients_of_robots_with_loops_are_refused(capsys, asked):
     from modeler.cli import main
 
-    assert main(["derive", "five-bar", "--closed-form"]) == 1
-    assert (
-        "closed forms and coefficients are written for serial and tree" in capsys.readouterr().err
-    )
+    assert main(["derive", "five-bar", *asked]) == 1
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1 and told.startswith("modeler: five-bar: coefficients and expanded")
+    assert "leave out --terms" in told and "--closed-form, which has J_t" in told
 
 
 def test_loop_errors_are_the_users():

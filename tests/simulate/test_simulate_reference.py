@@ -5,7 +5,7 @@ import pytest
 
 from modeler.core.errors import DataError
 from modeler.robot import Limits
-from modeler.simulate.trajectory import exciting_reference
+from modeler.simulate.trajectory import exciting_reference, one_joint_reference
 
 LIMITS = (Limits(-1.5, 1.5, 2.0, 8.0), Limits(0.1, 0.3, 0.5, 3.0), Limits(-3.0, -1.0, 1.0, 20.0))
 
@@ -65,3 +65,29 @@ def test_mistakes():
         exciting_reference(LIMITS, 1.0, 0, 0)
     with pytest.raises(DataError, match=r"holds 1 samples .* expected at least 2"):
         exciting_reference(LIMITS, 0.001, 1000.0, 0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("ways", [np.eye(3), np.array([[1, -0.4, 0.2], [0, 1, -0.5], [0, 0, 1]])])
+def test_one_joint_at_a_time(seed, ways):
+    """Within the limits; most of the time at most one joint moves, each at several poses."""
+    reference = one_joint_reference(LIMITS, 150.0, 200.0, seed, ways)
+    for i, limit in enumerate(LIMITS):
+        assert limit.lower < reference.q[:, i].min()
+        assert reference.q[:, i].max() < limit.upper
+        assert np.abs(reference.qd[:, i]).max() < limit.speed
+        assert np.abs(reference.qdd[:, i]).max() < limit.acceleration
+    difference = (reference.q[2:] - reference.q[:-2]) * 100.0
+    assert np.abs(difference - reference.qd[1:-1]).max() < 2e-2
+    joints = reference.qd @ np.linalg.inv(ways)
+    moving = np.abs(joints) > 1e-9
+    assert np.mean(moving.sum(axis=1) <= 1) > 0.8
+    for i in range(3):
+        alone = moving[:, i] & (moving.sum(axis=1) == 1)
+        poses = np.delete(reference.q @ np.linalg.inv(ways), i, axis=1)[alone]
+        assert len(np.unique(np.round(poses, 6), axis=0)) > 1
+
+
+def test_too_short_for_one_joint_there_and_back():
+    with pytest.raises(DataError, match="too short for one joint to move there and back"):
+        one_joint_reference(LIMITS, 1.0, 200.0, 0)

@@ -56,12 +56,33 @@ TEXTS = {
     ),
 }
 
+TIED = {
+    # half and double angles, a gear ratio that is an angle of its own, a screw, a rack, a sum
+    "geared": robot_text(
+        "geared",
+        [
+            '"1", "0", 0, 0, 0, "pi/2", 0, "q1", 0',
+            '"2", "1", 0, 0, 0, 0, "D2", "-q2", 0',
+            '"3", "2", 0, 0, 0, "al", "D3", "q3 + th", 0',
+            '"4", "3", 1, 0, 0, "pi/2", 0, 0, "q4"',
+            '"5", "4", 0, 0, 0, 0, "D5", "q5", 0',
+            '"6", "2", 0, 0, 0, "pi/2", "D6", "q6", 0',
+            '"7", "6", 0, 0, 0, 0, "D2", "q7", 0',
+        ],
+        "D2 = 0.3\nD3 = 0.2\nD5 = 0.25\nD6 = 0.15\nal = 1.1\nth = 0.4\n",
+        rest='[relations]\nq2 = "q1/2 + pi/6"\nq4 = "0.02*q1 - 0.1"\nq5 = "1.37*q3"\n'
+        'q6 = "q3 - 2*q1"\n[effects]\nrotor_inertia = "all"\nviscous = "all"\n',
+    ),
+}
+"""Robots whose joints follow others."""
+
 SMALL = (*TEXTS, "two-link", "scara", "wrist", "emps", "demo-arm", "orthoglide-leg-tree")
 
 
 @cache
 def model_of(name: str) -> SymbolicModel:
-    return derive_model(robot_from_text(TEXTS[name], name) if name in TEXTS else read_robot(name))
+    text = {**TEXTS, **TIED}.get(name)
+    return derive_model(robot_from_text(text, name) if text else read_robot(name))
 
 
 @cache

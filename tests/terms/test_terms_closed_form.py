@@ -204,7 +204,7 @@ def test_derivative_in_normal_form_is_the_derivative():
 
 def test_too_large_robot_is_refused_with_its_count():
     model = derive_model(robot_from_text(general(6), "general6"))
-    with pytest.raises(DerivationError, match=r"general6.*takes about 3,[0-9,]+ products.*500,000"):
+    with pytest.raises(DerivationError, match=r"general6.*takes about [0-9,]+ products.*500,000"):
         closed_form(model)
 
 

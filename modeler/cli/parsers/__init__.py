@@ -13,16 +13,20 @@ from modeler.cli.parsers.convert import add_convert
 from modeler.cli.parsers.demo import add_demo
 from modeler.cli.parsers.derive import add_derive, add_generate
 from modeler.cli.parsers.diagnose import add_diagnose
+from modeler.cli.parsers.estimators import add_estimators
+from modeler.cli.parsers.excite import add_excite
 from modeler.cli.parsers.fit import add_compare, add_fit
 from modeler.cli.parsers.home import add_home
 from modeler.cli.parsers.lists import add_effects, add_robots
+from modeler.cli.parsers.physical import add_physical
 from modeler.cli.parsers.reproduce import add_reproduce
 from modeler.cli.parsers.show import add_show
 from modeler.cli.parsers.simulate import add_simulate
 
 _COMMANDS = (
     add_derive, add_show, add_home, add_generate, add_fit, add_compare, add_diagnose, add_add,
-    add_simulate, add_convert, add_robots, add_effects, add_reproduce, add_demo,
+    add_physical, add_simulate, add_excite, add_convert, add_robots, add_effects, add_estimators,
+    add_reproduce, add_demo,
 )  # fmt: skip
 
 

@@ -27,17 +27,42 @@ def add_derive(commands: Commands) -> None:
     parser.add_argument(
         "--format", choices=sorted(get_args(Form)), default="text", help="of what is printed"
     )
+    _add_formulas(parser)
+    parser.add_argument(
+        "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
+    )
+    parser.add_argument(
+        "--open", action="store_true", help="cut the loops: the tree, as counted leg by leg"
+    )
+    add_json(parser, "write the result for machines")
+    parser.set_defaults(load=_derive)
+
+
+def _add_formulas(parser: argparse.ArgumentParser) -> None:
+    """Which formulas are printed besides the relations."""
     parser.add_argument(
         "--terms", action=argparse.BooleanOptionalAction, help="PG/PJ/PS coefficients or not"
     )
     parser.add_argument(
-        "--closed-form", action="store_true", help="M(q), Christoffel coefficients and gravity"
+        "--closed-form",
+        action="store_true",
+        help="M(q), Christoffel coefficients and gravity; of loops J_t and J_p too",
     )
     parser.add_argument(
-        "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
+        "--regressor", action="store_true", help="every base column, that of friction too"
     )
-    add_json(parser, "write the result for machines")
-    parser.set_defaults(load=_derive)
+    parser.add_argument(
+        "--expanded",
+        action="store_true",
+        help="with --closed-form: sums of monomials instead of named quantities; with --terms: all "
+        "coefficients, those that follow from others too",
+    )
+    parser.add_argument(
+        "--nonzero",
+        action="store_true",
+        help="with --closed-form and --regressor: leave out base parameters that are 0 at the "
+        "values of [parameters]",
+    )
 
 
 def _derive() -> Run:

@@ -5,8 +5,8 @@ from typing import get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
-from modeler.core.choices import GAIN_METHOD, LOW_SPEED, Derivatives, Method
-from modeler.core.estimators import ABOUT, GAINS
+from modeler.core.choices import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
+from modeler.core.estimators import ABOUT, APART
 
 _LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
 
@@ -27,10 +27,10 @@ def add_fit(commands: Commands) -> None:
     )
     parser.add_argument(
         "--method",
-        choices=(*get_args(Method), GAIN_METHOD),
+        choices=(*get_args(Method), GAIN_METHOD, TWO_STEPS),
         default="weighted",
-        help="estimator, and where it is the wrong one; default: %(default)s. "
-        + " ".join(f"{a.id}: {a.title}; not {a.avoid}." for a in (*ABOUT.values(), GAINS)),
+        help="; ".join(f"{a.id}: {a.title}" for a in (*ABOUT.values(), *APART))
+        + "; `modeler estimators` says when each is the wrong one (default %(default)s)",
     )
     parser.add_argument(
         "--robot-out",
@@ -39,10 +39,25 @@ def add_fit(commands: Commands) -> None:
         help="write the robot file with the values found, for simulators (--method consistent), "
         "or with the drive gains found (--method tls)",
     )
+    _add_model(parser)
     _add_processing(parser)
     _add_load(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_fit)
+
+
+def _add_model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--model",
+        choices=get_args(ModelKind),
+        default="torque",
+        help="one equation a joint and sample, or the energy balance of windows (default "
+        "%(default)s)",
+    )
+    add_number(
+        parser, "--window", "S", float,
+        "length of a window of --model energy; left out: the spacing of the torque model's rows",
+    )  # fmt: skip
 
 
 def _add_processing(parser: argparse.ArgumentParser) -> None:
@@ -128,6 +143,11 @@ def add_compare(commands: Commands) -> None:
         help="write every picture as PNG, SVG and CSV",
     )  # fmt: skip
     parser.add_argument(
+        "--essential",
+        action="store_true",
+        help="predict with the reduced model of the fit: its essential parameters, all others 0",
+    )
+    parser.add_argument(
         "--run-embedded-c",
         action="store_true",
         help="compile the C in MODEL instead of emitting it anew: only for files that you trust",
@@ -137,6 +157,6 @@ def add_compare(commands: Commands) -> None:
 
 
 def _compare() -> Run:
-    from modeler.cli.fit import run_compare
+    from modeler.cli.compare import run_compare
 
     return run_compare

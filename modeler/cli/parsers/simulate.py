@@ -3,9 +3,9 @@
 import argparse
 
 from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_robot
-from modeler.cli.places import NewLog, Output, Word
+from modeler.cli.places import MotionOrKind, NewLog, Output, Word
 from modeler.effects import CATALOGUE
-from modeler.simulate.settings import MOTIONS, SimulationSettings
+from modeler.simulate.settings import SimulationSettings
 
 
 def add_simulate(commands: Commands) -> None:
@@ -43,9 +43,11 @@ def add_simulate(commands: Commands) -> None:
 
 def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) -> None:
     parser.add_argument(
-        "--motion", choices=MOTIONS, default=default.motion,
+        "--motion", metavar="MOTION", type=MotionOrKind, default=default.motion,
         help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
-        "[limits] allow (default %(default)s)",
+        "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` or a "
+        "log, whose (commanded) positions are then the motion, as long as it is (default "
+        "%(default)s)",
     )  # fmt: skip
     add_number(parser, "--duration", "S", float, "seconds", default.duration)
     add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)

@@ -1,0 +1,128 @@
+"""The condition number of exciting motions: ours beside two usual ways, same robot, limits, time.
+
+Run from the top of the checkout: `python -m benchmarks.excitation [ROBOT...]`. All minimise the
+condition number of W with columns of length one over the same Fourier series, with the same
+compiled regressor. The peers are what is mostly done: SLSQP with limits sampled as constraints and
+gradients by differences of the whole objective, from a random motion (as fmincon is used), and
+differential evolution, a genetic search, of motions that are drawn back into their limits. Each
+peer gets `PATIENCE` times the processor seconds that ours took.
+"""
+
+import sys
+import time
+
+import numpy as np
+from scipy.optimize import differential_evolution, minimize
+
+from modeler.api import compile_model, derive, generate
+from modeler.cli.excite import bounds_of
+from modeler.excite.criterion import condition
+from modeler.excite.search import Wish, excite, task_of, usual_harmonics
+from modeler.excite.starts import random_motion
+from modeler.excite.task import Task
+from modeler.robot import Robot, read_robot, robot_from_text
+from modeler.robot.edit import with_effects
+
+ROBOTS = ("scara", "ur10e", "tx40", "panda")
+PATIENCE = 4.0
+_EFFECTS = dict.fromkeys(["rotor_inertia", "viscous", "coulomb"], "all")
+_CONSTRAINED = 8  # every so manieth sample is a constraint of SLSQP
+
+
+class _Late(Exception):
+    """The time is up."""
+
+
+class _Watched:
+    """The condition number of motions, and the best of those that keep the limits."""
+
+    def __init__(self, task: Task, seconds: float) -> None:
+        self.task, self.seconds, self.begun = task, seconds, time.process_time()
+        self.shape = (len(task.bounds.joints), task.series.values.shape[1])
+        self.unit = task.bounds.half[:, None] * np.ones(self.shape[1])
+        self.best, self.count = np.inf, 0
+
+    def motion(self, flat: np.ndarray) -> np.ndarray:
+        return flat.reshape(self.shape) * self.unit
+
+    def shares(self, flat: np.ndarray) -> np.ndarray:
+        return self.task.kinematic(self.motion(flat)) / self.task.series.room
+
+    def condition(self, flat: np.ndarray) -> float:
+        if time.process_time() - self.begun > self.seconds:
+            raise _Late
+        self.count += 1
+        value = condition(self.task.rows(self.task.series.motion(self.motion(flat))))
+        if value < self.best and np.abs(self.shares(flat)).max() <= 1.0:
+            self.best = value
+        return value
+
+
+def slsqp(task: Task, seconds: float) -> _Watched:
+    watched, rng = _Watched(task, seconds), np.random.default_rng(0)
+
+    def room(flat: np.ndarray) -> np.ndarray:
+        shares = watched.shares(flat)[:, ::_CONSTRAINED].ravel()
+        # Between these samples a little room, so that the motion keeps its limits there too.
+        return np.concatenate([0.97 - shares, 0.97 + shares])
+
+    try:
+        while True:
+            x = (random_motion(task, rng) / watched.unit).ravel()
+            minimize(
+                lambda flat: np.log(watched.condition(flat)), x, method="SLSQP",
+                constraints={"type": "ineq", "fun": room}, options={"maxiter": 200},
+            )  # fmt: skip
+    except _Late:
+        return watched
+
+
+def evolution(task: Task, seconds: float) -> _Watched:
+    watched = _Watched(task, seconds)
+
+    def repaired(flat: np.ndarray) -> float:
+        # Drawn back towards the middle of the ranges until the limits hold: better than penalties.
+        x = watched.motion(flat)
+        still = np.zeros_like(x)
+        still[:, 0] = task.bounds.middle
+        x = still + min(1.0, 0.999 * task.reach(still, x - still)) * (x - still)
+        return watched.condition((x / watched.unit).ravel())
+
+    ranges = [(-1.0, 1.0)] * watched.unit.size
+    try:
+        while True:
+            differential_evolution(repaired, ranges, seed=0, popsize=2, maxiter=10**6, polish=False)
+    except _Late:
+        return watched
+
+
+def with_losses(robot: Robot) -> Robot:
+    return robot_from_text(with_effects(robot.text, _EFFECTS), robot.name)
+
+
+def main(names: list[str]) -> None:
+    print(
+        f"{'robot':<10}{'parameters':>11}{'random':>10}{'median':>10}{'ours':>10}{'cpu s':>8}"
+        f"{'SLSQP':>10}{'runs':>8}{'evolution':>11}{'runs':>8}"
+    )
+    for name in names:
+        robot = with_losses(read_robot(name))
+        compiled = compile_model(generate(derive(robot)))
+        bounds = bounds_of(robot, compiled, (), ())
+        wish = Wish(10.0, usual_harmonics(bounds, 10.0), "condition")
+        begun = time.process_time()
+        ours = excite(compiled, bounds, wish)
+        seconds = time.process_time() - begun
+        task = task_of(compiled, bounds, wish, None, None, None)
+        peers = [peer(task, PATIENCE * seconds) for peer in (slsqp, evolution)]
+        best, median = ours.random
+        print(
+            f"{name:<10}{len(compiled.spec.base):>11}{best:>10.4g}{median:>10.4g}"
+            f"{ours.quality.condition:>10.4g}{seconds:>8.1f}"
+            + "".join(f"{w.best:>10.4g}{w.count:>8}" for w in peers),
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:] or list(ROBOTS))

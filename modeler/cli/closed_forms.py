@@ -1,0 +1,194 @@
+"""What `modeler derive` prints on request: closed forms, base columns, coefficients."""
+
+import argparse
+import textwrap
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from modeler.base import BaseParameters
+from modeler.cli.console import Json, say
+from modeler.cli.parsers.derive import FEW_JOINTS, Form
+from modeler.core.errors import ModelerError
+from modeler.core.files import write_atomically
+from modeler.derivation import Derivation
+from modeler.symbolic import SymbolicModel
+from modeler.terms import (
+    ClosedForm,
+    CoefficientTable,
+    Sheet,
+    backward_lines,
+    closed_form,
+    closed_form_latex,
+    closed_form_markdown,
+    closed_form_text,
+    coefficient_table,
+    coefficients_latex,
+    coefficients_markdown,
+    coefficients_text,
+    determinant_text,
+    independent_coefficients,
+    nonzero_base,
+    regressor_form,
+    sheet_json,
+    sheet_latex,
+    sheet_lines,
+    sheet_markdown,
+    short_form,
+    terms_report,
+)
+
+MANY = 200
+"""Coefficients up to which all are listed; of more, those from which the others follow."""
+
+_CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
+    "text": closed_form_text,
+    "latex": closed_form_latex,
+    "markdown": closed_form_markdown,
+}
+_SHEETS: dict[Form, Callable[[Sheet], str]] = {
+    "text": lambda sheet: "\n".join(sheet_lines(sheet)),
+    "latex": sheet_latex,
+    "markdown": sheet_markdown,
+}
+_TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
+    "text": coefficients_text,
+    "latex": coefficients_latex,
+    "markdown": coefficients_markdown,
+}
+_WIDTH = 96
+_COMMENT: dict[Form, str] = {"text": "# ", "latex": "% ", "markdown": "* "}
+
+
+def check_request(args: argparse.Namespace) -> None:
+    """Refuses options that would do nothing.
+
+    Raises:
+        ModelerError: they stand without what they change.
+    """
+    if args.nonzero and not (args.closed_form or args.regressor):
+        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
+    if args.expanded and not (args.closed_form or args.terms):
+        raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
+
+
+def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
+    """Prints what was asked for; for few joints the coefficients unasked.
+
+    Returns:
+        What is added to the JSON: "closed_form" and "regressor" as asked for.
+    """
+    model, base = derivation.model, derivation.base
+    if args.nonzero:
+        base = nonzero_base(model, base)
+    added: Json = {}
+    if args.closed_form:
+        if args.expanded:
+            say()
+            say(_CLOSED_FORMS[args.format](closed_form(model, base)))
+        else:
+            added["closed_form"] = _say_short_form(args.format, model, base)
+    if args.regressor:
+        added["regressor"] = _say_regressor(args.format, model, base)
+    few = model.closure is None and len(model.robot.coordinates) <= FEW_JOINTS
+    asked = args.closed_form or args.regressor
+    if args.terms or (args.terms is None and few and args.format == "text" and not asked):
+        _say_coefficients(args, derivation)
+    if args.report is not None:
+        write_atomically(Path(args.report), terms_report(model, derivation.base))
+        say(f"written: {args.report}")
+    return added
+
+
+def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
+    """Refuses what has no meaning for loops.
+
+    Raises:
+        ModelerError: coefficients or expanded forms are asked for.
+    """
+    if derivation.model.closure is None:
+        return
+    if args.terms or args.report is not None or args.expanded:
+        raise ModelerError(
+            f"{derivation.robot.name}: coefficients and expanded forms are written for robots "
+            "whose loops, if any, follow linear relations; leave out --terms, --report and "
+            "--expanded, or ask for --closed-form, which has J_t and J_p"
+        )
+
+
+def _say_short_form(form: Form, model: SymbolicModel, base: BaseParameters) -> Json:
+    found = short_form(model, base)
+    left = "t_u" if found.loops else "tau_i"
+    words = [
+        f"{left} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + g_i, without friction; "
+        "what is not listed is 0"
+    ]
+    if found.loops:
+        words += found.loops.lines
+    return _say_sheet(form, words, found.sheet)
+
+
+def _say_regressor(form: Form, model: SymbolicModel, base: BaseParameters) -> Json:
+    found = regressor_form(model, base)
+    left = "t" if found.loops else "tau"
+    words = [f"{left} = phi beta, phi<joint>_<parameter>; what is not listed is 0"]
+    if found.loops:
+        words += found.loops.lines
+    return _say_sheet(form, words, found.sheet)
+
+
+def _say_sheet(form: Form, words: Sequence[str], sheet: Sheet) -> Json:
+    say()
+    mark = _COMMENT[form]
+    for line in words:
+        indent = mark + "  " if mark != "* " else "  "
+        for piece in textwrap.wrap(mark + line, _WIDTH, subsequent_indent=indent):
+            say(piece)
+    say()
+    say(_SHEETS[form](sheet))
+    return {"equation": list(words), **sheet_json(sheet)}
+
+
+def _say_coefficients(args: argparse.Namespace, derivation: Derivation) -> None:
+    # What was not asked for must not take away what was.
+    unasked = args.terms is None and args.report is None
+    try:
+        lines = _coefficients(derivation, args.format, args.expanded)
+    except ModelerError as error:
+        if not unasked:
+            raise
+        lines = ["", f"no coefficients: {error}"]
+    for line in lines:
+        say(line)
+
+
+def _coefficients(derivation: Derivation, form: Form, everything: bool) -> list[str]:
+    table = coefficient_table(derivation.model, derivation.base)
+    shown, note = table, []
+    if len(table.coefficients) > MANY and not everything:
+        shown = independent_coefficients(table)
+        note = [
+            f"listed: {len(shown.coefficients)} of {len(table.coefficients)} coefficients, from "
+            "which the others follow; --expanded lists all"
+        ]
+    return ["", _TABLES[form](shown), "", *note, *_facts(table)]
+
+
+def _facts(table: CoefficientTable) -> list[str]:
+    """How many coefficients, what they tell, and what follows from what."""
+    first = [coefficient.function[0] for coefficient in table.coefficients]
+    counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
+    found = table.identifiability
+    lines = [
+        f"{len(first)} coefficients ("
+        + ", ".join(f"{n} {letter}" for letter, n in counts.items())
+        + f"), rank {table.relations.rank}: {' '.join(table.relations.independent)}",
+        f"{len(found.appearing)} of {len(found.letters)} physical parameters appear; without "
+        f"effect: {' '.join(found.vanishing) or 'none'}",
+    ]
+    for group in found.sums:
+        lines.append(f"only together: {' '.join(group)}")
+    size, determinant = len(table.map.rows), determinant_text(table)
+    if determinant is not None:
+        lines += [f"map to the base parameters, {size} x {size}, determinant {determinant}:"]
+        lines += [f"  {line}" for line in backward_lines(table)]
+    return lines

@@ -1,0 +1,80 @@
+"""`modeler compare MODEL LOG...`."""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from modeler.api import read_logs, recompile
+from modeler.cli.console import Json, progress, say, working
+from modeler.cli.given import check_logs, given
+from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
+from modeler.compare.predict import predict
+from modeler.compiled import CompiledModel
+from modeler.core.estimators import titled
+from modeler.fit import IdentifiedModel, load_model
+from modeler.fit.reduced import with_essential_only
+from modeler.observation import Log
+from modeler.observation.channels import Fault
+from modeler.observation.findings import findings_of_prediction
+
+_TRAINING = "training only: "
+
+
+def run_compare(args: argparse.Namespace) -> Json:
+    """Prints the table and the verdict; writes page and pictures."""
+    model = load_model(args.model)
+    if args.essential:
+        model = with_essential_only(model, args.model)
+    with working("predicting"):
+        compiled = model.compile() if args.run_embedded_c else recompile(model)
+        comparison, lines, found = judged(model, args.logs, compiled)
+    say(comparison.summary())
+    say()
+    for sentence in (*verdict(comparison), *model.warning):
+        say(sentence)
+    for line in lines:
+        if line.startswith(_TRAINING):
+            say(line)
+    for fault in found:
+        say(fault.line)
+    if args.report is not None:
+        with working("drawing the page"):
+            place = write_report(Path(args.report), comparison, lines)
+        say(f"written: {place}")
+    if args.pictures is not None:
+        with progress("drawing pictures") as bar:
+            written = write_pictures(Path(args.pictures), comparison, bar)
+        say(f"written: {len(written)} files in {args.pictures}")
+    return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
+
+
+def judged(
+    model: IdentifiedModel, logs: list[str], compiled: CompiledModel
+) -> tuple[Comparison, list[str], tuple[Fault, ...]]:
+    """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
+    read = read_logs(compiled, logs)
+    check_logs(given(logs, read), [])
+    prediction, observation = predict(model, read, compiled)
+    fitted = ", ".join(log.name for log in model.logs)
+    what = "" if model.fit.energy is None else "energy model, "
+    lines = [
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
+        f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
+        f"{100 * model.fit.relative_error:.2f} %"
+    ]
+    lines += [*model.warning, *_training(model, read), *observation.report.summary()]
+    found = findings_of_prediction(compiled, observation, model.beta)
+    lines += [fault.line for fault in found if fault.certain]
+    return compare(prediction), lines, found
+
+
+def _training(model: IdentifiedModel, logs: Sequence[Log]) -> list[str]:
+    """A line on the logs whose rows the model was fitted on, whatever the files are called."""
+    seen = []
+    for log in logs:
+        fitted = sorted({used.name for used in model.logs if used.shares_rows(log)})
+        if fitted == [log.name]:
+            seen.append(log.name)
+        elif fitted:
+            seen.append(f"{', '.join(fitted)}, which shares rows with {log.name}")
+    return [f"{_TRAINING}the model was fitted on {'; '.join(seen)}"] if seen else []

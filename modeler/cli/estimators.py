@@ -1,0 +1,104 @@
+"""`modeler estimators`: the list of them, or all of them on the same logs."""
+
+import argparse
+from pathlib import Path
+
+from modeler.api import compile_model, derive, generate, read_logs
+from modeler.cli.console import Json, progress, say, working
+from modeler.cli.robots import robot_of
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
+from modeler.core.estimators import ABOUT
+from modeler.fit.side_by_side import Tried, side_by_side
+from modeler.observation import observe
+from modeler.observation.apart import check_apart
+from modeler.pages.estimators import table_of, values_of, write_estimators
+from modeler.robot.place import near
+
+
+def run_estimators(args: argparse.Namespace) -> Json:
+    """Prints the list, or the comparison."""
+    methods = _chosen(args.methods)
+    if args.robot is None:
+        return _listed(methods)
+    if not args.logs:
+        raise DataError(
+            f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "
+            f"`modeler estimators {args.robot} run.parquet`"
+        )
+    tried, lines = _compared(args, methods)
+    for line in (*lines, "", *_aligned(table_of(tried)), "", *_aligned(values_of(tried)), ""):
+        say(line)
+    for own in tried:
+        for remark in (own.refusal,) if own.refusal else own.remarks:
+            say(f"{own.method}: {remark}")
+    if args.report is not None:
+        with working("drawing the page"):
+            place = write_estimators(Path(args.report), args.robot, tried, lines)
+        say(f"written: {place}")
+    return {
+        "training": list(args.logs),
+        "holdout": list(args.holdout),
+        "methods": [own.to_json() for own in tried],
+    }
+
+
+def _compared(
+    args: argparse.Namespace, methods: list[Method]
+) -> tuple[tuple[Tried, ...], tuple[str, ...]]:
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        compiled = compile_model(generate(derive(robot)))
+    with working("building the observation matrix"):
+        logs, holdout = read_logs(compiled, args.logs), read_logs(compiled, args.holdout)
+        check_apart(logs, holdout)
+        observation = observe(compiled, logs)
+        held = observe(compiled, holdout, observation.report.processing) if holdout else None
+    with progress("fitting") as bar:
+        tried = side_by_side(observation, compiled, held, methods, bar)
+    return tried, tuple(observation.report.summary())
+
+
+def _chosen(text: str | None) -> list[Method]:
+    if text is None:
+        return list(ABOUT)
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    chosen = [id for name in names for id in ABOUT if id == name]
+    unknown = [name for name in names if name not in chosen]
+    if unknown or not names:
+        got = unknown[0] if unknown else "nothing"
+        raise DataError(
+            f"--methods: got {got}{near(got, list(ABOUT))}; expected some of "
+            f"{', '.join(ABOUT)}, with commas between"
+        )
+    return chosen
+
+
+def _listed(methods: list[Method]) -> Json:
+    chosen = [ABOUT[method] for method in methods]
+    for about in chosen:
+        say(f"{about.id:<10} {about.title}")
+        say(f"  law        {about.law}")
+        say(f"  source     {about.source}")
+        say(f"  not        {about.avoid}")
+    return [
+        {
+            "method": about.id,
+            "title": about.title,
+            "law": about.law,
+            "source": about.source,
+            "avoid": about.avoid,
+        }
+        for about in chosen
+    ]
+
+
+def _aligned(rows: list[list[str]]) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(width) if i == 0 else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]

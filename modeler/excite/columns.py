@@ -1,0 +1,145 @@
+"""The columns of a model along a motion, smooth where speeds change sign, and their slopes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.compiled import CompiledModel
+from modeler.core.contract import ModuleSpec
+from modeler.core.errors import DataError
+from modeler.observation.bristle import bristle
+
+_NEAR_REST = 1e-7  # of the top speed
+_STEP = 1e-5  # of positions, in half ranges; of speeds, in top speeds
+_STATES = 3
+_ALIKE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """phi of tau = phi beta along motions of a robot.
+
+    Attributes:
+        compiled: the robot.
+        half: (J,) half of the range of each joint, rad or m.
+        speed: (J,) its top speed.
+        flips: (J, J, c) half the jump of phi where the speed of a joint (first index) changes sign.
+        soft: of the top speed, over which `smooth` spreads a jump.
+    """
+
+    compiled: CompiledModel
+    half: np.ndarray
+    speed: np.ndarray
+    flips: np.ndarray
+    soft: float = 0.03
+
+    def read(self, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:
+        """(n, m) what effects of the model read besides the motion."""
+        return signals(self.compiled.spec, q, time)
+
+    def exact(
+        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
+    ) -> np.ndarray:
+        """(n, J, c) phi as it is."""
+        return self.compiled.base_regressor(q, qd, qdd, s)
+
+    def smooth(
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
+        out: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
+        phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
+        for j in np.flatnonzero(self.flips.any(axis=(1, 2))):
+            v = qd[:, j] / (self.soft * self.speed[j])
+            rest = np.flatnonzero(np.abs(v) < 20.0)
+            over = (np.sign(v) - np.tanh(v))[rest]
+            for row, column in np.argwhere(self.flips[j]):
+                phi[rest, row, column] -= over * self.flips[j, row, column]
+        return phi
+
+    def pulled_back(
+        self,
+        motion: tuple[np.ndarray, np.ndarray, np.ndarray],
+        s: np.ndarray | None,
+        pull: np.ndarray,
+    ) -> list[np.ndarray]:
+        """(n, J) derivatives by q, qd and qdd of a number whose derivative by phi is `pull`.
+
+        By differences: central ones, one-sided where loops are closed for each.
+        """
+        n, joints = motion[0].shape
+        central = self.compiled.spec.closure is None
+        sides = (1.0, -1.0) if central else (1.0,)
+        sizes = (_STEP * self.half, _STEP * self.speed, np.ones(joints))
+        count = 3 * len(sides)
+        told = None if s is None else np.vstack([s] * count)
+        # One place for all of phi: fresh memory takes longer than what is written into it.
+        place = np.empty((count * n * joints, pull.shape[2]))
+        here = 0.0
+        if not central:
+            here = np.einsum("njc,njc->n", self.smooth(*motion, s, place[: n * joints]), pull)
+        slopes = [np.empty((n, joints)) for _ in range(3)]
+        for j in range(joints):
+            moved = [np.vstack([values] * count) for values in motion]
+            for k in range(count):
+                order, sign = divmod(k, len(sides))
+                moved[order][k * n : (k + 1) * n, j] += sides[sign] * sizes[order][j]
+            phi = self.smooth(moved[0], moved[1], moved[2], told, place)
+            along = np.einsum("knjc,njc->kn", phi.reshape(count, *pull.shape), pull)
+            for order in range(3):
+                if central:
+                    change = 0.5 * (along[2 * order] - along[2 * order + 1])
+                else:
+                    change = along[order] - here
+                slopes[order][:, j] = change / sizes[order][j]
+        return slopes
+
+
+def columns_of(
+    compiled: CompiledModel, middle: np.ndarray, half: np.ndarray, speed: np.ndarray
+) -> Columns:
+    """The columns of a robot, with the jumps found by looking at both sides of rest."""
+    joints, wide = len(half), len(compiled.spec.base)
+    rng = np.random.default_rng(0)
+    near = middle + 0.1 * half * rng.uniform(-1, 1, (_STATES, joints))
+    flips = np.zeros((joints, joints, wide))
+    read = signals(compiled.spec, near, np.zeros(_STATES))
+    for j in range(joints):
+        qd = 0.5 * speed * rng.uniform(0.2, 1.0, (_STATES, joints))
+        sides = []
+        for sign in (1.0, -1.0):
+            qd[:, j] = sign * _NEAR_REST * speed[j]
+            sides.append(compiled.base_regressor(near, qd, np.zeros_like(qd), read))
+        jump = 0.5 * (sides[0] - sides[1])
+        # A jump that hangs on the posture, as of joints without motor, is left as it is.
+        if np.ptp(jump, axis=0).max() < _ALIKE:
+            flips[j] = np.where(np.abs(jump[0]) > _ALIKE, jump[0], 0.0)
+    return Columns(compiled, half, speed, flips)
+
+
+def signals(spec: ModuleSpec, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:
+    """(n, m) what effects read besides the motion, at the temperature of their reference.
+
+    Raises:
+        DataError: one reads what no motion tells.
+    """
+    if not spec.signals:
+        return None
+    names = [joint.name for joint in spec.joints]
+    found = []
+    for signal in spec.signals:
+        if signal.kind == "time":
+            found.append(time)
+        elif signal.kind == "slip":
+            found.append(bristle(q[:, names.index(signal.joint)], signal.value))
+        elif signal.kind == "temperature":
+            found.append(np.zeros(len(q)))
+        else:
+            raise DataError(
+                f"{spec.robot}: an effect reads {signal.kind}; expected what a motion tells"
+            )
+    return np.column_stack(found)

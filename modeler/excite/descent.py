@@ -1,0 +1,94 @@
+"""Quasi-Newton descent inside an open set."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+_ENOUGH = 1e-4  # share of the promised fall that a step must bring (Armijo)
+_SHORTEST = 1e-6
+_NEAR = 0.95  # of the way to the boundary
+_LOOK = 10  # steps that are to bring something
+
+
+@dataclass(frozen=True)
+class Landscape:
+    """A function on an open set.
+
+    Attributes:
+        value: f(x), infinite outside of the set.
+        slope: its gradient where it is finite; called at the point last asked for.
+        reach: how far from x along d the set's flat walls stand, in lengths of d.
+    """
+
+    value: Callable[[np.ndarray], float]
+    slope: Callable[[np.ndarray], np.ndarray]
+    reach: Callable[[np.ndarray, np.ndarray], float]
+
+
+def descend(
+    landscape: Landscape, x: np.ndarray, steps: int, settled: float, proceed: Callable[[], bool]
+) -> np.ndarray:
+    """The lowest point that BFGS comes to from x, (d,).
+
+    Args:
+        landscape: the function.
+        x: inside of the set.
+        steps: at most so many.
+        settled: it ends where ten steps together bring less than this.
+        proceed: asked before each step; False ends it.
+    """
+    value = landscape.value(x)
+    slope = landscape.slope(x)
+    curve, fresh, values = _steepest(slope), True, [value]
+    for _ in range(steps):
+        if not proceed():
+            break
+        way = -curve @ slope
+        found = _lower(landscape, x, value, way, float(way @ slope))
+        if found is None:
+            if fresh:
+                break
+            curve, fresh = _steepest(slope), True  # a kink: what was learnt of curvature misleads
+            continue
+        ahead, new = found
+        after = landscape.slope(ahead)
+        curve, fresh = _updated(curve, ahead - x, after - slope, fresh), False
+        x, value, slope = ahead, new, after
+        values.append(value)
+        if len(values) > _LOOK and values[-1 - _LOOK] - value < settled:
+            break
+    return x
+
+
+def _steepest(slope: np.ndarray) -> np.ndarray:
+    return np.eye(len(slope)) / max(float(np.linalg.norm(slope)), 1e-12)
+
+
+def _lower(
+    landscape: Landscape, x: np.ndarray, value: float, way: np.ndarray, fall: float
+) -> tuple[np.ndarray, float] | None:
+    """A point along `way` that is lower than promised in part, and its value."""
+    share = min(1.0, _NEAR * landscape.reach(x, way))
+    while fall < 0.0 and share > _SHORTEST:
+        ahead = x + share * way
+        new = landscape.value(ahead)
+        if new <= value + _ENOUGH * share * fall:
+            return ahead, new
+        share *= 0.4
+    return None
+
+
+def _updated(curve: np.ndarray, step: np.ndarray, change: np.ndarray, first: bool) -> np.ndarray:
+    """The inverse of the second derivative, with what one step taught of it (BFGS)."""
+    along = float(step @ change)
+    if not along > 1e-10 * float(np.linalg.norm(step) * np.linalg.norm(change)):
+        return curve
+    if first:
+        curve = np.eye(len(step)) * (along / float(change @ change))
+    turned = curve @ change
+    return (
+        curve
+        + np.outer(step, step) * ((along + change @ turned) / along**2)
+        - (np.outer(turned, step) + np.outer(step, turned)) / along
+    )

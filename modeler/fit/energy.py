@@ -1,0 +1,295 @@
+"""The fit of the energy model: work of the motors over windows (Houda et al., section 4)."""
+
+import dataclasses
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
+from modeler.estimate.compressed import compress
+from modeler.estimate.least_squares import Estimate
+from modeler.estimate.unequal import Unequal, unequal_least_squares
+from modeler.fit.crossed import solved
+from modeler.fit.energy_report import SURE, EnergyReport, ModelFigures
+from modeler.fit.essential import Essential, essential_parameters
+from modeler.fit.identify import dead_joints, identify
+from modeler.fit.reduced import Reduced, reduced_model
+from modeler.fit.result import FitResult, JointFit, ParameterEstimate
+from modeler.observation import Observation
+from modeler.observation.energy import EnergyRows, energy_rows
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+_FEW = 5e-7  # torque standard deviation of a joint that has none: a share of its torque
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyFit:
+    """A fit of the energy model, and its rows for whoever leaves some of them out.
+
+    Attributes:
+        result: of all rows.
+        rows: that were fitted.
+        deviation: (r,) standard deviation of each, J.
+        observation: of the same logs.
+    """
+
+    result: FitResult
+    rows: EnergyRows
+    deviation: np.ndarray
+    observation: Observation
+
+    def without(self, held: np.ndarray) -> np.ndarray:
+        """Beta (c,) of the windows that touch no sample (s,) of the observation that is held out.
+
+        A window touches the samples nearest to its ends.
+        """
+        seen = self.observation
+        free = np.ones(len(self.rows.y), dtype=bool)
+        for run in range(len(seen.logs)):
+            own, windows = np.flatnonzero(seen.run == run), self.rows.run == run
+            if own.size and windows.any():
+                near = np.searchsorted(seen.time[own], self.rows.time[windows])
+                touched = held[own][near.clip(0, len(own) - 1)].any(axis=1)
+                free[np.flatnonzero(windows)[touched]] = False
+        rows = np.column_stack([self.rows.W, self.rows.y]) / self.deviation[:, None]
+        return solved(rows[free])
+
+
+def identify_energy(
+    model: "CompiledModel",
+    observation: Observation,
+    window: float | None = None,
+    method: Method = "weighted",
+) -> EnergyFit:
+    """The base parameters from energies over windows, and the torque model beside them.
+
+    Args:
+        model: the compiled robot.
+        observation: of the logs.
+        window: s; None: as `energy_rows`.
+        method: "weighted" by the modelled variance of each window, or "ordinary" (eq. 18).
+
+    Raises:
+        DataError: a motor without torque, few windows, no such method, or as `energy_rows`.
+    """
+    _check(observation, method)
+    rows = energy_rows(model, observation, window)
+    _check_enough(observation, rows)
+    found = _estimate(observation, rows, method)
+    essential = _essential(observation, rows, found)
+    result = FitResult(
+        robot=observation.robot,
+        method=method,
+        status=_status(found),
+        samples=len(observation.time),
+        rows=len(rows.y),
+        condition_number=found.condition_number, condition_scaled=found.condition_scaled,
+        relative_error=essential.error_before, essential_error=essential.error_after,
+        joints=_joints(observation, found.beta),
+        parameters=_parameters(observation, found, essential),
+        covariance=found.covariance,
+        loads=(),
+        sentences=_sentences(found, essential), processing=observation.report.processing,
+        essential=_reduced(observation, essential),
+        energy=_report(model, observation, rows, found, window, method),
+    )  # fmt: skip
+    return EnergyFit(result, rows, found.deviation, observation)
+
+
+def _check(observation: Observation, method: Method) -> None:
+    if method not in ("weighted", "ordinary"):
+        raise DataError(
+            f"--method {method}: the energy model takes weighted or ordinary; leave out --method "
+            "or --model energy"
+        )
+    dead = [observation.joints[j].name for j in dead_joints(observation)]
+    if dead:
+        raise DataError(
+            f"{', '.join(observation.logs)}: the torque of joint {', '.join(dead)} is 0 in every "
+            "row; the energy model needs the torque of every motor, for it adds up their work; "
+            "connect it, or take --model torque"
+        )
+
+
+def _check_enough(observation: Observation, rows: EnergyRows) -> None:
+    if len(rows.y) < len(observation.names):
+        raise DataError(
+            f"{', '.join(observation.logs)}: {len(rows.y)} windows of {rows.window:.4g} s for "
+            f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
+        )
+
+
+def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Unequal:
+    return unequal_least_squares(
+        rows.W, rows.y, rows.spread, observation.names, rows.stretch, method
+    )
+
+
+def _essential(observation: Observation, rows: EnergyRows, found: Unequal) -> Essential:
+    """By the F-test of the windows; the two errors are of the torques."""
+    names, weight = observation.names, 1.0 / found.deviation
+    zeros = np.zeros(len(rows.y), dtype=int)
+    data = compress(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
+    degrees = max(1, len(rows.y) - len(found.rank.kept))
+    full = Estimate(
+        found.beta, found.covariance, np.ones(1), found.rank, 0, True,
+        found.condition_number, found.condition_scaled, degrees,
+    )  # fmt: skip
+    essential = essential_parameters(data, full, "ordinary")
+    at = [names.index(name) for name in essential.names]
+    W = rows.W[:, at]
+    reduced = dataclasses.replace(
+        essential.reduced,
+        covariance=essential.reduced.covariance * found.memory**2,
+        condition_number=float(np.linalg.cond(W)),
+        condition_scaled=float(np.linalg.cond(W / np.linalg.norm(W, axis=0))),
+    )
+    return dataclasses.replace(
+        essential,
+        error_before=_torque_error(observation, found.beta),
+        error_after=_torque_error(observation, essential.beta),
+        reduced=reduced,
+    )
+
+
+def _reduced(observation: Observation, essential: Essential) -> Reduced | None:
+    sigma = np.sqrt(np.diag(essential.reduced.covariance))
+    units = dict(zip(observation.names, observation.units, strict=True))
+    return reduced_model(essential, essential.reduced, sigma, units)
+
+
+def _torque_error(observation: Observation, beta: np.ndarray) -> float:
+    residual = observation.y - observation.W @ beta
+    return float(np.linalg.norm(residual) / np.linalg.norm(observation.y))
+
+
+def _joints(observation: Observation, beta: np.ndarray) -> tuple[JointFit, ...]:
+    """Torques predicted with the energy model's beta, joint by joint."""
+    residual, found = observation.y - observation.W @ beta, []
+    for j, joint in enumerate(observation.joints):
+        own = observation.row_joint == j
+        rows = int(own.sum())
+        size, total = (
+            float(np.linalg.norm(residual[own])),
+            float(np.linalg.norm(observation.y[own])),
+        )
+        rms = size / max(1, rows) ** 0.5
+        found.append(
+            JointFit(
+                name=joint.name,
+                unit=joint.effort_unit,
+                rows=rows,
+                relative_error=size / total if total > 0.0 else None,
+                rms=rms,
+                sigma=max(rms, _FEW * total / max(1, rows) ** 0.5, 1e-300),
+            )
+        )
+    return tuple(found)
+
+
+def _parameters(
+    observation: Observation, found: Unequal, essential: Essential
+) -> tuple[ParameterEstimate, ...]:
+    kept, needed = set(found.rank.kept), set(essential.names)
+    deviations = np.sqrt(np.diag(found.covariance))
+    return tuple(
+        ParameterEstimate(
+            name=name,
+            unit=unit,
+            value=float(found.beta[i]),
+            sigma=float(deviations[i]) if i in kept else None,
+            essential=name in needed,
+            status="estimated" if i in kept else "set aside",
+        )
+        for i, (name, unit) in enumerate(zip(observation.names, observation.units, strict=True))
+    )
+
+
+def _status(found: Unequal) -> str:
+    if found.rank.aside:
+        return "rank deficient"
+    return "ok" if found.settled else "not settled"
+
+
+def _sentences(found: Unequal, essential: Essential) -> tuple[str, ...]:
+    said = [tangle.sentence() for tangle in found.rank.aside]
+    if not found.settled:
+        said.append("the variances of the windows still change; record more rows")
+    if found.memory > 1.2:
+        said.append(
+            "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
+            f"factor {found.memory:.2g}"
+        )
+    return (*said, essential.sentence())
+
+
+def _report(
+    model: "CompiledModel",
+    observation: Observation,
+    rows: EnergyRows,
+    found: Unequal,
+    window: float | None,
+    method: Method,
+) -> EnergyReport:
+    torque = identify(observation, method)
+    coarse_rows = energy_rows(model, observation, window, "trapezoid")
+    coarse = _estimate(observation, coarse_rows, method)
+    first = _figures(
+        "torque", observation, torque.rows, torque.condition_scaled, torque.beta, torque.covariance
+    )
+    others = [
+        dataclasses.replace(
+            _figures(name, observation, len(part.y), fit.condition_scaled, fit.beta,
+                     fit.covariance),
+            imbalance=_imbalance(part, found.beta),
+            bias=_bias(part, fit, found.beta),
+        )
+        for name, part, fit in (
+            ("energy, Simpson", rows, found), ("energy, trapezoid", coarse_rows, coarse),
+        )
+    ]  # fmt: skip
+    return EnergyReport(
+        window=rows.window,
+        relative_error=float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y)),
+        figures=(first, *others),
+        parameters=len(found.rank.kept),
+    )
+
+
+def _figures(
+    name: str,
+    observation: Observation,
+    rows: int,
+    condition: float,
+    beta: np.ndarray,
+    covariance: np.ndarray,
+) -> ModelFigures:
+    sigma = np.sqrt(np.diag(covariance))
+    W = observation.W
+    spread = float(np.sqrt(np.einsum("rc,cd,rd->", W, covariance, W, optimize=True)))
+    return ModelFigures(
+        model=name,
+        rows=rows,
+        condition_scaled=condition,
+        known=int(np.sum((sigma > 0.0) & (100.0 * sigma < SURE * np.abs(beta)))),
+        torque_error=_torque_error(observation, beta),
+        torque_sigma=spread / float(np.linalg.norm(observation.y)),
+    )
+
+
+def _imbalance(rows: EnergyRows, beta: np.ndarray) -> float:
+    missed = np.linalg.norm((rows.balance - rows.W) @ beta)
+    return float(missed / np.linalg.norm(rows.y))
+
+
+def _bias(rows: EnergyRows, found: Unequal, beta: np.ndarray) -> float:
+    """What the energy that integration misses moves at most, in sigmas."""
+    kept = list(found.rank.kept)
+    missed = (rows.balance - rows.W) @ beta
+    weighted = np.column_stack([rows.W[:, kept], missed]) / found.deviation[:, None]
+    sigma = np.sqrt(np.diag(found.covariance)[kept])
+    return float(np.max(np.abs(solved(weighted)) / sigma, initial=0.0))

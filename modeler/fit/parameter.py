@@ -1,0 +1,76 @@
+"""One estimated parameter, and a table of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class ParameterEstimate:
+    """One estimated parameter.
+
+    Attributes:
+        name: base parameter, or load parameter.
+        unit: SI.
+        value: 0 if it was set aside.
+        sigma: standard deviation; None if it was set aside.
+        essential: False if the model does as well without it.
+        status: "estimated" | "set aside".
+        interval: 95 %, of parameters of an effect whose shapes were fitted too; None for others.
+    """
+
+    name: str
+    unit: str
+    value: float
+    sigma: float | None
+    essential: bool
+    status: str
+    interval: tuple[float, float] | None = None
+
+    @property
+    def relative_sigma_percent(self) -> float | None:
+        """100 sigma / |value|; None where that means nothing."""
+        if self.sigma is None or self.value == 0.0:
+            return None
+        return 100.0 * self.sigma / abs(self.value)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "name": self.name,
+            "value": self.value,
+            "sigma": self.sigma,
+            "relative_sigma_percent": self.relative_sigma_percent,
+            "essential": self.essential,
+            "unit": self.unit,
+            "status": self.status,
+            "interval": None if self.interval is None else list(self.interval),
+        }
+
+
+def read_parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
+    """Read `ParameterEstimate.to_json` back."""
+    fields = {k: v for k, v in entry.items() if k != "relative_sigma_percent"}
+    interval = fields.pop("interval", None)
+    if interval is not None:
+        low, high = interval
+        interval = float(low), float(high)
+    return ParameterEstimate(**fields, interval=interval)
+
+
+def parameter_lines(parameters: Sequence[ParameterEstimate]) -> list[str]:
+    """A table: name, value, sigma, %sigma, unit."""
+    width = max([9, *(len(parameter.name) for parameter in parameters)])
+    lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}  unit"]
+    for parameter in parameters:
+        if parameter.sigma is None:
+            lines.append(f"{parameter.name:<{width}} {'set aside':>13}")
+            continue
+        share = parameter.relative_sigma_percent
+        percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
+        mark = "" if parameter.essential else "  (not essential)"
+        lines.append(
+            f"{parameter.name:<{width}} {parameter.value:>13.6g} {parameter.sigma:>10.3g} "
+            f"{percent:>8}  {parameter.unit}{mark}"
+        )
+    return lines

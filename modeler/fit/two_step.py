@@ -1,0 +1,151 @@
+"""A two-step fit as a result: its values, whether the logs excite them, and the one-step fit."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.compiled import CompiledModel
+from modeler.core.choices import TWO_STEPS
+from modeler.estimate.alone import Directions
+from modeler.estimate.excited import Excitation, excitations
+from modeler.estimate.two_step import Configuration, TwoStep, two_steps
+from modeler.fit.essential import essential_parameters, relative_error
+from modeler.fit.identify import identify, parts_of
+from modeler.fit.result import FitResult
+from modeler.observation import Observation
+
+
+@dataclass(frozen=True, eq=False)
+class TwoStepFit:
+    """A two-step fit beside the one-step fit of the same logs.
+
+    Attributes:
+        result: of the two steps, for the model file.
+        steps: configurations and Phi.
+        excitation: of each joint that moved alone.
+        one_step: the weighted least squares of all rows.
+    """
+
+    result: FitResult
+    steps: TwoStep
+    excitation: tuple[Excitation, ...]
+    one_step: FitResult
+
+    def summary(self) -> list[str]:
+        """Lines: step 1 by configuration, what Phi tells, both fits beside each other."""
+        lines = ["step 1: one joint moves, the others stand"]
+        lines += [f"  {self._line(c)}" for c in self.steps.configurations]
+        lines += [
+            f"  {count} piece{'s' * (count > 1)} not used: {why}"
+            for why, count in self.steps.left_out.items()
+        ]
+        if self.steps.several > 0.0:
+            lines.append(f"  {self.steps.several:.3g} s not used: several joints move")
+        lines.append("step 2: theta = Phi beta")
+        lines += [f"  {excitation.line()}" for excitation in self.excitation]
+        return [*lines, *self._compared()]
+
+    def _line(self, c: Configuration) -> str:
+        names, own = self.steps.directions.names, c.felt[0]
+        where = ", ".join(f"q{name} {x:.2f}" for name, x in self._others(c).items())
+        cells = [
+            f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
+            for name, x, s in zip(own.along.names, own.theta, own.sigma, strict=True)
+        ]
+        further = [names[f.joint] for f in c.felt[1:]]
+        also = f"; torque of joint {', '.join(further)} too" if further else ""
+        return (
+            f"{c.log}, {c.start:.2f} to {c.end:.2f} s: joint {names[c.joint]} at {where or '-'}: "
+            f"{', '.join(cells)}{also}"
+        )
+
+    def _others(self, c: Configuration) -> dict[str, float]:
+        names = self.steps.directions.names
+        return {names[k]: float(x) for k, x in enumerate(c.pose) if k != c.joint}
+
+    def _compared(self) -> list[str]:
+        width = max([9, *(len(p.name) for p in self.result.parameters)])
+        lines = [
+            f"{'parameter':<{width}} {'two-step':>12} {'sigma':>9} {'one-step':>12} {'sigma':>9}"
+        ]
+        for two, one in zip(self.result.parameters, self.one_step.parameters, strict=True):
+            cells = [
+                f"{p.value:>12.6g} {p.sigma:>9.2g}" if p.sigma is not None
+                else f"{'set aside':>12} {'':>9}"
+                for p in (two, one)
+            ]  # fmt: skip
+            lines.append(f"{two.name:<{width}} {cells[0]} {cells[1]}")
+        lines.append(
+            f"relative error {100 * self.result.relative_error:.3f} % in two steps, "
+            f"{100 * self.one_step.relative_error:.3f} % in one"
+        )
+        return lines
+
+    def _configuration(self, c: Configuration) -> dict[str, Any]:
+        names = self.steps.directions.names
+        return {
+            "log": c.log,
+            "start": c.start,
+            "end": c.end,
+            "joint": names[c.joint],
+            "others": self._others(c),
+            "rows": len(c.felt[0].residual),
+            "torques": {
+                names[f.joint]: {
+                    name: {"value": float(x), "sigma": float(s)}
+                    for name, x, s in zip(f.along.names, f.theta, f.sigma, strict=True)
+                }
+                for f in c.felt
+            },
+        }
+
+    def to_json(self) -> dict[str, Any]:
+        """The object `two_step` beside that of the fit."""
+        return {
+            "configurations": [self._configuration(c) for c in self.steps.configurations],
+            "left_out": dict(self.steps.left_out),
+            "several_moving": self.steps.several,
+            "excitation": [excitation.to_json() for excitation in self.excitation],
+            "one_step": [parameter.to_json() for parameter in self.one_step.parameters],
+        }
+
+
+def identify_in_two_steps(
+    model: CompiledModel, observation: Observation, directions: Directions
+) -> TwoStepFit:
+    """The two-step fit of an observation, and the one-step fit beside it.
+
+    Args:
+        model: the robot.
+        observation: of logs in which joints move one at a time.
+        directions: how the coordinates move with each joint.
+
+    Raises:
+        DataError: no piece in which one joint moves and the others stand, or what `identify` says.
+    """
+    one = identify(observation)
+    steps = two_steps(model, observation, directions)
+    excitation = excitations(model, observation, directions, steps.configurations)
+    estimate = steps.estimate
+    essential = essential_parameters(steps.data, estimate, "ordinary")
+    parameters, joints, rows = parts_of(observation, estimate, essential)
+    result = FitResult(
+        robot=observation.robot,
+        method=TWO_STEPS,
+        status="rank deficient" if estimate.rank.aside else "ok",
+        samples=len(observation.time),
+        rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
+        condition_number=estimate.condition_number,
+        condition_scaled=estimate.condition_scaled,
+        relative_error=relative_error(rows, estimate.beta),
+        essential_error=relative_error(rows, essential.beta),
+        joints=joints,
+        parameters=parameters,
+        covariance=estimate.covariance,
+        loads=(),
+        sentences=(
+            *(e.sentence() for e in excitation if not e.persistent),
+            *(tangle.sentence() for tangle in estimate.rank.aside),
+        ),
+        processing=observation.report.processing,
+    )
+    return TwoStepFit(result, steps, excitation, one)

@@ -1,0 +1,100 @@
+"""A table of a paper beside ours, line by line."""
+
+import enum
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from modeler.core.errors import RobotError
+from modeler.papers import Paper
+from modeler.papers.quotation import numbers_of
+
+ZMAX = 4.0
+"""A value further from the truth than so many of its sigmas is not the truth's."""
+
+
+class Outcome(enum.Enum):
+    """How a line of a method ends."""
+
+    REPRODUCED = "reproduced"
+    RECOVERED = "truth recovered"
+    DERIVED = "as derived"
+    SHOWN = "beside each other"
+    FAILED = "NOT reproduced"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line.
+
+    Attributes:
+        what: parameter or figure.
+        printed: by the paper, or "-".
+        ours: of the simulation.
+        outcome: "truth recovered" where a simulated machine's value is found, whatever the paper
+            measured on its own; "as derived" where we say what the paper does not, or deny what it
+            says; "beside each other" where nothing says that the two must agree.
+        why: what was asked of the line, or a remark.
+    """
+
+    what: str
+    printed: str
+    ours: str
+    outcome: Outcome
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class MethodTable:
+    """One table.
+
+    Attributes:
+        title: what it is.
+        setting: what was simulated, one sentence each.
+        rows: its lines.
+    """
+
+    title: str
+    setting: tuple[str, ...]
+    rows: tuple[Row, ...]
+
+
+def judged(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:
+    """Reproduced, or not."""
+    return well if holds else Outcome.FAILED
+
+
+def recovered(name: str, printed: str, truth: float, value: float, sigma: float) -> Row:
+    """A parameter whose truth the simulated robot has: within `ZMAX` of its sigmas."""
+    z = (value - truth) / sigma if sigma > 0.0 else float("inf")
+    text = f"{value:.5g} +- {sigma:.2g} ({100 * sigma / abs(value):.3g} %)"
+    outcome = Outcome.RECOVERED if abs(z) < ZMAX else Outcome.FAILED
+    return Row(name, printed, text, outcome, f"{truth:.5g}, {z:+.1f} sigma")
+
+
+def figures(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:
+    """The numbers of a printed table: {first word of a quotation: the numbers that follow}.
+
+    Raises:
+        RobotError: the paper's file quotes no such table.
+    """
+    found = {}
+    for line in paper.lines:
+        word, _, rest = line.quote.partition(" ")
+        if line.place == place and re.fullmatch(r"[A-Za-z]\w*", word):
+            found[word] = tuple(float(number.value) for number in numbers_of(rest))
+    if not found:
+        raise RobotError(f"paper {paper.name}: its file quotes no {place}")
+    return found
+
+
+def quoted(paper: Paper, start: str) -> tuple[float, ...]:
+    """The numbers of the quotation that starts so, and of those given with it.
+
+    Raises:
+        RobotError: the paper's file has none.
+    """
+    for line in paper.lines:
+        if line.quote.startswith(start):
+            return tuple(float(n.value) for n in numbers_of("; ".join((line.quote, *line.given))))
+    raise RobotError(f'paper {paper.name}: its file quotes nothing that starts with "{start}"')

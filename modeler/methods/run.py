@@ -1,0 +1,26 @@
+"""Which paper has which method."""
+
+from collections.abc import Callable, Mapping
+
+from modeler.methods.briot import briot_methods
+from modeler.methods.guegan import guegan_methods
+from modeler.methods.hanssen import hanssen_methods
+from modeler.methods.houda import houda_methods
+from modeler.methods.report import MethodTable
+from modeler.papers import Paper
+
+Report = Callable[[float], None]
+"""Told how much is done, 0 to 1."""
+
+METHODS: Mapping[str, Callable[[Paper, Report], list[MethodTable]]] = {
+    "briot-2012": briot_methods,
+    "guegan-2003": guegan_methods,
+    "hanssen-2000": hanssen_methods,
+    "houda": houda_methods,
+}
+
+
+def run_methods(paper: Paper, report: Report) -> list[MethodTable]:
+    """The paper's identification, run again in simulation; nothing for a paper without one."""
+    method = METHODS.get(paper.name)
+    return method(paper, report) if method is not None else []

@@ -1,0 +1,81 @@
+"""Two sums, printed and derived, and the difference that is known between them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from modeler.papers.quotation import Amount, Monomial, Sum, added
+
+_SLACK = 1 + 1e-9
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What a line prints and what is derived.
+
+    Attributes:
+        printed: as read from the quotation, our names.
+        derived: the same, derived.
+        text: the derived one as people read it.
+        difference: derived minus printed, as the paper's file states it.
+        values: of the names that stand in coefficients, for decimals.
+    """
+
+    printed: Sum
+    derived: Sum
+    text: str
+    difference: Sum = field(default_factory=dict)
+    values: Mapping[str, float] = field(default_factory=dict)
+
+
+def joined(parts: Mapping[str, Sum]) -> Sum:
+    """Sums of several places as one: every term carries its place as a factor `in<place>`."""
+    return {
+        tuple(sorted((*monomial, (f"in{place}", 1)))): value
+        for place, part in parts.items()
+        for monomial, value in part.items()
+    }
+
+
+def same(found: Compared) -> tuple[bool, bool]:
+    """(printed + difference is what is derived, all of it exactly and not only as rounded).
+
+    A coefficient that is printed with a point is compared as a number, to half a unit of its last
+    digit; all others exactly.
+    """
+    printed = _by_name(added(found.printed, found.difference), found.values)
+    derived = _by_name(found.derived, found.values)
+    if printed.keys() != derived.keys():
+        return False, False
+    exact = True
+    for name, parts in printed.items():
+        if any(value.half for value in parts.values()):
+            exact = False
+            wanted, left = (_number(p, found.values) for p in (derived[name], parts))
+            if abs(wanted.value - left.value) > left.half * Fraction(_SLACK):
+                return False, False
+        elif {m: v.value for m, v in parts.items()} != {
+            m: v.value for m, v in derived[name].items()
+        }:
+            return False, False
+    return True, exact
+
+
+def _by_name(whole: Sum, values: Mapping[str, float]) -> dict[Monomial, dict[Monomial, Amount]]:
+    """{names that are no symbols: {symbols: coefficient}}."""
+    found: dict[Monomial, dict[Monomial, Amount]] = {}
+    for monomial, value in whole.items():
+        name = tuple(part for part in monomial if part[0] not in values)
+        rest = tuple(part for part in monomial if part[0] in values)
+        found.setdefault(name, {})[rest] = value
+    return found
+
+
+def _number(parts: Mapping[Monomial, Amount], values: Mapping[str, float]) -> Amount:
+    total = Amount(Fraction(0))
+    for monomial, value in parts.items():
+        factor = 1.0
+        for name, power in monomial:
+            factor *= values[name] ** power
+        total = total + value * Amount(Fraction(factor))
+    return total

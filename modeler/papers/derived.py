@@ -1,0 +1,84 @@
+"""What is derived of a robot, in the form in which quotations are compared with it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+from fractions import Fraction
+from functools import cached_property
+
+import sympy
+
+from modeler.base import BaseParameters, base_parameters
+from modeler.core.expression import parse
+from modeler.papers.quotation import Amount, Monomial, Sum, read_sum
+from modeler.robot import Robot, read_robot
+from modeler.symbolic import SymbolicModel, derive_model
+from modeler.terms import CoefficientTable, coefficient_table
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A robot with its model and base parameters."""
+
+    robot: Robot
+    model: SymbolicModel
+    base: BaseParameters
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """Nominal values of the geometric symbols."""
+        return self.model.geometry.values
+
+    @cached_property
+    def relations(self) -> Mapping[str, Sum]:
+        """Every base parameter as a sum of standard parameters."""
+        return {p.name: _sum_of(p.terms) for p in self.base.parameters}
+
+    @cached_property
+    def standard(self) -> tuple[str, ...]:
+        """Names of the standard parameters."""
+        return tuple(column.name for column in self.base.columns)
+
+    @cached_property
+    def kept(self) -> frozenset[str]:
+        """Standard parameters whose columns are those of base parameters."""
+        return frozenset(self.base.columns[p.column].name for p in self.base.parameters)
+
+    @cached_property
+    def table(self) -> CoefficientTable:
+        """Coefficients of the closed form."""
+        return coefficient_table(self.model, self.base)
+
+    @cached_property
+    def tied(self) -> Mapping[str, Sum]:
+        """Joint variables that follow others, and those that follow themselves."""
+        free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving}
+        tied = {f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()}
+        return free | tied
+
+
+def derived_robot(name: str, gravity: tuple[str, ...] = (), of: str = "") -> Derived:
+    """A built-in robot, or one of that name with another direction of gravity."""
+    robot = read_robot(of or name)
+    if gravity:
+        x, y, z = (parse(text) for text in gravity)
+        robot = replace(robot, name=name, gravity=(x, y, z))
+    model = derive_model(robot)
+    return Derived(robot, model, base_parameters(model))
+
+
+def select(names: tuple[str, ...] | frozenset[str], pattern: str) -> frozenset[str]:
+    """Names that a pattern such as `*11` or `??2[123]` describes; several with `|`."""
+    return frozenset(n for n in names if any(fnmatchcase(n, p) for p in pattern.split("|")))
+
+
+def _sum_of(terms: tuple[object, ...]) -> Sum:
+    total: dict[Monomial, Amount] = {}
+    for term in terms:
+        for part in sympy.Add.make_args(sympy.expand(term.coefficient)):  # type: ignore[attr-defined]
+            number, rest = part.as_coeff_Mul()
+            powers = {str(b): int(e) for b, e in rest.as_powers_dict().items() if b != 1}
+            powers[term.parameter] = 1  # type: ignore[attr-defined]
+            value = sympy.Rational(number)
+            total[tuple(sorted(powers.items()))] = Amount(Fraction(int(value.p), int(value.q)))
+    return total

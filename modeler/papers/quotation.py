@@ -1,0 +1,230 @@
+"""Reads what a paper prints: sums of products, with decimals that know how many digits they have.
+
+`ZZ2Ri = ZZ2i + YY3i + D4i^2 M4i`, `- 3.23MX32`, `1/D41 MX3R1`, `sin theta2 qd1`: factors may stand
+side by side as in print. A number with a point stands for every value that rounds to it.
+"""
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+Monomial = tuple[tuple[str, int], ...]
+"""Names with their exponents, sorted."""
+
+_TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?)|([A-Za-z][A-Za-z0-9']*)|(\*\*|[-+*/^()\[\]]))")
+_SUM = re.compile(r"sum_i\s*\[([^\]]*)\]")
+_NUMBER = re.compile(r"(?<![A-Za-z\d.,])-?\d+(?:[.,]\d+)?")
+_FUNCTIONS = ("sin", "cos")
+
+
+class QuotationError(ValueError):
+    """A quotation that cannot be read as what it is said to be."""
+
+
+@dataclass(frozen=True)
+class Amount:
+    """A coefficient.
+
+    Attributes:
+        value: as printed.
+        half: half a unit of the last printed digit; 0 if it is exact.
+    """
+
+    value: Fraction
+    half: Fraction = Fraction(0)
+
+    def __add__(self, other: "Amount") -> "Amount":
+        return Amount(self.value + other.value, self.half + other.half)
+
+    def __mul__(self, other: "Amount") -> "Amount":
+        half = abs(self.value) * other.half + abs(other.value) * self.half
+        return Amount(self.value * other.value, half)
+
+    def __neg__(self) -> "Amount":
+        return Amount(-self.value, self.half)
+
+
+Sum = Mapping[Monomial, Amount]
+
+
+def amount(text: str) -> Amount:
+    """`3.23`: with half a unit of its last digit; `3`: exact; a decimal comma is a point."""
+    text = text.replace(",", ".")
+    digits = len(text.partition(".")[2])
+    half = Fraction(1, 2 * 10**digits) if digits else Fraction(0)
+    return Amount(Fraction(text), half)
+
+
+def numbers_of(text: str) -> list[Amount]:
+    """The numbers of a quotation in their order; digits of names such as `M7` do not count."""
+    joined = re.sub(r"(?<=\d) (?=\d{3}(?!\d))", "", text)
+    return [amount(found) for found in _NUMBER.findall(joined)]
+
+
+def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) -> Sum:
+    """The sum, its names changed by `rename`.
+
+    Args:
+        text: as printed; `sum_i [ ... ]` runs over `legs`.
+        rename: from the paper's name to ours.
+        legs: what stands for i in the terms of such a sum.
+
+    Raises:
+        QuotationError: it is no sum of products.
+    """
+
+    def written_out(match: re.Match[str]) -> str:
+        term = match.group(1)
+        return "(" + " + ".join(re.sub(r"(?<=\d)i\b", leg, term) for leg in legs) + ")"
+
+    tokens = _tokens(_SUM.sub(written_out, text))
+    reader = _Reader(tokens, rename)
+    found = reader.sum()
+    if reader.at != len(tokens):
+        raise QuotationError(f'"{text}" cannot be read from "{"".join(tokens[reader.at :])}" on')
+    return {monomial: value for monomial, value in found.items() if value.value}
+
+
+def _tokens(text: str) -> list[str]:
+    found, at = [], 0
+    while at < len(text.rstrip()):
+        match = _TOKEN.match(text, at)
+        if match is None:
+            raise QuotationError(f'"{text}" cannot be read from "{text[at:]}" on')
+        found.append(match.group().strip().replace("**", "^"))
+        at = match.end()
+    return found
+
+
+class _Reader:
+    """Sum, product, factor: each method reads on from token `at`."""
+
+    def __init__(self, tokens: list[str], rename: Callable[[str], str]) -> None:
+        self.tokens, self.rename, self.at = tokens, rename, 0
+
+    def _next(self) -> str:
+        return self.tokens[self.at] if self.at < len(self.tokens) else ""
+
+    def _take(self) -> str:
+        token = self._next()
+        self.at += 1
+        return token
+
+    def sum(self) -> dict[Monomial, Amount]:
+        total: dict[Monomial, Amount] = {}
+        first = True
+        while first or self._next() in ("+", "-"):
+            sign = self._take() if self._next() in ("+", "-") else "+"
+            for monomial, value in self._product().items():
+                value = -value if sign == "-" else value
+                total[monomial] = total[monomial] + value if monomial in total else value
+            first = False
+        return total
+
+    def _product(self) -> dict[Monomial, Amount]:
+        found = self._factor()
+        while (token := self._next()) and token not in ("+", "-", ")", "]"):
+            if token in ("*", "/"):
+                self._take()
+            factor = self._factor()
+            found = _product(found, _inverse(factor) if token == "/" else factor)
+        return found
+
+    def _factor(self) -> dict[Monomial, Amount]:
+        token = self._take()
+        found: dict[Monomial, Amount]
+        if token in ("(", "["):
+            found = self.sum()
+            self._take()
+        elif token[:1].isdigit():
+            found = {(): amount(token)}
+        elif token[:1].isalpha():
+            if token in _FUNCTIONS:
+                found = {((f"{token}({self._argument()})", 1),): Amount(Fraction(1))}
+            else:
+                found = {((self.rename(token), 1),): Amount(Fraction(1))}
+        else:
+            raise QuotationError(f'got "{token or "the end"}"; expected a name or a number')
+        if self._next() == "^":
+            self._take()
+            power, base = self._take(), found
+            if not power.isdigit():
+                raise QuotationError(f'got the exponent "{power}"; expected a number')
+            for _ in range(int(power) - 1):
+                found = _product(found, base)
+        return found
+
+    def _argument(self) -> str:
+        """`theta2` or `(theta2)`."""
+        token = self._take()
+        if token != "(":
+            return self.rename(token)
+        name = self.rename(self._take())
+        self._take()
+        return name
+
+
+def _product(a: Sum, b: Sum) -> dict[Monomial, Amount]:
+    total: dict[Monomial, Amount] = {}
+    for left, x in a.items():
+        for right, y in b.items():
+            powers = dict(left)
+            for name, power in right:
+                powers[name] = powers.get(name, 0) + power
+            monomial = tuple(sorted((n, p) for n, p in powers.items() if p))
+            value = x * y
+            total[monomial] = total[monomial] + value if monomial in total else value
+    return total
+
+
+def _inverse(a: Sum) -> dict[Monomial, Amount]:
+    if len(a) != 1:
+        raise QuotationError("a sum stands below a fraction line; expected a product")
+    ((monomial, value),) = a.items()
+    if value.half or not value.value:
+        raise QuotationError("expected an exact number below a fraction line")
+    return {tuple((name, -power) for name, power in monomial): Amount(1 / value.value)}
+
+
+def added(*sums: Sum) -> dict[Monomial, Amount]:
+    """The sum of sums."""
+    total: dict[Monomial, Amount] = {}
+    for part in sums:
+        for monomial, value in part.items():
+            total[monomial] = total[monomial] + value if monomial in total else value
+    return {monomial: value for monomial, value in total.items() if value.value}
+
+
+def replaced(a: Sum, values: Mapping[str, Sum]) -> dict[Monomial, Amount]:
+    """The sum with sums put in for names."""
+    total: dict[Monomial, Amount] = {}
+    for monomial, value in a.items():
+        part: dict[Monomial, Amount] = {(): value}
+        for name, power in monomial:
+            if name in values and power > 0:
+                for _ in range(power):
+                    part = _product(part, values[name])
+            else:
+                part = _product(part, {((name, power),): Amount(Fraction(1))})
+        total = added(total, part)
+    return total
+
+
+def sum_text(a: Sum) -> str:
+    """`ZZ2 + D4^2*M4`: as people read it."""
+    text = ""
+    for monomial, value in a.items():
+        above = [_power(name, power) for name, power in monomial if power > 0]
+        below = [_power(name, -power) for name, power in monomial if power < 0]
+        size = abs(value.value)
+        number = f"{float(size):.4g}" if value.half or size.denominator > 1000 else str(size)
+        if number != "1" or not above:
+            above.insert(0, number)
+        term = "*".join(above) + "".join(f"/{name}" for name in below)
+        text += (" - " if value.value < 0 else " + ") + term
+    return text.removeprefix(" + ").replace(" - ", "-", 1) if text[:3] == " - " else text[3:] or "0"
+
+
+def _power(name: str, power: int) -> str:
+    return name if power == 1 else f"{name}^{power}"

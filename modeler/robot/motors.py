@@ -1,0 +1,243 @@
+"""Motors that drive the joints through a coupling: `[motors]`, for logs of the motor side.
+
+Every motor is a row of its own, without a link, and the joints follow the motors: q_m = G q_a, so
+q_a = G^-1 q_m, and by virtual work tau_m = G^-T tau_a (Hanssen, Hovland and Brogardh 2000, section
+5). Variables, torques, friction and rotor inertias of the robot are then those of the motors.
+"""
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from modeler.core.expression import Expression
+from modeler.robot.cells import (
+    LARGEST_RATIO,
+    check_declared,
+    check_name_length,
+    check_size,
+    expression_at,
+    form_at,
+    table_at,
+)
+from modeler.robot.joint import JointKind
+from modeler.robot.place import Place, listed, shown
+from modeler.robot.robot import Robot
+from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
+
+_EXAMPLE = '[motors] m1 = "q1", m2 = "q2 - 0.4*q1"'
+_SIMPLE = 10**6  # largest denominator of a ratio that is taken as a fraction, such as 1/3
+
+Rows = tuple[tuple[Row, Place], ...]
+Ratios = Mapping[str, Mapping[str, Fraction]]
+"""{motor: {joint: coefficient}}, the rows of G."""
+
+
+def motor_rows(value: Any, rows: Rows, place: Place) -> Rows:
+    """The rows of the motors, to stand below the table; the joints that they drive get mu 0.
+
+    Raises:
+        RobotError: a name that is taken or no name, a motor that drives no joint of the table.
+    """
+    taken = {row["j"]: row for row, _ in rows}
+    found = []
+    for name, cell in table_at(value, place, _EXAMPLE).items():
+        here = place.at(shown(name))
+        if not ROW_NAME.fullmatch(name) or not name.isascii() or name == "0":
+            raise here.error('expected a name of letters and digits such as "m1"')
+        check_name_length(name, here)
+        if name in taken:
+            raise here.error(
+                f"row {shown(name)} of [mdh] has that name; call the motor m{name}: its columns "
+                f"are then qm{name} and taum{name}"
+            )
+        joints = _joints(expression_at(cell, here), taken, here)
+        sliding = all(row_kind(row, here) is JointKind.PRISMATIC for row in joints)
+        kind = JointKind.PRISMATIC if sliding else JointKind.REVOLUTE
+        motor: Row = {
+            "j": name, "a": "0", "mu": 1, "sigma": kind.value, HOME[kind]: f"q{name}",
+        }  # fmt: skip
+        found.append((motor, here))
+        for joint in joints:
+            joint["mu"] = 0
+    return tuple(found)
+
+
+def read_motors(
+    value: Any, rows: Rows, symbols: Mapping[str, float], place: Place
+) -> tuple[Ratios, dict[str, str]]:
+    """G, and the relations of the joints to the motors, as cells of `[relations]`.
+
+    Args:
+        value: the table `[motors]`.
+        rows: of the table, those of the motors included.
+        symbols: values of the declared symbols.
+        place: of the table.
+
+    Raises:
+        RobotError: no sum of joint variables, not as many motors as joints, or a singular G.
+    """
+    table = table_at(value, place, _EXAMPLE)
+    if not table:
+        return {}, {}
+    names = [row["j"] for row, _ in rows if row["j"] not in table]
+    variables = {f"q{name}": name for name in names}
+    ratios = {
+        motor: _ratios(expression_at(cell, place), variables, symbols, place.at(shown(motor)))
+        for motor, cell in table.items()
+    }
+    joints = [name for name in names if any(name in row for row in ratios.values())]
+    _check_count(ratios, joints, place)
+    inverse = _checked_inverse(ratios, joints, place)
+    return ratios, {
+        f"q{joint}": _sum({f"q{motor}": c for motor, c in zip(ratios, row, strict=True)})
+        for joint, row in zip(joints, inverse, strict=True)
+    }
+
+
+def with_driven(
+    stated: Mapping[str, Any], driven: Mapping[str, str], place: Place
+) -> dict[str, Any]:
+    """The table `[relations]` with the joints that follow motors.
+
+    Raises:
+        RobotError: a joint that follows another joint and motors.
+    """
+    for name in stated:
+        if name in driven:
+            raise place.at(name).error(
+                f"follows motors of [motors] too; take {name} out of the sums there, or remove "
+                "the relation"
+            )
+    return {**driven, **stated}
+
+
+def check_driven(robot: Robot, place: Place) -> None:
+    """Refuse joints with a motor of their own beside those of `[motors]`.
+
+    Raises:
+        RobotError: names the first.
+    """
+    others = [j.name for j in robot.free if j.actuated and j.name not in robot.motors]
+    if robot.motors and others:
+        raise place.error(
+            f"no motor turns with q{others[0]}, which has one; expected every joint with a motor "
+            f'in some sum; add m{others[0]} = "q{others[0]}", or write mu 0 in its row'
+        )
+
+
+def joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
+    """How fast the coordinates move when one joint moves alone at speed 1: columns of G.
+
+    Unit vectors where the coordinates are the joints themselves. Joints in table order, entries in
+    the order of `robot.coordinates`.
+    """
+    coordinates = [joint.name for joint in robot.coordinates]
+    if not robot.motors:
+        return {name: tuple(float(name == other) for other in coordinates) for name in coordinates}
+    joints = [j.name for j in robot.joints if any(j.name in row for row in robot.motors.values())]
+    return {
+        joint: tuple(robot.motors[motor].get(joint, 0.0) for motor in coordinates)
+        for joint in joints
+    }
+
+
+def _joints(expression: Expression, rows: Mapping[str, Row], place: Place) -> list[Row]:
+    """The rows whose variables the expression holds."""
+    names = [name[1:] for name in expression.names if name.startswith("q") and name[1:] in rows]
+    if not names:
+        raise place.error(
+            f"got {shown(expression.text)}, without a joint variable; expected the position of the "
+            f"motor as a sum of {listed([f'q{name}' for name in rows])}"
+        )
+    return [rows[name] for name in sorted(names)]
+
+
+def _ratios(
+    expression: Expression,
+    variables: Mapping[str, str],
+    symbols: Mapping[str, float],
+    place: Place,
+) -> dict[str, Fraction]:
+    """{joint: coefficient} of one motor.
+
+    Raises:
+        RobotError: not linear, a constant, a name that is not known.
+    """
+    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
+    form = form_at(expression, symbols, place, "q2 - 0.4*q1")
+    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
+    if form.constant != 0.0:
+        raise place.error(
+            f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a sum of "
+            "joint variables only: the motor reads 0 where the joints do"
+        )
+    return {variables[name]: _fraction(c) for name, c in form.coefficients.items() if c != 0.0}
+
+
+def _fraction(value: float) -> Fraction:
+    """1/3 as it was meant, 0.4 as it was written."""
+    simple = Fraction(value).limit_denominator(_SIMPLE)
+    return simple if float(simple) == value else Fraction(repr(value))
+
+
+def _check_count(ratios: Ratios, joints: Sequence[str], place: Place) -> None:
+    if len(ratios) != len(joints):
+        raise place.error(
+            f"got {len(ratios)} motors ({listed(list(ratios))}) for the {len(joints)} joints "
+            f"{listed(joints)}; expected one motor for each joint"
+        )
+
+
+def _checked_inverse(ratios: Ratios, joints: Sequence[str], place: Place) -> list[list[Fraction]]:
+    """G^-1.
+
+    Raises:
+        RobotError: G is singular, or so nearly that joints outrun the motors.
+    """
+    rows = [[row.get(joint, Fraction(0)) for joint in joints] for row in ratios.values()]
+    inverse = _inverse(rows)
+    if inverse is None:
+        raise place.error(
+            f"{_written(ratios)}: singular, some motion of {listed(joints)} turns no motor; "
+            "expected motors whose positions tell those of all joints; correct the coefficients"
+        )
+    largest = max(abs(c) for row in inverse for c in row)
+    if largest > LARGEST_RATIO:
+        raise place.error(
+            f"{_written(ratios)}: nearly singular, a joint moves {float(largest):.3g} times as far "
+            f"as a motor; expected at most {LARGEST_RATIO:g}; correct the coefficients"
+        )
+    return inverse
+
+
+def _inverse(matrix: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | None:
+    """The exact inverse by Gauss and Jordan; None of a singular matrix."""
+    n = len(matrix)
+    work = [[*row, *(Fraction(i == j) for j in range(n))] for i, row in enumerate(matrix)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if work[i][k] != 0), None)
+        if pivot is None:
+            return None
+        work[k], work[pivot] = work[pivot], work[k]
+        work[k] = [entry / work[k][k] for entry in work[k]]
+        for i in range(n):
+            if i != k and work[i][k] != 0:
+                work[i] = [a - work[i][k] * b for a, b in zip(work[i], work[k], strict=True)]
+    return [row[n:] for row in work]
+
+
+def _sum(terms: Mapping[str, Fraction]) -> str:
+    """`2/5*qm1 + qm2`."""
+    text = " + ".join(
+        name if c == 1 else f"-{name}" if c == -1 else f"{c}*{name}"
+        for name, c in terms.items()
+        if c
+    )
+    return text.replace("+ -", "- ")
+
+
+def _written(ratios: Ratios) -> str:
+    return ", ".join(
+        f"{motor} = {_sum({f'q{joint}': c for joint, c in row.items()})}"
+        for motor, row in ratios.items()
+    )

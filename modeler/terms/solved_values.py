@@ -1,0 +1,243 @@
+"""A closed solution in numbers: exactly, to verify it, and with standard deviations of a fit."""
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.terms.evaluation import poly_value
+from modeler.terms.identifiability import SEED, value_modulo
+from modeler.terms.physical_system import PhysicalSystem
+from modeler.terms.ring import Poly
+from modeler.terms.solving import ClosedSolution, Step
+
+_REAL = 1e-6  # imaginary parts below this share of a root are rounding
+_SURE = 3.0  # standard deviations that a denominator must be away from zero
+VERIFIED = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Derived:
+    """Physical parameters with values.
+
+    Attributes:
+        letters: in the order of the steps.
+        values: (n,) SI units.
+        sigmas: (n,) standard deviations, to first order.
+        inputs: names of data, then of known parameters.
+        slopes: (n, inputs) d letter / d input.
+        shares: (n, inputs) part of the variance that the uncertainty of each input brings;
+            correlated data share their covariance by halves, so rows add up to 1.
+        doubtful: {letter: why its quotient may be one by zero}.
+    """
+
+    letters: tuple[str, ...]
+    values: np.ndarray
+    sigmas: np.ndarray
+    inputs: tuple[str, ...]
+    slopes: np.ndarray
+    shares: np.ndarray
+    doubtful: Mapping[str, str]
+
+    def value(self, letter: str) -> float:
+        """Of one parameter."""
+        return float(self.values[self.letters.index(letter)])
+
+    def sigma(self, letter: str) -> float:
+        """Of one parameter."""
+        return float(self.sigmas[self.letters.index(letter)])
+
+
+def verify(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) -> int:
+    """Number of random robots, of `times`, for which every formula gives back the parameter.
+
+    Exact: over Q; modulo a prime where the geometry has roots of numbers.
+    """
+    system, chance = solution.system, random.Random(seed)
+    good = 0
+    for _ in range(times):
+        if any(name.startswith("sqrt(") for name in system.names):
+            prime, at = system.modular_point(chance)
+            good += all(_holds_modulo(step, at, prime, system) for step in solution.steps)
+        else:
+            point = system.consistent(random_rationals(system, chance))
+            good += all(_holds(step, point, system) for step in solution.steps)
+    return good
+
+
+def random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
+    """Letters and constants by chance; cosine and sine on the circle."""
+    values: dict[str, Fraction] = {}
+    for name in (*system.letters, *system.constants):
+        if name.startswith("cos("):
+            t = Fraction(chance.randint(2, 40), chance.randint(41, 90))
+            values[name] = (1 - t * t) / (1 + t * t)
+            values["sin" + name[3:]] = 2 * t / (1 + t * t)
+        elif name not in values:
+            sign = 1 if name in system.masses else chance.choice((-1, 1))
+            values[name] = sign * Fraction(chance.randint(1, 99), chance.randint(1, 99))
+    return values
+
+
+def _holds(step: Step, point: Sequence[Any], system: PhysicalSystem) -> bool:
+    if step.equation is not None:
+        return bool(poly_value(step.equation, point) == 0)
+    down = poly_value(step.denominator, point)
+    truth = point[system.place[step.letter]]
+    return bool(down != 0 and poly_value(step.numerator, point) == truth * down)
+
+
+def _holds_modulo(step: Step, point: list[int], prime: int, system: PhysicalSystem) -> bool:
+    if step.equation is not None:
+        return value_modulo(step.equation, point, prime) == 0
+    down = value_modulo(step.denominator, point, prime)
+    up = value_modulo(step.numerator, point, prime)
+    return down != 0 and (up - down * point[system.place[step.letter]]) % prime == 0
+
+
+class Numbers:
+    """Polynomials of a system as arrays: values and slopes quickly."""
+
+    def __init__(self, poly: Poly) -> None:
+        self.powers = np.array(list(poly), dtype=int).reshape(len(poly), poly.ring.ngens)
+        self.factors = np.array([float(Fraction(int(v.numerator), int(v.denominator)))
+                                 for v in poly.values()])  # fmt: skip
+
+    def value(self, point: np.ndarray) -> float:
+        """At a point of all generators."""
+        return float(self.factors @ np.prod(point**self.powers, axis=1))
+
+    def slopes(self, point: np.ndarray) -> np.ndarray:
+        """(generators,) derivatives at a point."""
+        found = np.zeros(len(point))
+        for k in np.flatnonzero(self.powers.any(axis=0)):
+            lower = self.powers.copy()
+            lower[:, k] = np.maximum(lower[:, k] - 1, 0)
+            terms = self.factors * self.powers[:, k] * np.prod(point**lower, axis=1)
+            found[k] = terms.sum()
+        return found
+
+
+def derive_values(
+    solution: ClosedSolution,
+    data: Sequence[float],
+    covariance: np.ndarray,
+    known: Mapping[str, float],
+    sigmas: Mapping[str, float] | None = None,
+    near: Mapping[str, float] | None = None,
+) -> Derived:
+    """The parameters that follow, with sigma.
+
+    x = g(data, known); var x = G_d C G_d' + sum (G_k sigma_k)^2, G = dg along the steps.
+
+    Args:
+        solution: formulas.
+        data: (data,) identified values, in the order of `solution.system.data`.
+        covariance: (data, data) of them.
+        known: values of the known parameters, SI units.
+        sigmas: their standard deviations; 0 where not given. Known parameters count as
+            independent of each other and of the data.
+        near: about what value a parameter has, to choose between roots.
+
+    Raises:
+        DataError: a quotient by exactly 0, or an equation without a root or with several.
+    """
+    system = solution.system
+    inputs = (*system.data, *solution.known)
+    C = np.zeros((len(inputs), len(inputs)))
+    C[: len(data), : len(data)] = covariance
+    for i, name in enumerate(solution.known, start=len(data)):
+        C[i, i] = (sigmas or {}).get(name, 0.0) ** 2
+    point = np.zeros(len(system.names))
+    for name, value in (*system.constants.items(), *known.items()):
+        point[system.place[name]] = value
+    point[: len(data)] = data
+    gradient = np.zeros((len(point), len(inputs)))
+    for i, name in enumerate(inputs):
+        gradient[system.place[name], i] = 1.0
+    doubtful: dict[str, str] = {}
+    for step in solution.steps:
+        _advance(step, solution, point, gradient, C, doubtful, near or {})
+    at = [system.place[letter] for letter in solution.follows]
+    slopes = gradient[at]
+    parts = slopes * (slopes @ C)
+    variance = np.maximum(parts.sum(axis=1), 0.0)
+    shares = np.divide(
+        parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
+    )
+    return Derived(solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful)
+
+
+def _advance(
+    step: Step, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray, C: np.ndarray,
+    doubtful: dict[str, str], near: Mapping[str, float],
+) -> None:  # fmt: skip
+    """One step more: value and slopes of its letter."""
+    system = solution.system
+    at = system.place[step.letter]
+    if step.equation is not None:
+        point[at] = _one_root(step, system, point, near)
+        slopes = Numbers(step.equation).slopes(point)
+        own, slopes[at] = slopes[at], 0.0
+        gradient[at] = -(slopes @ gradient) / own
+        return
+    up, down = Numbers(step.numerator), Numbers(step.denominator)
+    bottom = down.value(point)
+    if bottom == 0.0:
+        raise DataError(
+            f"{system.robot}: {step.letter} is a quotient by {step.denominator}, which is 0 in "
+            f"this fit; {step.letter} cannot be told, add it to the known parameters"
+        )
+    spread = down.slopes(point) @ gradient
+    sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
+    if abs(bottom) < _SURE * sigma:
+        doubtful[step.letter] = (
+            f"{step.letter} is a quotient by {step.denominator} = {bottom:.3g} +- {sigma:.2g}, "
+            "which may be 0: these data do not tell it"
+        )
+    point[at] = up.value(point) / bottom
+    slopes = (up.slopes(point) - point[at] * down.slopes(point)) / bottom
+    gradient[at] = slopes @ gradient
+
+
+def roots(step: Step, system: PhysicalSystem, point: np.ndarray) -> list[float]:
+    """The real roots of a step's equation at a point; only positive ones for a mass."""
+    assert step.equation is not None
+    at = system.place[step.letter]
+    by_degree: dict[int, float] = {}
+    for exponents, value in step.equation.items():
+        rest = np.array([*exponents[:at], 0, *exponents[at + 1 :]])
+        number = float(Fraction(int(value.numerator), int(value.denominator)))
+        by_degree[exponents[at]] = by_degree.get(exponents[at], 0.0) + number * float(
+            np.prod(point**rest)
+        )
+    top = max(by_degree)
+    found = np.roots([by_degree.get(k, 0.0) for k in range(top, -1, -1)])
+    real = [float(x.real) for x in found if abs(x.imag) <= _REAL * abs(x)]
+    return sorted(x for x in real if x > 0 or step.letter not in system.masses)
+
+
+def _one_root(
+    step: Step, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
+) -> float:
+    found = roots(step, system, point)
+    if found and step.letter in near:
+        return min(found, key=lambda x: abs(x - near[step.letter]))
+    if len(found) == 1:
+        return found[0]
+    kind = "positive " if step.letter in system.masses else ""
+    if not found:
+        raise DataError(
+            f"{system.robot}: the equation of {step.letter} has no {kind}root with these values; "
+            "a known value or the fit is wrong"
+        )
+    told = ", ".join(f"{x:.6g}" for x in found)
+    raise DataError(
+        f"{system.robot}: the equation of {step.letter} has {len(found)} {kind}roots ({told}); "
+        f"each fits the data; say which with --near {step.letter}={found[-1]:.3g}, or add a "
+        "parameter to the known ones"
+    )

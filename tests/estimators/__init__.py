@@ -1,0 +1,1 @@
+"""Estimators against truth and against each other: `python -m tests.estimators --help`."""

@@ -1,0 +1,49 @@
+"""All estimators on the logs of eight real machines, which are not part of the project."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from modeler import api
+from modeler.fit.side_by_side import Tried, side_by_side
+from modeler.robot import robot_from_text
+from tests.measured_sets.sets import SETS
+
+
+def tried(name: str, data: Path, methods: Sequence[str]) -> tuple[Tried, ...]:
+    """Every method on the training logs of one set, held-out error on its others."""
+    own = SETS[name]
+    compiled = api.compile_model(api.generate(api.derive(robot_from_text(own.robot(), name))))
+    training, held_out = own.logs(data, "forward")
+    observation = api.observe(compiled, training)
+    other = api.observe(compiled, held_out, observation.report.processing)
+    return side_by_side(observation, compiled, other, methods)
+
+
+def here(names: Sequence[str], data: Path) -> list[str]:
+    """Sets whose logs are here; says which are not."""
+    for name in names:
+        if not (data / name).is_dir():
+            print(f"NOT CHECKED: {name}, no measured logs in {data / name}", file=sys.stderr)
+    return [name for name in names if (data / name).is_dir()]
+
+
+HEADER = "| set | method | training % | held out % | farthest from weighted | seconds | remarks |"
+
+
+def lines(name: str, found: Sequence[Tried]) -> str:
+    """Rows of Markdown."""
+    rows = []
+    for own in found:
+        if own.fit is None:
+            said = f"refused: {own.refusal}"
+            rows.append([name, own.method, "", "", "", f"{own.seconds:.1f}", said])
+            continue
+        far = "" if own.farthest is None else f"{own.farthest[0]} {own.farthest[1]:.1f} sigma"
+        remarks = "; ".join(own.fit.own)
+        held_out = "" if own.held_out is None else f"{100 * own.held_out:.2f}"
+        rows.append([
+            name, own.method, f"{100 * own.fit.relative_error:.2f}", held_out, far,
+            f"{own.seconds:.1f}", remarks,
+        ])  # fmt: skip
+    return "\n".join("| " + " | ".join(row) + " |" for row in rows)

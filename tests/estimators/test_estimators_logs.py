@@ -1,0 +1,246 @@
+"""Estimators on simulated logs: truth, an axis solved by other means, and what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from modeler import api
+from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.estimate.direct import DirectModel
+from modeler.estimate.methods import METHODS
+from modeler.fit import Payload, identify, identify_with_payloads
+from modeler.observation import Log
+from modeler.robot import robot_from_text
+from tests.estimators.__main__ import main as suite
+from tests.estimators.coverage import compiled, covered, measured, table
+
+SIMULATED = ("iv-direct", "didim")
+
+
+@pytest.fixture(scope="module")
+def run():
+    """A log of a two-link arm with a fine encoder, and its truth."""
+    return measured(3, "torque")
+
+
+@pytest.fixture(scope="module")
+def observation(run):
+    return api.observe(compiled(), [run[0]])
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_finds_the_values_of_a_well_measured_arm(observation, run, method):
+    fit = identify(observation, method, compiled())
+    sigma = np.array([parameter.sigma for parameter in fit.parameters])
+    assert fit.status == "ok" and fit.method == method and fit.relative_error < 0.01
+    assert np.abs((fit.beta - run[1]) / sigma).max() < 5.0
+    np.testing.assert_allclose(fit.beta, run[1], atol=0.03 * np.abs(run[1]).max())
+    assert json.loads(json.dumps(fit.to_json()))["method"] == method
+
+
+def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv():
+    """1500 counts a turn: over machines the weighted values lie to one side, by many sigmas."""
+    found = covered(range(1, 9), "coarse", ["weighted", "iv"])
+    side = {name: np.linalg.norm(np.nanmean(own.z, axis=0)) for name, own in found.items()}
+    assert side["iv"] < 0.7 * side["weighted"]
+    near = {name: np.mean(np.abs(own.z) < 2) for name, own in found.items()}
+    assert near["iv"] > near["weighted"] + 0.05
+    text = table("coarse", found)
+    assert "| weighted | " in text and "1500 counts" in text
+
+
+AXIS = """
+name = "axis"
+gravity = [0, 0, 0]
+[mdh]
+columns = ["j", "a", "sigma", "r"]
+rows = [["1", "0", 1, "q1"]]
+[effects]
+viscous = "all"
+offset = "all"
+"""
+MASS, VISCOUS, OFFSET = 80.0, 150.0, 4.0
+SPEED_LOOP, RATIO = 60.0, 1.5  # rad/s, position loop over speed loop: a drive without integrator
+
+
+@pytest.fixture(scope="module")
+def axis():
+    """A linear axis under proportional loops, its equation solved by Runge and Kutta."""
+    model = api.compile_model(api.generate(api.derive(robot_from_text(AXIS, "axis"))))
+    time = np.arange(0.0, 8.0, 0.002)
+
+    def wanted(t):
+        return 0.1 * np.sin(2 * np.pi * 0.7 * t) * np.sin(0.4 * t) + 0.03 * np.sin(9.0 * t)
+
+    def force(t, q, v):
+        return MASS * SPEED_LOOP * (RATIO * SPEED_LOOP * (wanted(t) - q) - v)
+
+    def slope(t, x):
+        return [x[1], (force(t, *x) - VISCOUS * x[1] - OFFSET) / MASS]
+
+    x = solve_ivp(slope, (0, 8), [0, 0], t_eval=time, rtol=1e-10, atol=1e-12).y
+    tau = force(time, *x)
+    log = Log("axis", ("1",), time, x[0][:, None], tau[:, None], commanded=wanted(time)[:, None])
+    return model, api.observe(model, [log])
+
+
+def test_the_loop_of_a_drive_is_found_and_its_motion_is_that_of_another_solver(axis):
+    model, observation = axis
+    robot = DirectModel(model, observation)
+    beta = np.array([MASS, VISCOUS, OFFSET])
+    loop = robot.chosen(beta)
+    assert (loop.integral, loop.forward) == (0.0, 0.0) and loop.distance < 0.03
+    assert loop.speed == pytest.approx(SPEED_LOOP, rel=0.05)
+    assert loop.ratio == pytest.approx(RATIO, rel=0.05)
+    (motion,) = robot.followed(beta, loop)
+    (segment,) = robot.segments
+    inside = segment.whole
+    for simulated, logged in zip(motion, (segment.q, segment.qd, segment.qdd), strict=True):
+        away = np.sqrt(np.mean((simulated - logged)[inside] ** 2))
+        assert away < 0.02 * np.sqrt(np.mean(logged[inside] ** 2))
+
+
+@pytest.mark.parametrize("method", SIMULATED)
+def test_the_axis_comes_back_from_its_force_alone(axis, method):
+    model, observation = axis
+    fit = identify(observation, method, model)
+    assert fit.status == "ok" and fit.beta == pytest.approx([MASS, VISCOUS, OFFSET], rel=0.02)
+    assert any("no integral action and no feedforward" in said for said in fit.own)
+
+
+def test_methods_that_simulate_say_what_they_lack_without_commands(run):
+    log, truth = run
+    bare = Log("bare", log.joints, log.time, log.q, log.tau)
+    observation = api.observe(compiled(), [bare])
+    with pytest.raises(DataError, match=r'^bare: method "iv" needs commanded.*columns qc1'):
+        identify(observation, "iv", compiled())
+    fit = identify(observation, "iv-direct", compiled())
+    assert any("no commanded positions in these logs" in said for said in fit.own)
+    np.testing.assert_allclose(fit.beta, truth, atol=0.03 * np.abs(truth).max())
+
+
+def test_a_command_that_does_not_move_is_refused(run):
+    log, _ = run
+    still = Log("still", log.joints, log.time, log.q, log.tau, commanded=0.0 * log.q)
+    with pytest.raises(DataError, match="the instruments tell nothing of a parameter"):
+        identify(api.observe(compiled(), [still]), "iv", compiled())
+
+
+@pytest.mark.parametrize("method", SIMULATED)
+def test_a_joint_without_a_motor_cannot_be_followed(run, method):
+    text = AXIS.replace('"a", "sigma"', '"a", "mu", "sigma"').replace(
+        'rows = [["1", "0", 1, "q1"]]', 'rows = [["1", "0", 1, 1, "q1"], ["2", "1", 0, 1, "q2"]]'
+    )
+    model = api.compile_model(api.generate(api.derive(robot_from_text(text, "cart"))))
+    time = np.arange(0.0, 4.0, 0.002)
+    q = np.column_stack([np.sin(3 * time), np.sin(5 * time + 1)])
+    log = Log("cart", ("1", "2"), time, q, np.column_stack([np.cos(3 * time), 0 * time]))
+    with pytest.raises(DataError, match=f'method "{method}": joint 2 of axis has no motor'):
+        identify(api.observe(model, [log]), method, model)
+
+
+def test_loads_and_missing_robots_are_refused_in_a_line(run, observation):
+    log, _ = run
+    with pytest.raises(DataError, match=r'method "iv" evaluates the robot; got no compiled'):
+        identify(observation, "iv")
+    loaded = Log("loaded", log.joints, log.time, log.q + 0.1, log.tau, commanded=log.commanded)
+    both = api.observe(compiled(), [log, loaded])
+    with pytest.raises(DataError, match=r'method "didim" knows the columns of the bare robot only'):
+        identify_with_payloads(compiled(), both, [Payload(("loaded",))], "didim")
+    assert identify_with_payloads(compiled(), both, [Payload(("loaded",))], "robust").loads
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_too_few_rows_and_missing_values_are_treated_alike(run, method):
+    log, truth = run
+    short = Log(
+        "short", log.joints, log.time[:400], log.q[:400], log.tau[:400],
+        commanded=log.commanded[:400],
+    )  # fmt: skip
+    rows = api.observe(compiled(), [short], api.observe(compiled(), [log]).report.processing)
+    few = api.observe(compiled(), [short], api.Processing(parallel_cutoff=5.0, decimation=100))
+    assert len(few.y) < len(truth) <= len(rows.y) or len(few.y) < len(truth)
+    with pytest.raises(DataError, match=r"rows for 10 parameters"):
+        identify(few, method, compiled())
+    tau, commanded = log.tau.copy(), log.commanded.copy()
+    tau[500:600, 0] = np.nan
+    holes = Log("holes", log.joints, log.time, log.q, tau, commanded=commanded)
+    fit = identify(api.observe(compiled(), [holes]), method, compiled())
+    np.testing.assert_allclose(fit.beta, truth, atol=0.03 * np.abs(truth).max())
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    made = tmp_path_factory.mktemp("logs")
+    for name, seed in (("a", 1), ("held", 2)):
+        argv = ["simulate", "two-link", "--duration", "5", "--rate", "500", "--seed", str(seed)]
+        assert main([*argv, "--out", str(made / f"{name}.parquet")]) == 0
+    return made
+
+
+def test_the_command_compares_on_the_same_data(folder, capsys):
+    page, raw = folder / "page.html", folder / "all.json"
+    argv = ["estimators", "two-link", str(folder / "a.parquet")]
+    argv += ["--holdout", str(folder / "held.parquet"), "--report", str(page), "--json", str(raw)]
+    assert main(argv) == 0
+    out = capsys.readouterr().out
+    said = json.loads(raw.read_text())
+    assert [own["method"] for own in said["methods"]] == list(METHODS)
+    for own in said["methods"]:
+        assert own["fit"]["relative_error"] < 0.02 and own["held_out_error"] < 0.02
+        assert own["seconds"] > 0.0 and own["remarks"] and own["avoid"]
+        assert f"\n{own['method']}: " in out
+    text = page.read_text()
+    assert "Values and standard deviations" in text and "didim" in text
+
+
+def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
+    lines = ["time,q1,q2,tau1,tau2"]
+    log, _ = measured(3, "torque")
+    for row in zip(log.time, *log.q.T, *log.tau.T, strict=True):
+        lines.append(",".join(map(repr, map(float, row))))
+    (tmp_path / "bare.csv").write_text("\n".join(lines) + "\n")
+    argv = ["estimators", "two-link", str(tmp_path / "bare.csv"), "--methods", "weighted,iv"]
+    assert main(argv) == 0
+    out = capsys.readouterr().out
+    assert any(line.split()[:2] == ["iv", "refused"] for line in out.splitlines())
+    assert "\niv: bare.csv: method" in out
+
+
+def test_the_list_says_law_source_and_when_not(capsys):
+    assert main(["estimators", "--json", "-"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert [own["method"] for own in said] == list(METHODS)
+    assert all(own["law"] and own["source"] and own["avoid"] for own in said)
+
+
+@pytest.mark.parametrize(
+    ("argv", "line"),
+    [
+        (["estimators", "two-link"], "got robot two-link and no log; expected logs to fit"),
+        (["estimators", "--methods", "magic"], "--methods: got magic; expected some of weighted"),
+        (["estimators", "--methods", "ridg"], 'got ridg (did you mean "ridge"?)'),
+        (["estimators", "--methods", ","], "--methods: got nothing"),
+    ],
+)
+def test_bad_input_is_one_line(argv, line, capsys):
+    assert main(argv) == 1
+    err = capsys.readouterr().err
+    assert line in err and err.count("\n") == 1
+
+
+def test_the_suite_refuses_unknown_names():
+    for argv in (["coverage", "--methods", "magic"], ["measured", "--sets", "magic"]):
+        with pytest.raises(SystemExit, match="unknown: magic"):
+            suite(argv)
+
+
+def test_real_axis_and_every_method(measured_folder, capsys):
+    """EMPS has published loops: 14 Hz of speed, 1.8 times that of position, nothing else."""
+    assert suite(["measured", "--sets", "emps"]) == 0
+    out = capsys.readouterr().out
+    assert "refused" not in out and out.count("| emps |") == len(METHODS)
+    assert out.count("no integral action and no feedforward") == len(SIMULATED)

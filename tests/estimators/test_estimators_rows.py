@@ -1,0 +1,210 @@
+"""Robust, ridge, ordinary and instruments on made-up rows of known noise, against repetition.
+
+Rows without a robot: 200 repetitions take a second, and the noise is exactly what it is said to be.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from modeler.core.contract import JointSpec
+from modeler.core.errors import DataError
+from modeler.estimate.compressed import compress
+from modeler.estimate.instruments import with_instruments
+from modeler.estimate.least_squares import least_squares
+from modeler.estimate.ordinary import ordinary
+from modeler.estimate.problem import Problem
+from modeler.estimate.ridge import ridge
+from modeler.estimate.robust import robust
+
+BETA = np.array([1.0, -2.0, 0.3, 5.0])
+NOISE = np.array([0.5, 0.05])
+ROWS = (120, 80)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """As much of an observation as these estimators look at."""
+
+    row_joint: np.ndarray
+    joints: tuple[JointSpec, ...]
+    names: tuple[str, ...] = ("A", "B", "C", "D")
+    logs: tuple[str, ...] = ("made up",)
+
+
+def joints():
+    made = [object.__new__(JointSpec) for _ in ROWS]
+    for name, joint in zip("12", made, strict=True):
+        object.__setattr__(joint, "name", name)
+    return tuple(made)
+
+
+def problem_of(W, y, joint):
+    rows = Rows(joint, joints())
+    data = compress(W, y, joint, len(ROWS), rows.names)
+    return Problem(rows, W, y, np.ones(len(y), dtype=bool), rows.names, ("",) * 4, data)
+
+
+def rows(random):
+    joint = np.repeat([0, 1], ROWS)
+    W = random.normal(size=(len(joint), 4)) * [1.0, 0.2, 3.0, 1.0]
+    W[joint == 1, 0] = 0.0
+    return W, joint, NOISE[joint] * random.normal(size=len(joint))
+
+
+def scores(estimate, truth=BETA):
+    return (estimate.beta - truth) / np.sqrt(np.diag(estimate.covariance))
+
+
+def repeated(make, count=150, seed=0):
+    """(count, c) z, of estimates that `make` returns, from a random generator each."""
+    return np.array([scores(*make(np.random.default_rng([seed, k]))) for k in range(count)])
+
+
+def assert_standard(z, bias=0.35, low=0.88, high=1.15):
+    rms = np.sqrt(np.mean(z**2, axis=0))
+    assert np.all(np.abs(z.mean(axis=0)) < bias), z.mean(axis=0)
+    assert np.all((rms > low) & (rms < high)), rms
+    assert 0.90 < np.mean(np.abs(z) < 2) < 0.99
+
+
+@pytest.mark.parametrize("estimator", [robust, ordinary], ids=["robust", "ordinary"])
+def test_sigmas_are_what_repetition_shows_where_joints_differ(estimator):
+    def make(random):
+        W, joint, noise = rows(random)
+        return (estimator(problem_of(W, W @ BETA + noise, joint)),)
+
+    assert_standard(repeated(make))
+
+
+def test_the_textbooks_sigma_of_ordinary_is_wrong_where_joints_differ():
+    """The reason for the sandwich: column D, which the quiet joint shares."""
+    W, joint, noise = rows(np.random.default_rng(0))
+    problem = problem_of(W, W @ BETA + noise, joint)
+    textbook = least_squares(problem.data, "ordinary").covariance
+    honest = ordinary(problem).covariance
+    assert honest[0, 0] > 1.3 * textbook[0, 0]  # column A: rows of the loud joint alone
+    alike = problem_of(W, W @ BETA + noise / NOISE[joint], joint)
+    np.testing.assert_allclose(
+        ordinary(alike).covariance,
+        least_squares(alike.data, "ordinary").covariance,
+        atol=0.35 * least_squares(alike.data, "ordinary").covariance.max(),
+    )
+
+
+def test_robust_stands_rows_that_are_wrong_and_weighted_does_not():
+    def make(estimator):
+        def made(random):
+            W, joint, noise = rows(random)
+            bad = random.random(len(noise)) < 0.08
+            noise = np.where(bad, 20 * NOISE[joint] * (1 + random.random(len(noise))), noise)
+            return (estimator(problem_of(W, W @ BETA + noise, joint)),)
+
+        return made
+
+    z = repeated(make(robust))
+    assert_standard(z, bias=0.5, high=1.25)
+    spread = {
+        name: np.std([make(e)(np.random.default_rng(k))[0].beta for k in range(60)], axis=0)
+        for name, e in (("robust", robust), ("weighted", lambda p: least_squares(p.data)))
+    }
+    assert np.all(spread["robust"] < 0.3 * spread["weighted"])
+
+
+def test_robust_loses_five_per_cent_of_efficiency_on_gaussian_noise():
+    found = {"robust": [], "weighted": []}
+    for k in range(200):
+        W, joint, noise = rows(np.random.default_rng([7, k]))
+        problem = problem_of(W, W @ BETA + noise, joint)
+        found["robust"].append(robust(problem).beta - BETA)
+        found["weighted"].append(least_squares(problem.data).beta - BETA)
+    variance = {name: np.var(values, axis=0) for name, values in found.items()}
+    assert np.mean(variance["weighted"] / variance["robust"]) == pytest.approx(0.93, abs=0.06)
+
+
+def test_robust_tells_rows_that_lie_far_off_and_nothing_on_clean_ones():
+    W, joint, noise = rows(np.random.default_rng(4))
+    y = W @ BETA + noise
+    assert robust(problem_of(W, y, joint)).sentences == ()
+    y[:15] += 30.0
+    (said,) = robust(problem_of(W, y, joint)).sentences
+    assert "joint 1: 13 % of its rows" in said
+    assert np.all(robust(problem_of(W, W @ BETA, joint)).covariance.diagonal() < 1e-12)
+
+
+def test_ridge_holds_its_sigma_where_values_scatter_as_the_prior_says():
+    """Values drawn about 0 as wide as the columns are short: the model that lambda stands for."""
+
+    def make(random):
+        W, joint, noise = rows(random)
+        W[:, 3] = W[:, 2] * 3.0 + 0.05 * random.normal(size=len(W))  # all but one column
+        lengths = np.linalg.norm(W / NOISE[joint][:, None], axis=0)
+        truth = 300.0 * random.normal(size=4) / lengths
+        return ridge(problem_of(W, W @ truth + noise, joint)), truth
+
+    assert_standard(repeated(make), bias=0.4, high=1.2)
+
+
+def test_ridge_is_nearer_to_the_truth_than_least_squares_where_columns_are_alike():
+    errors = {"ridge": [], "weighted": []}
+    for k in range(60):
+        random = np.random.default_rng([5, k])
+        W, joint, noise = rows(random)
+        W[:, 3] = W[:, 2] / 3.0 + 1e-3 * random.normal(size=len(W))
+        problem = problem_of(W, W @ BETA + 5 * noise, joint)
+        errors["ridge"].append(ridge(problem).beta[3] - BETA[3])
+        errors["weighted"].append(least_squares(problem.data).beta[3] - BETA[3])
+    rms = {name: np.sqrt(np.mean(np.square(values))) for name, values in errors.items()}
+    assert rms["ridge"] < 0.5 * rms["weighted"]
+
+
+def test_ridge_shares_out_what_cannot_be_told_and_sets_columns_of_zeros_aside():
+    W, joint, noise = rows(np.random.default_rng(8))
+    W[:, 3] = 2.0 * W[:, 2]
+    W[:, 1] = 0.0
+    found = ridge(problem_of(W, W @ [1.0, 0.0, 1.0, 0.0] + noise, joint))
+    assert found.rank.kept == (0, 2, 3) and found.covariance[1, 1] == 0.0
+    assert found.beta[2] + 2.0 * found.beta[3] == pytest.approx(1.0, abs=0.02)
+    assert found.beta[2] / found.beta[3] == pytest.approx(2.0, abs=0.01)
+    assert any("cannot be told from" in said for said in found.sentences)
+
+
+def noisy(random, strength=0.5, shift=0.0):
+    """Rows whose W is measured with noise, and instruments that it does not touch."""
+    clean, joint, noise = rows(random)
+    W = clean + strength * clean.std(axis=0) * random.normal(size=clean.shape) * (clean != 0.0)
+    Z = clean + 0.3 * clean.std(axis=0) * random.normal(size=clean.shape) + shift
+    return problem_of(W, clean @ BETA + noise, joint), Z
+
+
+def test_instruments_are_right_where_noise_of_the_regressor_bends_least_squares():
+    weighted = [least_squares(noisy(np.random.default_rng(k))[0].data).beta for k in range(80)]
+    assert np.all(np.mean(weighted, axis=0) / BETA < 0.9)  # 1 / (1 + 0.5^2) = 0.8
+
+    def make(random):
+        problem, Z = noisy(random)
+        return (with_instruments(problem, Z, "iv"),)
+
+    assert_standard(repeated(make), bias=0.3, low=0.85, high=1.2)
+
+
+def test_instruments_that_are_the_columns_themselves_give_the_weighted_fit():
+    W, joint, noise = rows(np.random.default_rng(3))
+    problem = problem_of(W, W @ BETA + noise, joint)
+    found, weighted = with_instruments(problem, W, "iv"), least_squares(problem.data)
+    np.testing.assert_allclose(found.beta, weighted.beta, rtol=1e-7)
+    np.testing.assert_allclose(found.covariance, weighted.covariance, rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(found.sigma, weighted.sigma, rtol=1e-6)
+
+
+def test_weak_instruments_are_told_and_blind_ones_refused():
+    W, joint, noise = rows(np.random.default_rng(3))
+    problem = problem_of(W, W @ BETA + noise, joint)
+    random = np.random.default_rng(9)
+    weak = with_instruments(problem, W + 12 * W.std(axis=0) * random.normal(size=W.shape), "iv")
+    assert any("instruments are weak" in said for said in weak.sentences)
+    blind = W.copy()
+    blind[:, 2] = blind[:, 3]
+    with pytest.raises(DataError, match=r'method "iv": the instruments tell nothing.*for [CD];'):
+        with_instruments(problem, blind, "iv")

@@ -1,0 +1,58 @@
+"""Robots, derived and compiled once, with their limits."""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+
+from modeler.api import compile_model, derive, generate
+from modeler.cli.excite import bounds_of
+from modeler.compiled import CompiledModel
+from modeler.excite.bounds import Bounds
+from modeler.excite.search import Wish, task_of
+from modeler.excite.task import Task
+from modeler.robot import Robot, read_robot, robot_from_text
+from modeler.robot.edit import with_effects
+from modeler.symbolic import with_home
+
+
+@cache
+def robot(name: str, losses: bool = False) -> tuple[Robot, CompiledModel]:
+    """A built-in robot; with inertia and friction of its motors if `losses`."""
+    found = read_robot(name)
+    if losses:
+        effects = dict.fromkeys(["rotor_inertia", "viscous", "coulomb"], "all")
+        found = robot_from_text(with_effects(found.text, effects), name)
+    if found.loops:
+        found = with_home(found).robot
+    return found, compile_model(generate(derive(found)))
+
+
+def limits_of(
+    name: str, limits: tuple[str, ...] = (), boxes: tuple[str, ...] = (), losses: bool = False
+) -> tuple[CompiledModel, Bounds]:
+    """The robot compiled, and its limits as the command line takes them."""
+    found, compiled = robot(name, losses)
+    return compiled, bounds_of(found, compiled, limits, boxes)
+
+
+def plausible(compiled: CompiledModel, seed: int = 0) -> np.ndarray:
+    """(c,) some parameters: positive masses and inertias on the diagonal, small products."""
+    rng = np.random.default_rng(seed)
+    values = []
+    for parameter in compiled.spec.standard:
+        prefix = parameter.name.removesuffix(parameter.joint)
+        size = {"M": 5.0, "MX": 0.3, "MY": 0.3, "MZ": 0.3}.get(prefix, 0.2)
+        product = prefix in ("XY", "XZ", "YZ")
+        values.append(0.1 * size * rng.normal() if product else size * rng.uniform(0.5, 1.5))
+    return compiled.base_parameters(values)
+
+
+def small_task(
+    name: str, criterion: str = "both", limited: float = np.inf, boxes: tuple[str, ...] = ()
+) -> Task:
+    """A search of few harmonics; `limited`: every torque, in N m."""
+    compiled, bounds = limits_of(name, boxes=boxes)
+    bounds = dataclasses.replace(bounds, torque=np.full(len(bounds.joints), limited))
+    beta = plausible(compiled) if np.isfinite(limited) else None
+    return task_of(compiled, bounds, Wish(4.0, 3, criterion), None, None, beta)

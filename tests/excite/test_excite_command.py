@@ -1,0 +1,250 @@
+"""`modeler excite`, and `modeler simulate --motion FILE`, as a user types them."""
+
+import json
+
+import numpy as np
+import pyarrow.csv as pacsv
+import pyarrow.parquet as pq
+import pytest
+
+from modeler.cli import main
+from modeler.excite.result import csv_text
+from modeler.excite.search import Wish, task_of
+from modeler.excite.series import series
+from modeler.excite.starts import random_motion
+from modeler.simulate import at_rate, read_motion
+from tests.excite.robots_to_excite import limits_of
+
+
+def run(capsys, *argv) -> tuple[int, str, str]:
+    status = main([str(word) for word in argv])
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def refused(capsys, *argv) -> str:
+    status, _, err = run(capsys, *argv)
+    assert status == 1 and err.count("\n") == 1, err
+    return err
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A motion of the demonstration arm, a log along it, a model fitted to that."""
+    place = tmp_path_factory.mktemp("excite")
+    motion = place / "motion.csv"
+    words = ["excite", "demo-arm", "--duration", "6", "--starts", "1", "--out", motion]
+    words += ["--json", place / "motion.json", "--picture", place / "motion.png"]
+    assert main([str(word) for word in words]) == 0
+    assert simulated(motion, place / "log.parquet") == 0
+    words = ["fit", "demo-arm", place / "log.parquet", "--out", place / "m.json"]
+    assert main([str(word) for word in words]) == 0
+    return place
+
+
+def simulated(motion, log) -> int:
+    words = ["simulate", "demo-arm", "--motion", motion, "--rate", "500", "--noise", "0.05"]
+    return main([*map(str, words), "--out", str(log)])
+
+
+def test_what_is_written_is_the_motion_and_what_it_uses(folder):
+    raw = json.loads((folder / "motion.json").read_text())
+    table = pacsv.read_csv(folder / "motion.csv")
+    assert table.column_names == ["time", *(f"{p}{j}" for p in ("q", "qd", "qdd") for j in "123")]
+    assert (folder / "motion.png").read_bytes().startswith(b"\x89PNG")
+    assert raw["condition_scaled"] < raw["random"]["condition_scaled_best"]
+    for name, joint in raw["joints"].items():
+        q = table[f"q{name}"].to_numpy()
+        assert q.max() == pytest.approx(joint["upper"]["used"], abs=1e-3)
+        assert joint["lower"]["slack"] > 0 and joint["speed"]["slack"] > 0
+        waves = raw["series"]["coefficients"][name]
+        phase = np.outer(table["time"].to_numpy(), np.arange(1, len(waves["cos"]) + 1))
+        phase = 2 * np.pi * phase / raw["series"]["period"]
+        again = waves["constant"] + np.cos(phase) @ waves["cos"] + np.sin(phase) @ waves["sin"]
+        assert np.allclose(again, q, atol=1e-9)
+        assert abs(table[f"qd{name}"][0].as_py()) == 0.0
+
+
+def test_the_simulated_robot_is_commanded_exactly_that_motion(folder):
+    log = pq.read_table(folder / "log.parquet")
+    raw = json.loads((folder / "motion.json").read_text())
+    at = log["time"].to_numpy()
+    assert len(at) == 3001 and at[1] == pytest.approx(0.002)
+    for name, waves in raw["series"]["coefficients"].items():
+        phase = 2 * np.pi * np.outer(at, np.arange(1, len(waves["cos"]) + 1)) / 6.0
+        exact = waves["constant"] + np.cos(phase) @ waves["cos"] + np.sin(phase) @ waves["sin"]
+        assert np.allclose(log[f"qc{name}"].to_numpy(), exact, atol=1e-7)
+
+
+def test_a_log_is_a_motion_by_its_commands(folder):
+    motion = read_motion(folder / "log.parquet", ["1", "2", "3"])
+    exact = read_motion(folder / "motion.csv", ["1", "2", "3"])
+    there = at_rate(exact, 500.0)
+    assert np.allclose(motion.q, there.q, atol=1e-7)
+    inner = slice(20, -20)
+    assert np.allclose(motion.qdd[inner], there.qdd[inner], atol=2e-3)
+
+
+def test_sigmas_are_smaller_than_along_random_motions_of_the_same_length(folder):
+    """End to end: simulated with five per cent of noise, fitted; geometric mean of the sigmas."""
+    compiled, bounds = limits_of("demo-arm")
+    found = json.loads((folder / "motion.json").read_text())
+    task = task_of(compiled, bounds, Wish(6.0, found["harmonics"]), None, None, None)
+    rng, ours, others = np.random.default_rng(11), sigmas(folder / "m.json"), []
+    for k in range(3):
+        times = np.arange(1201) / 200.0
+        here = series(6.0, found["harmonics"], times)
+        columns = {"time": times}
+        for prefix, values in zip(
+            ("q", "qd", "qdd"), here.motion(random_motion(task, rng)), strict=True
+        ):
+            columns |= {f"{prefix}{j + 1}": values[:, j] for j in range(3)}
+        (folder / f"r{k}.csv").write_text(csv_text(columns))
+        assert simulated(folder / f"r{k}.csv", folder / f"r{k}.parquet") == 0
+        words = ["fit", "demo-arm", folder / f"r{k}.parquet", "--out", folder / f"r{k}.json"]
+        assert main([str(word) for word in words]) == 0
+        others.append(sigmas(folder / f"r{k}.json"))
+    # Noise is a share of the torques, which are larger on larger motions: sigmas are relative.
+    assert all(np.mean(np.log(ours / other)) < np.log(0.8) for other in others)
+    assert np.max(ours) < np.min([np.max(other) for other in others])
+
+
+def sigmas(model) -> np.ndarray:
+    """Of the base parameters, each over the rms noise of the log."""
+    fit = json.loads(model.read_text())["fit"]
+    noise = np.exp(np.mean([np.log(joint["sigma"]) for joint in fit["joints"].values()]))
+    return np.array([p["sigma"] for p in fit["parameters"]]) / noise
+
+
+def test_a_model_is_excited_in_its_essential_parameters(capsys, folder, tmp_path):
+    model = json.loads((folder / "m.json").read_text())
+    essential = [p["name"] for p in model["fit"]["parameters"] if p["essential"]]
+    status, _, err = run(
+        capsys, "excite", folder / "m.json", "--duration", 4, "--starts", 1, "--laps", 2,
+        "--limit", "2=-0.6,2.4,2,8,60", "--out", tmp_path / "m.parquet", "--json", tmp_path / "j",
+    )  # fmt: skip
+    assert (status, err) == (0, "")
+    raw = json.loads((tmp_path / "j").read_text())
+    assert raw["parameters"] == essential
+    assert 0 < raw["joints"]["2"]["torque"]["used"] < 60
+    assert raw["joints"]["1"]["torque"]["limit"] is None
+    table = pq.read_table(tmp_path / "m.parquet")
+    q = table["q1"].to_numpy()
+    assert len(q) == 1601 and np.allclose(q[:800], q[800:1600]) and q[0] == q[-1]
+
+
+def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_path):
+    status, out, err = run(
+        capsys, "excite", folder / "m.json", "--duration", 4, "--harmonics", 4,
+        "--between", "load_friction@2,position_friction@2",
+        "--out", tmp_path / "b.csv", "--json", tmp_path / "b.json",
+    )  # fmt: skip
+    assert (status, err) == (0, "") and "load_friction@2" in out
+    found = json.loads((tmp_path / "b.json").read_text())["between"]
+    gains = [effect["gain"] for effect in found.values()]
+    assert np.sqrt(np.prod(gains)) > 1.15 and min(gains) > 0.9
+    assert all(0 < effect["left"] <= 1 for effect in found.values())
+
+
+def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
+    logs = [folder / "motion.csv", *(tmp_path / f"{k}.parquet" for k in range(3))]
+    for k, log in enumerate(logs[1:]):
+        words = ("simulate", "demo-arm", "--duration", 2, "--rate", 200, "--seed", k, "--out", log)
+        assert run(capsys, *words)[0] == 0
+    status, _, _ = run(
+        capsys, "excite", "demo-arm", "--choose", 1, "--from", *logs, "--json", tmp_path / "c"
+    )
+    raw = json.loads((tmp_path / "c").read_text())
+    assert status == 0 and raw["chosen"] == [str(logs[0])]
+    assert raw["condition_scaled"] == min(raw["alone"])
+
+
+EXCITE = ("excite", "demo-arm", "--duration", "3", "--starts", "1")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--limit", "1=1,-1,2,8"), "lower 1.0, upper -1.0"),
+        (("--limit", "1=-1,1,0,8"), "speed 0.0"),
+        (("--limit", "1=-1,1,2,-8"), "acceleration -8.0"),
+        (("--limit", "1=-1,1,2,nan"), "nan"),
+        (("--limit", "1=-1,1,2"), "LOWER,UPPER,SPEED,ACCELERATION"),
+        (("--limit", "1=-1,1,2,x"), "numbers"),
+        (("--limit", "9=-1,1,2,8"), "no moving joint 9"),
+        (("--box", "3=0,1,0,1"), "X0,X1"),
+        (("--box", "3=1,0,0,1,0,1"), "lower < upper"),
+        (("--box", "3=5,6,0,1,0,1"), "no posture of 400"),
+        (("--duration", "nan"), "duration"),
+        (("--duration", "0"), "duration"),
+        (("--harmonics", "1"), "harmonics: got 1"),
+        (("--starts", "0"), "starts: got 0"),
+        (("--seed", "-1"), "seed: got -1"),
+        (("--laps", "0"), "laps: got 0"),
+        (("--rate", "0"), "--rate: got 0"),
+        (("--time-limit", "0"), "time limit"),
+        (("--picture", "p.bmp"), ".png, .svg or .pdf"),
+        (("--choose", "1"), "go together"),
+        (("--between", "stribeck@2,spring@2"), "has no values"),
+    ],
+)
+def test_one_line_for_what_cannot_be(capsys, tmp_path, monkeypatch, words, told):
+    monkeypatch.chdir(tmp_path)
+    assert told in refused(capsys, *EXCITE, *words, "--out", "m.csv")
+    assert not (tmp_path / "m.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--between", "stribek@2,spring@2"), "no such effect"),
+        (("--between", "stribeck@9,spring@2"), "got joint 9"),
+        (("--between", "stribeck@2"), "expected two effects"),
+        (("--between", "coulomb@2,spring@2"), "has coulomb on joint 2 already"),
+        (("--between", "stribeck@2,payload@2"), "no torque of one joint"),
+        (("--limit", "2=-0.6,2.4,2,8,0.01"), "no posture of 400"),
+        (("--limit", "2=-0.6,2.4,2,8,0"), "torque 0"),
+        (("--effects", "viscous"), "of a robot file only"),
+    ],
+)
+def test_one_line_for_what_a_model_cannot(capsys, folder, tmp_path, words, told):
+    assert told in refused(capsys, "excite", folder / "m.json", *words, "--out", tmp_path / "m.csv")
+
+
+def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
+    assert "--out: missing" in refused(capsys, "excite", "demo-arm")
+    line = refused(
+        capsys, "excite", "scara", "--limit", "1=-1,1,2,8,50", "--out", tmp_path / "m.csv"
+    )
+    assert "limits of torques need values" in line
+    assert ".txt" in refused(capsys, "excite", "demo-arm", "--out", tmp_path / "m.txt")
+    header, rows = "time,q1,q2,q3", [f"{k / 100},0,{k / 1000},0" for k in range(20)]
+    spoilt = {
+        "no column q3": ["time,q1,q2", *(f"{k},0,0" for k in range(9))],
+        "time does not increase": [header, *rows, rows[3]],
+        "q2 is empty or not finite": [header, *rows[:5], "0.05,0,nan,0", *rows[6:]],
+        "expected 6 or more": [header, *rows[:3]],
+        "expected numbers": [header, *rows[:7], "0.07,0,a,0"],
+        "cannot be read": None,
+    }
+    for told, lines in spoilt.items():
+        place = tmp_path / f"{len(told)}.csv"
+        if lines is not None:
+            place.write_text("\n".join(lines) + "\n")
+        line = refused(
+            capsys, "simulate", "demo-arm", "--motion", place, "--out", tmp_path / "log.csv"
+        )
+        assert told in line and place.name in line
+    (tmp_path / "broken.parquet").write_bytes(b"no parquet")
+    words = ("simulate", "demo-arm", "--motion", tmp_path / "broken.parquet")
+    assert "no table" in refused(capsys, *words, "--out", tmp_path / "log.csv")
+
+
+def test_home_outside_of_the_limits_and_loops_that_do_not_close(capsys, tmp_path):
+    out = ("--out", tmp_path / "m.csv")
+    line = refused(capsys, "excite", "orthoglide-2003", "--limit", "11=0.25,0.28,1,8", *out)
+    assert "[home]" in line and "joint 11" in line
+    rows = [f"{k / 100},{0.19 + 0.05 * k},0.19,0.19" for k in range(40)]
+    (tmp_path / "far.csv").write_text("\n".join(["time,q11,q12,q13", *rows]) + "\n")
+    words = ("simulate", "orthoglide-2003", "--motion", tmp_path / "far.csv")
+    assert "do not close" in refused(capsys, *words, "--out", tmp_path / "l.csv")

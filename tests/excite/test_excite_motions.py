@@ -1,0 +1,160 @@
+"""Motions that are found: limits, worth, and what a fit gains by them."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.excite.bounds import Bounds
+from modeler.excite.criterion import condition
+from modeler.excite.result import Exciting
+from modeler.excite.search import Wish, excite, task_of
+from modeler.excite.series import series
+from modeler.excite.starts import random_motion
+from modeler.simulate.closing import distances, followed, rates
+from modeler.simulate.constraints import constraints_of
+from tests.excite.robots_to_excite import limits_of, plausible, robot
+
+
+def finely(motion: Exciting) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sampled ten times as densely as limits were looked at in the search, and at other places."""
+    count = 320 * motion.series.harmonics + 1
+    times = np.linspace(0.0, motion.series.duration, count)
+    return series(motion.series.duration, motion.series.harmonics, times).motion(motion.x)
+
+
+def assert_within(motion: Exciting, bounds: Bounds) -> None:
+    q, qd, qdd = finely(motion)
+    assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
+    assert np.all(np.abs(qd) <= bounds.speed) and np.all(np.abs(qdd) <= bounds.acceleration)
+    # They are used, too: some joint comes near each kind of limit, or the motion is a timid one.
+    assert max((np.abs(qd) / bounds.speed).max(), (np.ptp(q, axis=0) / 2 / bounds.half).max()) > 0.8
+
+
+@pytest.mark.parametrize("name", ["scara", "wrist", "two-link", "rx90"])
+def test_serial_robots_keep_to_their_limits_and_beat_random_motions(name):
+    compiled, bounds = limits_of(name)
+    motion = excite(compiled, bounds, Wish(8.0, 5, starts=1))
+    assert_within(motion, bounds)
+    assert motion.quality.condition < motion.random[0]
+    # Sigmas are a tenth larger at most than on the motion that is best for them among 50.
+    worse = (motion.random_log_det - motion.quality.log_det) / 2 / len(compiled.spec.base)
+    assert worse < np.log(1.1)
+    told = compiled.observation(*motion.series.motion(motion.x))
+    assert motion.quality.condition == pytest.approx(condition(told))
+
+
+def test_torques_and_boxes_hold_between_the_samples():
+    compiled, bounds = limits_of(
+        "demo-arm", ("2=-0.6,2.4,2,8,40", "3=-2.4,2.4,3,12,9"), ("3=-1,0.2,-1,1,0.1,1",)
+    )
+    beta = plausible(compiled)
+    free = dataclasses.replace(bounds, torque=np.full(3, np.inf), boxes=())
+    wish = Wish(6.0, 4, starts=1)
+    loose = excite(compiled, free, wish, beta=beta)
+    tight = excite(compiled, bounds, wish, beta=beta)
+    loads, poses = [], []
+    for motion in (loose, tight):
+        q, qd, qdd = finely(motion)
+        loads.append(np.abs(compiled.inverse_dynamics(q, qd, qdd, beta)).max(axis=0))
+        poses.append(compiled.forward_kinematics(q)[:, 2, :, 3])
+    assert np.any(loads[0] > bounds.torque) and np.all(loads[1] <= bounds.torque)
+    box = bounds.boxes[0]
+    assert np.any(poses[0] > box.upper) or np.any(poses[0] < box.lower)
+    assert np.all(poses[1] <= box.upper) and np.all(poses[1] >= box.lower)
+    assert np.allclose(tight.used.torque, loads[1], rtol=1e-2)
+
+
+def assert_not_faster(found, constraints, q, bounds):
+    """Joints that follow, by the simulator's closure: at most twice as fast as at home."""
+    angular = np.array([joint.angular for joint in found.moving])
+    units = [
+        kind & np.isin(np.arange(len(angular)), constraints.others) for kind in (angular, ~angular)
+    ]
+    sizes = []
+    for places in (bounds.home[None, :], q[::40]):
+        v = followed(found, constraints, places)
+        speeds = []
+        for j, half in enumerate(bounds.half):
+            qd = np.zeros_like(places)
+            qd[:, j] = half
+            speeds.append(rates(constraints, v, qd, np.zeros_like(qd))[0])
+        squares = np.sum(np.array(speeds) ** 2, axis=0)
+        sizes.append([np.sqrt(squares[:, unit].sum(axis=1)).max() for unit in units])
+    assert np.all(np.array(sizes[1]) <= 2.0 * np.array(sizes[0]) + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "limits"),
+    [
+        ("orthoglide-2003", ()),
+        ("orthoglide-2012", ()),
+        ("five-bar", ("1=-3,3,2,8", "2=-3,3,2,8")),
+    ],
+)
+def test_loops_close_all_along_away_from_singular_postures(name, limits):
+    found, compiled = robot(name)
+    if name == "five-bar":
+        names = [joint.name for joint in compiled.spec.joints]
+        home = dict(
+            zip(
+                names,
+                np.array(compiled.spec.closure.home)[list(compiled.spec.closure.given)],
+                strict=True,
+            )
+        )
+        limits = tuple(f"{j}={home[j] - 2.5},{home[j] + 2.5},3,12" for j in names)
+    compiled, bounds = limits_of(name, limits)
+    motion = excite(compiled, bounds, Wish(6.0, 4, starts=1))
+    q, *_ = finely(motion)
+    constraints = constraints_of(found)
+    away = distances(constraints, followed(found, constraints, q))
+    home = distances(constraints, followed(found, constraints, bounds.home[None, :]))[0]
+    assert away.min() > 0.05 * home
+    assert_not_faster(found, constraints, q, bounds)
+    assert motion.used.loops < 1.0 and motion.quality.condition < motion.random[0]
+    assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
+    if name == "five-bar":  # its limits alone would lead it through a singular posture
+        rng = np.random.default_rng(0)
+        corners = bounds.middle + bounds.half * rng.uniform(-0.95, 0.95, (200, len(bounds.lower)))
+        assert np.count_nonzero(compiled.closing_status(corners))
+
+
+def test_the_same_seed_gives_the_same_motion_and_another_one_another():
+    compiled, bounds = limits_of("wrist")
+    one, again, other = (
+        excite(compiled, bounds, Wish(4.0, 3, starts=1, seed=seed)) for seed in (3, 3, 4)
+    )
+    assert np.array_equal(one.x, again.x) and one.to_json() == again.to_json()
+    assert not np.allclose(one.x, other.x, atol=1e-3)
+
+
+def test_the_objectives_do_what_they_are_called():
+    compiled, bounds = limits_of("scara")
+    found = {
+        name: excite(compiled, bounds, Wish(6.0, 4, name, 2)).quality
+        for name in ("both", "condition", "information")
+    }
+    assert found["condition"].condition <= found["both"].condition < found["information"].condition
+    assert found["information"].log_det >= found["both"].log_det > found["condition"].log_det
+
+
+def test_a_noisy_joint_counts_less():
+    """Weighted rows: of a joint with tenfold noise the information is a hundredth."""
+    compiled, bounds = limits_of("two-link")
+    sigma = np.array([1.0, 10.0])
+    task = task_of(compiled, bounds, Wish(4.0, 3), sigma, None, None)
+    x = random_motion(task, np.random.default_rng(0))
+    W = compiled.observation(*task.series.motion(x)).reshape(-1, 2, len(compiled.spec.base))
+    assert np.allclose(
+        task.rows(task.series.motion(x)), (W / sigma[:, None]).reshape(-1, W.shape[2])
+    )
+
+
+def test_a_time_limit_ends_the_search_with_a_motion_within_limits():
+    compiled, bounds = limits_of("ur10e")
+    motion = excite(compiled, bounds, Wish(8.0, 5, time_limit=0.3))
+    assert motion.ended_early
+    q, qd, qdd = finely(motion)
+    assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
+    assert np.all(np.abs(qd) <= bounds.speed) and np.all(np.abs(qdd) <= bounds.acceleration)

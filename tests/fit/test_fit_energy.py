@@ -1,0 +1,182 @@
+"""The energy model: honest sigmas, the verdict beside the torque model, what is refused."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+from stand_in import planar_arm
+from test_observation_rows import exact_log, some_beta
+
+from modeler.core.errors import DataError
+from modeler.estimate.unequal import unequal_least_squares
+from modeler.fit import identify, identify_energy
+from modeler.fit.crossed import crossed
+from modeler.fit.result import fit_from_json
+from modeler.observation import observe
+from modeler.observation.energy import energy_rows
+
+NOISE = np.array([0.2, 0.5])
+SEEDS = 60
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return planar_arm()
+
+
+def noisy_log(arm, seed, noise=NOISE, **kw):
+    log = exact_log(arm, some_beta(arm), seed=seed, rate=100, **kw)
+    return dataclasses.replace(
+        log, tau=log.tau + noise * np.random.default_rng(500 + seed).normal(size=log.tau.shape)
+    )
+
+
+@pytest.fixture(scope="module")
+def repeated(arm):
+    """Scores (beta - truth) / sigma by method, and sigmas of rows that are taken for alike."""
+    truth = some_beta(arm)
+    scores = {"weighted": [], "ordinary": [], "alike": []}
+    for seed in range(SEEDS):
+        seen = observe(arm, [noisy_log(arm, seed, seconds=10)])
+        rows = energy_rows(arm, seen)
+        for method in ("weighted", "ordinary"):
+            found = unequal_least_squares(
+                rows.W, rows.y, rows.spread, seen.names, rows.stretch, method
+            )
+            scores[method].append((found.beta - truth) / np.sqrt(np.diag(found.covariance)))
+        rest = rows.y - rows.W @ found.beta  # of ordinary least squares
+        variance = rest @ rest / (len(rest) - len(truth))
+        sigma = np.sqrt(variance * np.diag(np.linalg.inv(rows.W.T @ rows.W)))
+        scores["alike"].append((found.beta - truth) / sigma)
+    return {method: np.array(values) for method, values in scores.items()}
+
+
+@pytest.mark.parametrize("method", ["weighted", "ordinary"])
+def test_the_sigmas_cover_the_truth(repeated, method):
+    z = repeated[method]
+    assert 0.85 < np.sqrt(np.mean(z**2)) < 1.12
+    assert 0.9 < np.mean(np.abs(z) < 2.0) < 0.99
+    assert np.all(np.abs(z.mean(axis=0)) < 4.0 / SEEDS**0.5)
+
+
+def test_windows_of_unequal_work_are_not_alike(repeated):
+    """The textbook's sigma^2 (W^T W)^-1 is wrong parameter by parameter: noise grows with qd."""
+    rms = np.sqrt(np.mean(repeated["alike"] ** 2, axis=0))
+    honest = np.sqrt(np.mean(repeated["ordinary"] ** 2, axis=0))
+    assert np.std(rms) > 1.5 * np.std(honest)
+
+
+def test_windows_at_rest_do_not_weigh_without_bound():
+    """A robot that waits between moves, its drive noisy while it waits: 0 = 0 must not rule."""
+    random = np.random.default_rng(3)
+    shares = np.concatenate([np.full(60, 1e-12), random.uniform(0.5, 1.5, 60)])[:, None]
+    W = random.normal(size=(120, 3))
+    beta, z = np.array([1.0, -2.0, 0.5]), []
+    for _ in range(80):
+        y = W @ beta + np.sqrt(shares[:, 0] + 0.01) * random.normal(size=120)
+        found = unequal_least_squares(W, y, shares, ("A", "B", "C"), np.zeros(120, dtype=int))
+        z.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
+    assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.15)
+
+
+def test_neighbours_that_repeat_each_other_raise_the_sigmas():
+    random = np.random.default_rng(4)
+    t = np.arange(400)
+    W = np.column_stack([np.sin(t / 15.0), np.cos(t / 22.0)])
+    z, raised = [], []
+    for _ in range(60):
+        white = random.normal(size=406)
+        noise = np.convolve(white, np.ones(7), mode="valid")  # remembers seven windows
+        found = unequal_least_squares(
+            W, W @ [1.0, 2.0] + noise, np.ones((400, 1)), ("A", "B"), np.zeros(400, dtype=int)
+        )
+        z.append((found.beta - [1.0, 2.0]) / np.sqrt(np.diag(found.covariance)))
+        raised.append(found.memory)
+    assert np.median(raised) > 1.8 and np.sqrt(np.mean(np.square(z))) < 1.4
+
+
+@pytest.fixture(scope="module")
+def fitted(arm):
+    seen = observe(arm, [noisy_log(arm, 7, seconds=20)])
+    return seen, identify_energy(arm, seen)
+
+
+def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
+    fit = fitted[1]
+    report = fit.result.energy
+    torque, energy, coarse = report.figures
+    assert [item.model for item in report.figures] == [
+        "torque", "energy, Simpson", "energy, trapezoid",
+    ]  # fmt: skip
+    assert torque.condition_scaled < energy.condition_scaled
+    assert torque.torque_sigma < energy.torque_sigma and torque.rows > energy.rows
+    assert report.ratio > 1.2 and "times less surely than the torque model" in report.sentences()[0]
+    assert energy.imbalance < 0.1 * coarse.imbalance and energy.bias < coarse.bias
+    assert fit.result.relative_error == pytest.approx(energy.torque_error)
+    text = "\n".join(fit.result.summary())
+    assert "energy, Simpson" in text and "integrals by Simpson's rule" in text
+
+
+def test_the_stated_uncertainty_of_the_torques_is_the_true_one(arm):
+    """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over 40 fits."""
+    truth, errors, stated = some_beta(arm), {0: [], 1: []}, {0: [], 1: []}
+    for seed in range(40):
+        seen = observe(arm, [noisy_log(arm, 900 + seed, seconds=8)])
+        fit = identify_energy(arm, seen)
+        for k, beta in enumerate((identify(seen).beta, fit.result.beta)):
+            miss = np.linalg.norm(seen.W @ (beta - truth)) / np.linalg.norm(seen.y)
+            errors[k].append(miss**2)
+            stated[k].append(fit.result.energy.figures[k].torque_sigma ** 2)
+    for k in (0, 1):
+        assert np.mean(errors[k]) == pytest.approx(np.mean(stated[k]), rel=0.3)
+
+
+def test_a_log_too_slow_for_the_rule_is_told(arm):
+    log = exact_log(arm, some_beta(arm), seconds=60, rate=12)
+    seen = observe(arm, [dataclasses.replace(log, tau=log.tau)])
+    report = identify_energy(arm, seen).result.energy
+    assert report.figures[1].bias > 0.5 and report.sentences()[1].endswith("or move more slowly")
+
+
+def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
+    seen, fit = fitted
+    raw = json.loads(json.dumps(fit.result.to_json(), allow_nan=False))
+    assert raw["model"] == "energy" and raw["energy"]["window"] == fit.rows.window
+    assert set(raw["energy"]["figures"][1]) >= {"torque_error", "torque_sigma", "condition_scaled"}
+    again = fit_from_json(raw, fit.result.covariance)
+    assert again.energy == fit.result.energy and again.essential == fit.result.essential
+    assert identify(seen).to_json()["model"] == "torque"
+    assert identify(seen).to_json()["energy"] is None
+
+    every, sigma = np.ones(len(seen.y), dtype=bool), NOISE
+    own, torque = (crossed(seen, every, sigma, refit).errors for refit in (fit.without, None))
+    assert np.all(own > torque)  # stretches are left out of the energies, not of the torques
+
+
+def test_left_out_stretches_are_left_out_of_the_energies(arm, fitted):
+    seen, fit = fitted
+    held = (seen.time > 5.0) & (seen.time < 9.0)
+    spoilt = fit.rows.y.copy()
+    spoilt[(fit.rows.time[:, 0] > 5.1) & (fit.rows.time[:, 1] < 8.9)] += 1e3
+    other = dataclasses.replace(fit, rows=dataclasses.replace(fit.rows, y=spoilt))
+    np.testing.assert_array_equal(other.without(held), fit.without(held))
+    assert not np.allclose(other.without(held & False), fit.without(held & False))
+
+
+def test_motors_are_all_needed(arm):
+    log = noisy_log(arm, 1, seconds=10)
+    dead = dataclasses.replace(log, tau=log.tau * [1.0, 0.0])
+    with pytest.raises(DataError, match=r"run: the torque of joint 2 is 0 .* every motor"):
+        identify_energy(arm, observe(arm, [dead]))
+    none = dataclasses.replace(log, tau=log.tau * 0.0)
+    with pytest.raises(DataError, match=r"run: the torque of every joint with a motor is 0"):
+        identify_energy(arm, observe(arm, [none]))
+
+
+def test_too_few_windows_and_other_methods_are_refused(arm):
+    seen = observe(arm, [noisy_log(arm, 1, seconds=10)])
+    with pytest.raises(DataError, match=r"run: 4 windows of 2 s for 13 parameters; .*--window"):
+        identify_energy(arm, seen, window=2.0)
+    with pytest.raises(DataError, match=r"--method ridge: the energy model takes weighted or ord"):
+        identify_energy(arm, seen, method="ridge")

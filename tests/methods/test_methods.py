@@ -1,0 +1,62 @@
+"""The papers' identifications, run again."""
+
+import json
+
+import pytest
+
+from modeler.cli import main
+from modeler.core.errors import RobotError
+from modeler.methods import METHODS, MethodTable, Outcome, Row
+from modeler.methods.report import figures, quoted, recovered
+from modeler.papers import paper_names, read_paper
+
+TITLES = {
+    "guegan-2003": ["Table 2", "The direction", "Table 3", "Condition numbers"],
+    "briot-2012": ["Table 3", "The second load"],
+    "houda": ["Table 1", "Table 1", "The energy model"],
+    "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Physical parameters"],
+}
+
+
+def test_every_paper_has_its_method():
+    assert set(METHODS) == set(paper_names())
+
+
+@pytest.mark.parametrize("name", paper_names())
+def test_every_identification_is_reproduced(name, capsys, tmp_path):
+    place = tmp_path / "methods.json"
+    assert main(["reproduce", name, "--section", "methods", "--json", str(place)]) == 0
+    assert "[truth recovered]" in capsys.readouterr().out
+    told = json.loads(place.read_text())
+    assert "lines" not in told
+    titles = [table["title"] for table in told["methods"]]
+    assert len(titles) == len(TITLES[name])
+    assert all(t.startswith(s) for t, s in zip(titles, TITLES[name], strict=True))
+    rows = [row for table in told["methods"] for row in table["rows"]]
+    assert sum(row["outcome"] == "truth recovered" for row in rows) >= 7
+
+
+def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
+    row = Row("MPR", "1.5", "2.5", Outcome.FAILED)
+    table = MethodTable("Table 3", (), (row,))
+    monkeypatch.setattr("modeler.cli.reproduce.run_methods", lambda paper, report: [table])
+    assert main(["reproduce", "guegan-2003", "--section", "methods"]) == 1
+    out, err = capsys.readouterr()
+    assert "NOT reproduced" in out
+    assert "1 line is different: Table 3: MPR" in err
+
+
+def test_a_value_far_from_the_truth_is_not_recovered():
+    assert recovered("M", "1", 1.0, 1.3, 0.1).outcome is Outcome.RECOVERED
+    assert recovered("M", "1", 1.0, 1.5, 0.1).outcome is Outcome.FAILED
+    assert recovered("M", "1", 1.0, 1.0, 0.0).outcome is Outcome.FAILED
+
+
+def test_the_truth_of_a_simulation_is_read_from_the_quotations():
+    paper = read_paper("guegan-2003")
+    assert figures(paper, "Table 3")["MRP"] == (1.5993, 1.2601)
+    assert quoted(paper, "65814 x 13") == (65814.0, 13.0)
+    with pytest.raises(RobotError, match="quotes no Table 9"):
+        figures(paper, "Table 9")
+    with pytest.raises(RobotError, match='quotes nothing that starts with "66"'):
+        quoted(paper, "66")

@@ -1,0 +1,23 @@
+"""The robots of the papers, each derived once per test run."""
+
+from functools import cache
+
+from modeler.papers import Derived, derived_robot, read_paper
+from modeler.robot import read_robot
+from tests.modules import module
+
+
+@cache
+def robots_of(name: str) -> dict[str, Derived]:
+    """All robots that the lines of a paper speak of."""
+    paper = read_paper(name)
+    return {robot: _robot(name, robot) for robot in paper.robots}
+
+
+@cache
+def _robot(paper: str, robot: str) -> Derived:
+    variant = read_paper(paper).variants.get(robot)
+    if variant is not None:
+        return derived_robot(robot, variant.gravity, variant.of)
+    found = module(robot)
+    return Derived(read_robot(robot), found.model, found.base)

@@ -1,0 +1,65 @@
+"""Every number and every relation that is quoted, altered one at a time, must not pass."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+from modeler.papers import (
+    Verdict,
+    check_line,
+    coefficient_quotations,
+    paper_names,
+    read_paper,
+    written_out,
+)
+from tests.papers.derived_papers import robots_of
+
+NUMBERS_ONLY = ("numbers", "arithmetic")
+"""Kinds whose quotations are words around numbers."""
+
+
+def altered(text: str, kind: str) -> Iterator[str]:
+    """The text with one thing changed: a digit, a letter's index, a sign, a term left out."""
+    for match in re.finditer(r"\d", text):
+        if kind in NUMBERS_ONLY and re.search(r"[A-Za-z]\d*$", text[: match.start()]):
+            continue
+        digit = str((int(match.group()) + 1) % 10)
+        yield text[: match.start()] + digit + text[match.end() :]
+    if kind in NUMBERS_ONLY:
+        return
+    for match in re.finditer(r"[+-]", text):
+        other = "-" if match.group() == "+" else "+"
+        yield text[: match.start()] + other + text[match.end() :]
+    for match in re.finditer(r"[A-Z]+", text):
+        yield text[: match.start()] + "Q" + text[match.start() + 1 :]
+    for match in re.finditer(r" [+-] [^-+=()\[\]]+(?= [+-] |$)", text):
+        yield text[: match.start()] + text[match.end() :]
+
+
+def all_lines(name):
+    paper = read_paper(name)
+    lines = [*paper.lines, *coefficient_quotations(paper, robots_of(name))]
+    return paper, [one for line in lines for one in written_out(line)]
+
+
+@pytest.mark.parametrize("name", paper_names())
+def test_every_alteration_of_a_line_is_noticed(name):
+    paper, lines = all_lines(name)
+    robots, survivors, tried = robots_of(name), [], 0
+    for line in lines:
+        for text in altered(line.text, line.check):
+            changed = replace(line, **{"quote" if line.quote else "ours": text})
+            tried += 1
+            if check_line(paper, changed, robots).verdict is not Verdict.DIFFERENT:
+                survivors.append(f"{line.place}: {text}")
+        for index, given in enumerate(line.given):
+            for text in altered(given, line.check):
+                others = (*line.given[:index], text, *line.given[index + 1 :])
+                tried += 1
+                found = check_line(paper, replace(line, given=others), robots)
+                if found.verdict is not Verdict.DIFFERENT:
+                    survivors.append(f"{line.place}: {line.text}; {text}")
+    assert not survivors, "\n".join(survivors)
+    assert tried > 5 * len(lines)

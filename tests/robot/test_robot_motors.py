@@ -1,0 +1,161 @@
+"""Motors that turn with several joints, by the laws of the coupling and by Hanssen's counts."""
+
+import numpy as np
+import pytest
+
+from modeler.base import base_parameters
+from modeler.core.errors import RobotError
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.robot.edit import with_effect
+from modeler.robot.motors import joint_directions
+from modeler.symbolic import derive_model
+from tests.modules import compiled, module
+
+_G = np.array([[1.0, 0.0, 0.0], [-0.4, 1.0, 0.0], [0.2, -0.5, 1.0]])
+_JM, _FV, _FS = np.array([0.5, 0.3, 0.15]), np.array([4.0, 2.5, 1.2]), np.array([3.0, 2.0, 1.2])
+_TEXT = builtin_text("wrist-coupled")
+_MOTORS = 'm1 = "q1"\nm2 = "q2 - 0.4*q1"\nm3 = "q3 - 0.5*q2 + 0.2*q1"\n'
+_ROTORS = 'rotor_inertia = "all"\nviscous = "all"\ncoulomb = "all"\n'
+
+
+def _coupled(motors: str, effects: str = _ROTORS):
+    assert _MOTORS in _TEXT and _ROTORS in _TEXT
+    text = _TEXT.split("[parameters]")[0].replace(_MOTORS, motors).replace(_ROTORS, effects)
+    return robot_from_text(text, "coupled.toml")
+
+
+def _sums(G: np.ndarray) -> str:
+    lines = (" + ".join(f"({c})*q{j + 1}" for j, c in enumerate(row) if c) for row in G.tolist())
+    return "".join(f'm{i + 1} = "{line}"\n' for i, line in enumerate(lines))
+
+
+def _inertial(name: str) -> dict[str, float]:
+    nominal = read_robot("wrist-coupled").parameters
+    return {p.name: nominal.get(p.name, 0.0) for p in module(name).emitted.spec.standard}
+
+
+def test_motor_torques_are_those_of_the_joints_by_virtual_work():
+    """tau_m = G^-T tau_a + Jm qmdd + Fv qmd + Fs sign(qmd), tau_a of the wrist without motors."""
+    rng = np.random.default_rng(3)
+    qm, qmd, qmdd = rng.uniform(-2, 2, (3, 50, 3))
+    back = np.linalg.inv(_G)
+    wrist, coupled = compiled("wrist"), compiled("wrist-coupled")
+    beta = [
+        model.base_parameters(np.array([*_inertial(model.spec.robot).values()]))
+        for model in (wrist, coupled)
+    ]
+    tau_a = wrist.inverse_dynamics(*(x @ back.T for x in (qm, qmd, qmdd)), beta[0])
+    expected = tau_a @ back + _JM * qmdd + _FV * qmd + _FS * np.sign(qmd)
+    got = coupled.inverse_dynamics(qm, qmd, qmdd, beta[1])
+    assert np.abs(got - expected).max() < 1e-12 * np.abs(expected).max()
+    regressed = np.einsum("tjc,c->tj", coupled.base_regressor(qm, qmd, qmdd), beta[1])
+    assert np.abs(regressed - expected).max() < 1e-12 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_17_base_parameters_and_3_of_friction_for_any_coupling(seed):
+    G = np.random.default_rng(seed).integers(-9, 10, (3, 3)) / 4 + 3 * np.eye(3)
+    base = base_parameters(derive_model(_coupled(_sums(G), 'coulomb = "all"\n')))
+    assert len(base.parameters) == 17 + 3
+
+
+@pytest.mark.parametrize(
+    ("G", "count"),
+    [(np.diag([1.0, 2.0, 0.5]), 18 + 3), (np.diag([-3.0, 1.5, 7.0]), 18 + 3), (_G, 19 + 3)],
+)
+def test_rotor_inertias_add_one_or_two(G, count):
+    """18 with a diagonal G, where Jm3 tells PJ22 from PJ16; 19 with a lower triangular one."""
+    effects = 'rotor_inertia = "all"\ncoulomb = "all"\n'
+    base = base_parameters(derive_model(_coupled(_sums(G), effects)))
+    assert len(base.parameters) == count
+
+
+@pytest.mark.parametrize("ratio", [1, 3])
+def test_the_first_rotor_groups_with_the_square_of_its_ratio(ratio):
+    """ZZ1R' = ZZ1R + G11^2 Jm1."""
+    G = _G.copy()
+    G[0, 0] = ratio
+    base = base_parameters(derive_model(_coupled(_sums(G), 'rotor_inertia = "all"\n')))
+    zz1 = next(p for p in base.parameters if p.name == "ZZ1R")
+    terms = {term.parameter: float(term.coefficient) for term in zz1.terms}
+    assert terms == {"ZZ1": 1.0, "YY2": 1.0, "Iam1": ratio**2}
+
+
+def test_thirds_are_thirds():
+    robot = _coupled('m1 = "q1/3"\nm2 = "q2"\nm3 = "q3"\n')
+    assert robot.relations["1"].text == "3*qm1"
+
+
+def test_directions_are_the_columns_of_the_coupling():
+    ways = joint_directions(read_robot("wrist-coupled"))
+    np.testing.assert_allclose([*ways.values()], _G.T)
+    assert joint_directions(read_robot("five-bar")) == {"11": (1.0, 0.0), "12": (0.0, 1.0)}
+
+
+def test_motors_of_sliding_joints_slide():
+    text = """
+name = "slide"
+gravity = [0, 0, 0]
+
+[mdh]
+columns = ["j", "sigma", "alpha", "theta", "r"]
+rows = [["1", 1, 0, 0, "q1"], ["2", 0, 0, "q2", 0]]
+
+[motors]
+a = "2*q1"
+b = "q2 + 5*q1"
+"""
+    kinds = [joint.angular for joint in robot_from_text(text, "slide.toml").coordinates]
+    assert kinds == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("cell", "told"),
+    [
+        ("2*q1", "singular, some motion of 1, 2, 3 turns no motor"),
+        ("1e-5*q2 - 0.4*q1", "nearly singular, a joint moves 1e+05 times as far"),
+        ("q2*q1", "not linear"),
+        ("q2 - 0.4*q7", "q7 is not declared"),
+        ("qm1 + q2", "qm1 is not declared"),
+        ("q2 + 0.1", "with the constant 0.1"),
+        ("0.1", "without a joint variable"),
+        ("q2 - 1e5*q1", "expected at most 10000"),
+    ],
+)
+def test_a_wrong_sum_is_told(cell, told):
+    with pytest.raises(RobotError, match=r"^coupled.toml: \[motors\]") as error:
+        _coupled(_MOTORS.replace("q2 - 0.4*q1", cell, 1))
+    assert told in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("motors", "told"),
+    [
+        ('m1 = "q1"\nm3 = "q3 + q2"\n', "got 2 motors (m1, m3) for the 3 joints 1, 2, 3"),
+        (f'{_MOTORS}m4 = "q3"\n', "got 4 motors (m1, m2, m3, m4) for the 3 joints 1, 2, 3"),
+        ('m1 = "q1"\nm2 = "q2"\n', "no motor turns with q3, which has one"),
+        (_MOTORS.replace("m2", "2"), 'row "2" of [mdh] has that name; call the motor m2'),
+        (_MOTORS.replace("m2", '"m-2"'), "expected a name of letters and digits"),
+        ("m1 = [1]\n", "expected a number or an expression"),
+        (f'{_MOTORS}[relations]\nq3 = "q2"\n', "follows motors of [motors] too"),
+    ],
+)
+def test_wrong_motors_are_told(motors, told):
+    with pytest.raises(RobotError, match=r"^coupled.toml: \[(motors|relations)\]") as error:
+        _coupled(motors)
+    assert told in str(error.value) and "\n" not in str(error.value)
+
+
+def test_an_effect_that_is_added_leaves_the_values_of_the_motors():
+    """Fvm1 is viscous friction of the motor m1, not friction of a motor on joint 1."""
+    changed = with_effect(_TEXT, "stribeck", "m2", {"vs": 0.1, "d": 2.0})
+    assert robot_from_text(changed, "x.toml").parameters == read_robot("wrist-coupled").parameters
+
+
+def test_motors_that_are_no_table_are_told():
+    with pytest.raises(RobotError, match=r"\[motors\]: got 3; expected a table"):
+        robot_from_text(
+            'name = "x"\ngravity = [0, 0, 0]\nmotors = 3\n[mdh]\ncolumns = ["j", "theta"]\n'
+            'rows = [["1", "q1"]]\n',
+            "x.toml",
+        )

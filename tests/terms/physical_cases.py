@@ -1,0 +1,43 @@
+"""Physical systems of robots, built once."""
+
+from functools import cache
+
+import numpy as np
+
+from modeler.base import base_parameters
+from modeler.terms.physical_system import PhysicalSystem, physical_system
+from modeler.terms.printed import read_print
+from modeler.terms.solved_values import Numbers
+from tests.terms.cases import model_of
+
+SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
+"""What Hanssen, Hovland and Brogardh take as known."""
+
+
+@cache
+def system_of(name: str, source: str | None = None) -> PhysicalSystem:
+    model = model_of(name)
+    return physical_system(model, base_parameters(model), source)
+
+
+def example() -> dict[str, float]:
+    """The wrist of `[terms.example]`."""
+    found = read_print(model_of("wrist").robot).example
+    return {name: float(value) for name, value in found.items()}
+
+
+def data_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
+    """The identified quantities of a robot with these parameters."""
+    point = np.zeros(len(system.names))
+    for name, value in (*system.constants.items(), *letters.items()):
+        if name in system.place:
+            point[system.place[name]] = value
+    return np.array([Numbers(system.definitions[name]).value(point) for name in system.data])
+
+
+def random_letters(system: PhysicalSystem, rng: np.random.Generator) -> dict[str, float]:
+    """A made-up robot; masses are positive."""
+    return {
+        x: float(rng.uniform(1, 5) if x in system.masses else rng.uniform(-1, 1))
+        for x in system.letters
+    }

@@ -1,0 +1,226 @@
+"""Physical parameters in closed form: against the paper, against numbers, and what is refused."""
+
+import dataclasses
+import random
+
+import numpy as np
+import pytest
+import sympy
+
+from modeler.base import base_parameters
+from modeler.base.numeric import random_states, regressor_values
+from modeler.core.errors import RobotError
+from modeler.robot import robot_from_text
+from modeler.symbolic import derive_model
+from modeler.terms.physical_system import physical_system
+from modeler.terms.printed import read_print
+from modeler.terms.solution_text import formula, missing_lines, solution_lines
+from modeler.terms.solved_values import Numbers, verify
+from modeler.terms.solving import determined, solve
+from tests.terms.cases import TEXTS, edited_wrist, model_of
+from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
+
+# How cm follows if one parameter more than the paper's seven is known; derived by hand from
+# PG1 = cm (bl1 + ct1) + bm bt1, PG2 = -cm ct2, PG3 = -cm ct3, PJ1, PJ2, PJ6, PJ13, PJ16.
+CM = {
+    "ct2": "-PG2/ct2",
+    "ct3": "-PG3/ct3",
+    "cJ11": "(PG2**2 + PG3**2)/(PJ16 - cJ11)",
+    "cJ22": "(PG3**2 - PG2**2)/(PJ1 - cJ22 + cJ33)",
+    "cJ23": "PG2*PG3/(cJ23 - PJ2/2)",
+    "bt1": "(PG1 - bm*bt1)/(bl1 + ct1)",
+    "bJ12": "(PG1 - (bJ12 - PJ13)/bt2)/(bl1 + ct1)",
+    "bJ13": "(PG1 + bm*(bJ13 - PJ6/2)/PG4)/(bl1 + ct1)",
+}
+
+
+def expression(text: str) -> sympy.Expr:
+    names = (*system_of("wrist").names, *SEVEN)
+    return sympy.sympify(text, {name: sympy.Symbol(name) for name in names})
+
+
+def in_known(solution, letter: str) -> sympy.Expr:
+    """A formula with all earlier ones put in."""
+    found: dict[sympy.Symbol, sympy.Expr] = {}
+    for step in solution.steps:
+        value = expression(formula(step, solution.system)).subs(found)
+        found[sympy.Symbol(step.letter)] = value
+        if step.letter == letter:
+            return value
+    raise AssertionError(letter)
+
+
+@pytest.mark.parametrize("eighth", CM)
+def test_cm_follows_as_by_hand(eighth):
+    solution = solve(system_of("wrist"), (*SEVEN, eighth))
+    assert sympy.cancel(in_known(solution, "cm") - expression(CM[eighth])) == 0
+    assert len(solution.steps) == 17 and not solution.missing
+    assert verify(solution) == 20
+
+
+def test_formulas_are_those_of_the_paper():
+    """With cm known: the paper's other seventeen, but for aJ11, whose sign is a misprint."""
+    printed = read_print(model_of("wrist").robot).solutions
+    solution = solve(system_of("wrist"), (*SEVEN, "cm"))
+    ours = {step.letter: expression(formula(step, solution.system)) for step in solution.steps}
+    assert set(ours) == set(printed) - {"cm"}
+    for letter, value in ours.items():
+        top, bottom = printed[letter]
+        theirs = expression(top.text) / expression(bottom.text if bottom else "1")
+        if letter == "aJ11":
+            theirs = -theirs
+        assert sympy.cancel(value - theirs) == 0, letter
+
+
+@pytest.mark.parametrize("eighth", ["bJ11", "bJ22", "aJ11"])
+def test_cm_as_the_root_of_a_cubic(eighth):
+    solution = solve(system_of("wrist"), (*SEVEN, eighth))
+    (step,) = [step for step in solution.steps if step.equation is not None]
+    place = solution.system.place["cm"]
+    assert step.letter == "cm" and max(at[place] for at in step.equation) == 3
+    assert verify(solution) == 20 and not solution.undetermined
+
+
+@pytest.mark.parametrize("eighth", ["at2", "at3", "bt3", "bJ23", "cJ12", "cJ13"])
+def test_what_does_not_help_is_told(eighth):
+    """cm cannot follow from the seven, nor with any of these: the paper's formula is 0/0."""
+    solution = solve(system_of("wrist"), (*SEVEN, eighth))
+    assert solution.missing == 1
+    assert set(solution.undetermined) == {
+        "cm", "ct2", "ct3", "bt1", "cJ11", "cJ22", "cJ23", "bJ11", "bJ12", "bJ13", "bJ22", "aJ11",
+    }  # fmt: skip
+    assert not set(solution.follows) & set(solution.undetermined)
+    first, second = missing_lines(solution)
+    assert first.startswith("undetermined: aJ11") and "1 more must be known: one of cm, " in second
+    for more in solution.undetermined:
+        assert len(determined(system_of("wrist"), (*SEVEN, eighth, more))[0]) == 16, more
+
+
+def test_random_sufficient_sets_all_have_formulas():
+    system, chance, done = system_of("wrist"), random.Random(11), 0
+    while done < 8:
+        known = chance.sample(system.letters, 8)
+        if len(determined(system, known)[0]) < 17:
+            continue
+        done += 1
+        solution = solve(system, known)
+        assert len(solution.steps) == 17 and not solution.without_formula, known
+        assert verify(solution, 4) == 4, known
+
+
+def test_a_wrong_formula_is_not_verified():
+    solution = solve(system_of("wrist"), (*SEVEN, "cm"))
+    for k, step in enumerate(solution.steps):
+        wrong = dataclasses.replace(step, numerator=step.numerator * 2)
+        steps = (*solution.steps[:k], wrong, *solution.steps[k + 1 :])
+        assert verify(dataclasses.replace(solution, steps=steps)) == 0, step.letter
+
+
+def test_a_quotient_of_zeros_is_not_verified():
+    """The paper's cm, by coefficients: PJ3 + PJ1 - PS3/2 is the zero polynomial."""
+    solution = solve(system_of("wrist"), (*SEVEN, "cm"))
+    ring = solution.system.ring
+    steps = (dataclasses.replace(solution.steps[0], numerator=ring.zero, denominator=ring.zero),)
+    assert verify(dataclasses.replace(solution, steps=steps)) == 0
+
+
+@pytest.mark.parametrize("name", ["two-link", "scara", "odd", "puma560", "rx90", "3rrr", "sr400",
+                                  "orthoglide-2003", "emps"])  # fmt: skip
+def test_masses_and_centres_known_on_other_robots(name):
+    """Inertias follow, or their groups are told to be short of some; every formula is exact."""
+    system = system_of(name)
+    known = [x for x in system.letters if system.kinds[x] in ("mass", "centre")]
+    solution = solve(system, known)
+    assert verify(solution, 5) == 5
+    told = {*solution.follows, *solution.undetermined}
+    assert told == set(system.letters) - set(known) and not solution.without_formula
+    if solution.missing:
+        rank = determined(system, known)[1]
+        more = determined(system, [*known, solution.undetermined[0]])
+        assert more[1] == rank
+
+
+@pytest.mark.parametrize("name", ["wrist", "puma560", "odd", "3rrr", "scara"])
+def test_determined_as_the_null_space_says(name):
+    """In floating point: x follows if every vector of the kernel is zero at x."""
+    system, rng = system_of(name), np.random.default_rng(5)
+    point = np.zeros(len(system.names))
+    for x, value in (*system.constants.items(), *random_letters(system, rng).items()):
+        point[system.place[x]] = value
+    J = np.array([Numbers(system.definitions[d]).slopes(point) for d in system.data])
+    for _ in range(20):
+        known = set(rng.choice(system.letters, rng.integers(0, len(system.letters)), replace=False))
+        unknown = [x for x in system.letters if x not in known]
+        _, s, Vt = np.linalg.svd(J[:, [system.place[x] for x in unknown]])
+        kernel = Vt[int((s > 1e-9 * s[0]).sum()) if len(s) else 0 :]
+        size = np.abs(kernel).max(axis=0, initial=0)
+        free = {x for k, x in enumerate(unknown) if size[k] > 1e-7}
+        assert set(determined(system, known)[0]) == set(unknown) - free
+
+
+def test_two_links_as_in_a_textbook():
+    solution = solve(system_of("two-link"), ("m1", "m2"))
+    assert set(solution_lines(solution)) == {
+        "cx2 = MX2/m2",
+        "cy2 = MY2/m2",
+        "cy1 = MY1/m1",
+        "cx1 = (MX1R - m2*L1)/m1",
+        "Izz2 = ZZ2 - m2*(cx2**2 + cy2**2)",
+        "Izz1 = ZZ1R - m1*(cx1**2 + cy1**2) - m2*L1**2",
+    }
+
+
+def test_a_sliding_axis_tells_its_mass():
+    assert solution_lines(solve(system_of("emps"), ())) == ["m1 = M1"]
+
+
+def test_rotor_inertias_are_parameters():
+    system = system_of("odd")
+    assert {"Ia1", "Ia2", "Ia3"} & set(system.letters)
+    assert all(system.kinds[x] == "rotor inertia" for x in system.letters if x.startswith("Ia"))
+
+
+def test_only_a_length_that_no_fit_needs_is_unknown():
+    assert system_of("wrist").source == "coefficients" and "bl1" in system_of("wrist").letters
+    assert system_of("two-link").source == "base"
+    assert system_of("two-link").constants == {"L1": 0.4}
+    assert system_of("wrist", "base").constants == {"bl1": 0.1}
+
+
+def test_a_fit_with_a_wrong_length_gives_the_right_coefficients():
+    """Torques of a wrist with bl1 = 0.15 fitted with bl1 = 0.10: no error, and PG, PJ are true."""
+    true = edited_wrist(("bl1 = 0.10", "bl1 = 0.15"))
+    system, rng = system_of("wrist"), np.random.default_rng(3)
+    letters = random_letters(system, rng) | {"bl1": 0.15}
+    base = base_parameters(true)
+    own = physical_system(true, base, "base")
+    columns = {p.name: p.column for p in base.parameters}
+    states = random_states(true, 60, rng)
+    true_W, W = (regressor_values(m, states)[..., [columns[d] for d in system.base]].reshape(-1, 17)
+                 for m in (true, model_of("wrist")))  # fmt: skip
+    assert own.data == system.base
+    tau = true_W @ data_of(own, letters)
+    beta, *_ = np.linalg.lstsq(W, tau, rcond=None)
+    assert np.abs(tau - W @ beta).max() < 1e-9 * np.abs(tau).max()
+    assert system.to_data @ beta == pytest.approx(data_of(system, letters), rel=1e-9, abs=1e-9)
+
+
+def test_quotients_of_lengths_have_names():
+    system = system_of("orthoglide-2003")
+    assert system.abbreviations["k1"] == "1/D41"
+    assert system.constants["k1"] == pytest.approx(1 / 0.31)
+    lines = solution_lines(solve(system, [x for x in system.letters if system.kinds[x] == "mass"]))
+    assert lines[0] == "k1 = 1/D41"
+
+
+def test_coefficients_of_a_tied_robot_are_refused():
+    with pytest.raises(RobotError, match="3rrr: coefficients are written for serial and tree"):
+        system_of("3rrr", "coefficients")
+
+
+def test_a_letter_that_is_the_name_of_a_base_parameter_is_refused():
+    text = TEXTS["weightless"].replace("11", "1").replace("12", "2")
+    link = '[physical.2]\nmass = "ZZ2"\ncentre = [0, 0, 0]\ninertia = [0, 0, 0, 0, 0, "k"]\n'
+    model = derive_model(robot_from_text(text + link, "weightless"))
+    with pytest.raises(RobotError, match="letter ZZ2 is also the name of an identified quantity"):
+        physical_system(model, base_parameters(model), "base")

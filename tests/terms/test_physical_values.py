@@ -1,0 +1,247 @@
+"""Values with sigma, known parameters tested, CAD compared: Monte Carlo with the truth known."""
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError, RobotError
+from modeler.terms.against_fit import chi_squared_limit, compare_cad, limit, test_known
+from modeler.terms.given_values import cad_from_file, cad_from_robot, given_from_text
+from modeler.terms.solved_values import derive_values
+from modeler.terms.solving import solve
+from tests.terms.cases import model_of
+from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, system_of
+
+known_against_fit = test_known
+del test_known  # pytest must not take it for a test
+
+
+def covariance_of(data: np.ndarray, rng: np.random.Generator, share: float) -> np.ndarray:
+    """A correlated covariance, standard deviations a share of the values."""
+    A = rng.normal(size=(len(data), 2 * len(data)))
+    C = A @ A.T
+    scale = share * np.abs(data) / np.sqrt(np.diag(C))
+    return C * np.outer(scale, scale)
+
+
+CASES = [
+    ("two-link", ("m1", "m2"), 0.01),
+    ("wrist", (*SEVEN, "cm"), 0.001),
+    ("wrist", (*SEVEN, "cJ11"), 0.001),
+    ("wrist", (*SEVEN, "bJ11"), 0.0001),
+]
+
+
+@pytest.mark.parametrize(("name", "known", "share"), CASES)
+def test_values_and_sigmas_stand_a_monte_carlo_test(name, known, share):
+    """300 fits and measured parameters by chance: mean and spread are those that are told."""
+    system, rng = system_of(name), np.random.default_rng(7)
+    solution = solve(system, known)
+    truth = random_letters(system, rng)
+    data = data_of(system, truth)
+    C = covariance_of(data, rng, share)
+    given = {x: truth[x] for x in solution.known}
+    sigmas = {solution.known[0]: share * abs(truth[solution.known[0]])}
+    told = derive_values(solution, data, C, given, sigmas, truth)
+    assert told.values == pytest.approx([truth[x] for x in told.letters], rel=1e-9)
+    assert told.shares.sum(axis=1) == pytest.approx(1.0)
+    L = np.linalg.cholesky(C)
+    draws = []
+    for _ in range(300):
+        noisy = {x: v + sigmas.get(x, 0.0) * rng.normal() for x, v in given.items()}
+        sample = data + L @ rng.normal(size=len(data))
+        draws.append(derive_values(solution, sample, C, noisy, sigmas, truth).values)
+    z = (np.array(draws) - told.values) / told.sigmas
+    assert np.all(np.abs(z.std(axis=0) - 1) < 0.2), told.letters
+    assert np.all(np.abs(z.mean(axis=0)) < 0.25)
+
+
+@pytest.mark.parametrize(("name", "known", "share"), CASES)
+def test_sensitivities_against_differences(name, known, share):
+    system, rng = system_of(name), np.random.default_rng(8)
+    solution = solve(system, known)
+    truth = random_letters(system, rng)
+    data, C = data_of(system, truth), np.zeros((len(system.data),) * 2)
+    given = {x: truth[x] for x in solution.known}
+    told = derive_values(solution, data, C, given, near=truth)
+    for k, name_of_input in enumerate(told.inputs):
+        ends = []
+        for sign in (1, -1):
+            moved, other = data.copy(), dict(given)
+            h = 1e-6 * abs(data[k] if k < len(data) else given[name_of_input])
+            if k < len(data):
+                moved[k] += sign * h
+            else:
+                other[name_of_input] += sign * h
+            ends.append(derive_values(solution, moved, C, other, near=truth).values)
+        slope = (ends[0] - ends[1]) / (2 * h)
+        assert told.slopes[:, k] == pytest.approx(slope, rel=1e-4, abs=1e-6 * np.abs(slope).max())
+
+
+def test_a_quotient_that_may_be_by_zero_is_doubted_or_refused():
+    system, truth = system_of("wrist"), example()
+    solution = solve(system, (*SEVEN, "ct2"))
+    given = {x: truth[x] for x in solution.known}
+    data = data_of(system, truth)
+    small = given | {"ct2": 0.001}
+    sigmas = {"ct2": 0.001}
+    told = derive_values(solution, data, np.eye(len(data)) * 1e-12, small, sigmas)
+    assert told.doubtful["cm"].startswith(
+        "cm is a quotient by ct2 = 0.001 +- 0.001, which may be 0"
+    )
+    with pytest.raises(DataError, match="wrist: cm is a quotient by ct2, which is 0 in this fit"):
+        derive_values(solution, data, np.zeros((len(data),) * 2), given | {"ct2": 0.0})
+
+
+def test_several_roots_are_told_and_none_is_chosen():
+    """With bJ11 for cm the example has two wrists of the same quantities: cm = 4 and 1.943."""
+    system, truth = system_of("wrist"), example()
+    solution = solve(system, (*SEVEN, "bJ11"))
+    data, C = data_of(system, truth), np.zeros((len(system.data),) * 2)
+    with pytest.raises(
+        DataError, match=r"cm has 2 positive roots \(1.943, 4\); each fits the data"
+    ):
+        derive_values(solution, data, C, {x: truth[x] for x in solution.known})
+    known = {x: truth[x] for x in solution.known}
+    for near, values in ((3.9, truth), (2.0, None)):
+        told = derive_values(solution, data, C, known, near={"cm": near})
+        letters = known | dict(zip(told.letters, map(float, told.values), strict=True))
+        assert data_of(system, letters) == pytest.approx(data, abs=1e-9)
+        assert values is None or told.value("cJ11") == pytest.approx(truth["cJ11"])
+
+
+def test_known_parameters_are_tested_and_the_test_is_honest():
+    """z of consistent known values: root mean square 1; one that is 5 % off is told."""
+    system, truth, rng = system_of("wrist"), example(), np.random.default_rng(9)
+    solution = solve(system, (*SEVEN, "cm", "ct2", "bt1"))
+    assert solution.surplus == 2
+    data = data_of(system, truth)
+    C = covariance_of(data, rng, 0.001)
+    L, z = np.linalg.cholesky(C), []
+    sigmas = {"cm": 0.004}
+    for _ in range(60):
+        given = {x: truth[x] + sigmas.get(x, 0.0) * rng.normal() for x in solution.known}
+        sample = data + L @ rng.normal(size=len(data))
+        rows = known_against_fit(solution, sample, C, given, sigmas)
+        assert {"cm", "ct2", "bt1"} <= {row.letter for row in rows}
+        z.append([row.z for row in rows])
+    assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.2
+    wrong = {x: truth[x] for x in solution.known} | {"ct2": truth["ct2"] * 1.05}
+    told = {row.letter: row for row in known_against_fit(solution, data, C, wrong, sigmas)}
+    assert told["ct2"].contradicts and told["ct2"].implied == pytest.approx(truth["ct2"], rel=0.01)
+    assert not known_against_fit(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
+
+
+def test_cad_false_alarms_are_as_rare_as_told():
+    system, truth, rng = system_of("wrist"), example(), np.random.default_rng(10)
+    data = data_of(system, truth)
+    C = covariance_of(data, rng, 0.01)
+    L, alarms = np.linalg.cholesky(C), 0
+    for _ in range(300):
+        sample = data + L @ rng.normal(size=len(data))
+        alarms += bool(compare_cad(system, sample, C, truth).suspicious)
+    assert alarms <= 9  # 3 expected
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_wrong_cad_entry_is_found(seed):
+    """A parameter by chance, changed by 15 sigma of what shows it best: among those named, and
+    the best of them, or one that enters in the same way, has the value of the truth.
+    """
+    system, rng = system_of("wrist"), np.random.default_rng(seed)
+    truth = random_letters(system, rng)
+    data = data_of(system, truth)
+    C = covariance_of(data, rng, 0.01)
+    sample = data + np.linalg.cholesky(C) @ rng.normal(size=len(data))
+    letter = str(rng.choice(system.letters))
+    h = 1e-6
+    slope = np.abs(data_of(system, truth | {letter: truth[letter] + h}) - data) / h
+    size = 15 / np.max(slope / np.sqrt(np.diag(C)))
+    found = compare_cad(system, sample, C, truth | {letter: truth[letter] + size})
+    named = {e.letters[0]: e for e in found.explanations if len(e.letters) == 1 and e.enough}
+    assert letter in named, (letter, found.suspicious, found.explanations)
+    assert named[letter].fitted[0] == pytest.approx(truth[letter], abs=size / 3)
+    assert named[letter].chi_squared < found.chi_squared / 3
+
+
+def test_two_wrong_cad_entries_are_found_as_a_pair():
+    system, truth, rng = system_of("wrist"), example(), np.random.default_rng(4)
+    data = data_of(system, truth)
+    C = covariance_of(data, rng, 0.001)
+    wrong = truth | {"at3": truth["at3"] * 1.1, "bJ12": truth["bJ12"] * 1.2}
+    found = compare_cad(system, data, C, wrong)
+    assert {"at3", "bJ12"} in [set(e.letters) for e in found.explanations]
+    assert not [e for e in found.explanations if len(e.letters) == 1]
+
+
+def test_cad_tolerances_widen_and_missing_values_are_told():
+    system, truth, rng = system_of("wrist"), example(), np.random.default_rng(6)
+    data = data_of(system, truth)
+    C = covariance_of(data, rng, 0.001)
+    off = truth | {"at3": truth["at3"] * 1.05}
+    assert compare_cad(system, data, C, off).suspicious
+    loose = compare_cad(system, data, C, off, {"at3": 0.05 * abs(truth["at3"])})
+    assert not loose.suspicious
+    partial = {x: v for x, v in truth.items() if x != "cJ22"}
+    left = compare_cad(system, data, C, partial, {}, {"PG1": "set aside"}).left_out
+    assert left == {"PG1": "set aside", "PJ1": "no CAD value of cJ22"}
+    assert limit(1) == pytest.approx(2.576, abs=1e-3)
+    assert [chi_squared_limit(k) for k in (0, 5, 17, 100)] == pytest.approx(
+        [0, 15.09, 33.41, 135.81], rel=3e-3
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("am=nan", "--known, am: got 'nan'; expected a finite number"),
+        ("am=12+-", "--known, am, standard deviation: got ''; expected a finite number"),
+        ("am=12+--1", "am: got the standard deviation -1; expected 0 or more"),
+        ("am,am", "--known: am is given twice"),
+        ("aM=3", r'--known: got "aM" \(did you mean "am"\?\); expected physical parameters of wr'),
+        ("am=heavy", "--known, am: got 'heavy'; expected a finite number"),
+    ],
+)
+def test_known_parameters_that_are_none(text, message):
+    with pytest.raises(RobotError, match=message):
+        given_from_text(text, system_of("wrist"))
+
+
+def test_known_parameters_as_they_are_typed():
+    given = given_from_text(" am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist"))
+    assert given.names == ("am", "bm", "cm")  # al1 has no effect
+    assert given.values == {"am": 12.0, "bm": 6.0} and given.sigmas == {"am": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("am = ", "cad.toml: no TOML"),
+        ("mass = 12", 'cad.toml: got "mass"'),
+        ("am = [12, 0.1, 3]", r"cad.toml, am: got \[12, 0.1, 3\]; expected \[value, standard dev"),
+        ("am = 'heavy'", "cad.toml, am: got 'heavy'; expected a finite number"),
+        ("am = true", "cad.toml, am: got True; expected a finite number"),
+        ("am = inf", "cad.toml, am: got inf; expected a finite number"),
+        ("relative_sigma = -1\nam = 2", "relative_sigma: got the standard deviation -1"),
+        ("al1 = 0.2", "cad.toml: no value of a parameter with an effect"),
+        ("", "cad.toml: no value of a parameter with an effect"),
+    ],
+)
+def test_cad_files_that_are_none(tmp_path, text, message):
+    path = tmp_path / "cad.toml"
+    path.write_text(text)
+    with pytest.raises(RobotError, match=message):
+        cad_from_file(path, system_of("wrist"))
+
+
+def test_cad_files_as_they_are_written(tmp_path):
+    path = tmp_path / "cad.toml"
+    path.write_text("relative_sigma = 0.1\nam = 12\nbm = [6.0, 0.2]\n")
+    given = cad_from_file(path, system_of("wrist"))
+    assert given.values == {"am": 12.0, "bm": 6.0}
+    assert given.sigmas == pytest.approx({"am": 1.2, "bm": 0.2})
+    with pytest.raises(RobotError, match=r"none\.toml: cannot be read"):
+        cad_from_file(tmp_path / "none.toml", system_of("wrist"))
+    with pytest.raises(RobotError, match=r"here: the robot file has no values .*terms.example"):
+        cad_from_robot(model_of("two-link").robot, system_of("two-link"), "here")
+    nominal = cad_from_robot(model_of("wrist").robot, system_of("wrist"), "here")
+    assert nominal.values["bl1"] == 0.1 and set(nominal.values) == set(system_of("wrist").letters)
