@@ -139,8 +139,7 @@ def derive_values(
         data: (data,) identified values, in the order of `solution.system.data`.
         covariance: (data, data) of them.
         known: values of the known parameters, SI units.
-        sigmas: their standard deviations; 0 where not given. Known parameters count as
-            independent of each other and of the data.
+        sigmas: their standard deviations, 0 where not given; all errors are independent.
         near: about what value a parameter has, to choose between roots.
 
     Raises:
