@@ -78,7 +78,7 @@ def _sentences(found: Consistent, start: Estimate, known: Mapping[str, np.ndarra
             "of --method weighted"
         )
     if found.at_bound:
-        said.append(f"{', '.join(found.at_bound)} would be negative and is held at 0")
+        said.append(f"{', '.join(found.at_bound)} held at 0, which would be negative")
     if start.rank.aside:
         names = ", ".join(tangle.name for tangle in start.rank.aside)
         said.append(f"not told by these data, but by what can be built: {names}")

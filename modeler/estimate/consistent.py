@@ -11,6 +11,7 @@ IJRR 33(6)). Convex: solved by cvxpy with Clarabel.
 """
 
 import contextlib
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -25,7 +26,10 @@ WEIGHT = 0.01
 KNOWN_WEIGHT = 1.0
 """gamma of a link whose parameters are known from drawings: as good as some rows of the logs."""
 
-_ROUNDS = 3  # solved again around the answer, for its last digits
+_ROUNDS = (1e4, 1e2, 1.0, 1.0)
+"""Factors of gamma, one round after the other, each written around the answer before: the first
+rounds need few digits, the last have them."""
+
 _SECOND = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}
 _PRODUCT = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2)}
 _MOMENT = {"MX": 0, "MY": 1, "MZ": 2}
@@ -77,9 +81,7 @@ def consistent(
     gamma = {name: known if name in reference else WEIGHT for name in machine.links}
     near = {name: _root(P) for name, P in _references(machine, R, z, reference).items()}
     problem = _Problem(machine, R @ machine.K, z, gamma, near)
-    roots, others = dict(near), np.zeros(len(problem.others))
-    for _ in range(_ROUNDS):
-        roots, others = problem.solved(roots, others)
+    roots, others = problem.answer()
     bodies = {name: root @ root.T for name, root in roots.items()}
     chi = problem.chi(bodies, others)
     zero = problem.at_zero(others)
@@ -158,10 +160,31 @@ class _Problem:
         picks = np.stack([root.T @ _PICKS[prefix] @ root for prefix in PREFIXES])
         return np.asarray(self.A[:, [own[p] for p in PREFIXES]] @ picks.reshape(len(PREFIXES), 16))
 
+    def answer(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """Roots of the bodies, and the other values.
+
+        Raises:
+            DataError: the solver does not get there.
+        """
+        roots, others, settled = dict(self.reference), np.zeros(len(self.others)), False
+        for factor in _ROUNDS:
+            found = self.solved(roots, others, factor)
+            if found is not None:
+                (roots, others), settled = found, factor == 1.0
+        if not settled:
+            raise DataError(
+                "no machine that could be built was found for these logs (the solver does not "
+                "settle); use --method weighted, and look at what its doubts say"
+            )
+        return roots, others
+
     def solved(
-        self, roots: Mapping[str, np.ndarray], others: np.ndarray
-    ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-        """The answer, written around bodies and values near to it."""
+        self, roots: Mapping[str, np.ndarray], others: np.ndarray, factor: float
+    ) -> tuple[dict[str, np.ndarray], np.ndarray] | None:
+        """The answer with gamma times a factor, written around bodies and values near to it.
+
+        None if the solver does not get there.
+        """
         import cvxpy as cp  # only here: other fits need not wait for it
 
         scale = self._scale()
@@ -181,16 +204,14 @@ class _Problem:
             total = total + columns @ cp.vec(X[name] - np.eye(4), order="C")
             turned = np.linalg.solve(self.reference[name], root)
             pull = cp.trace(turned.T @ turned @ X[name]) - cp.log_det(X[name])
-            divergence = divergence + self.gamma[name] * pull
+            divergence = divergence + factor * self.gamma[name] * pull
         goal = cp.Minimize(0.5 * cp.sum_squares(total + error) + divergence)
         problem = cp.Problem(goal, bounds)
-        with contextlib.suppress(cp.SolverError):
+        with contextlib.suppress(cp.SolverError), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the status is looked at below
             problem.solve(solver=cp.CLARABEL)
         if problem.status not in ("optimal", "optimal_inaccurate"):
-            raise DataError(
-                "no machine that could be built was found for these logs (the solver ends with "
-                f"{problem.status}); use --method weighted, and look at what its doubts say"
-            )
+            return None
         found = {name: root @ _root(np.asarray(X[name].value)) for name, root in roots.items()}
         moved = others if step.value is None else others + scale * step.value
         least = np.where(np.isin(self.others, list(self.machine.positive.values())), 0.0, -np.inf)

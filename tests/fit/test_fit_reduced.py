@@ -69,7 +69,8 @@ def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
             z += [(p.value - truth[p.name]) / p.sigma for p in fit.essential.parameters]
             shrunk += [p.sigma / full[p.name] for p in fit.essential.parameters]
     assert len(z) > 200 and np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.15)
-    assert max(shrunk) < 1.05 and np.mean(shrunk) < 0.97
+    # Each is raised for the memory of its own residuals, which scatters by a tenth.
+    assert max(shrunk) < 1.2 and np.mean(shrunk) < 0.97
 
 
 def test_it_is_told_and_saved(fitted):
