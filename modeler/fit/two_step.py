@@ -69,7 +69,7 @@ class TwoStepFit:
         ]
         for two, one in zip(self.result.parameters, self.one_step.parameters, strict=True):
             cells = [
-                f"{p.value:>12.6g} {p.sigma:>9.2g}" if p.sigma is not None
+                f"{p.value:>12.6g} {p.sigma:>9.3g}" if p.sigma is not None
                 else f"{'set aside':>12} {'':>9}"
                 for p in (two, one)
             ]  # fmt: skip
