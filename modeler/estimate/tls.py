@@ -76,8 +76,11 @@ def mixed_tls(data: Compressed, known: int, value: float = 1.0) -> GainEstimate 
     units = np.where(data.free, 1.0, _rms(data))
     scaled = _with_torque(data, 1.0 / np.where(units > 0.0, units, 1.0))
     sigma = np.where(data.free & (_rms(data) == 0.0), _size(data), 1.0)
-    rank = independent_columns(scaled.whole(sigma)[:, :-1], data.names)
-    if known not in rank.kept:
+    whole = scaled.whole(sigma)[:, :-1]
+    rank = independent_columns(whole, data.names)
+    others = [i for i in range(len(data.names)) if i != known]
+    without = independent_columns(whole[:, others], [data.names[i] for i in others])
+    if known not in rank.kept or len(without.kept) == len(rank.kept):
         return None
     kept = np.asarray(rank.kept, dtype=int)
     gains, settled, iterations = np.ones(len(units)), False, 0

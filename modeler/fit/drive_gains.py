@@ -145,7 +145,8 @@ def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
     if estimate is None:
         raise DataError(
             "--method tls: the weight of the known load cannot be told from the robot's own "
-            f"parameters in these logs, so nothing sets the scale of the gains; {_MORE}"
+            "parameters, or from the load's inertia, in these logs, so nothing sets the scale of "
+            f"the gains; {_MORE}"
         )
     return estimate
 

@@ -61,6 +61,8 @@ def known_doubts(
 def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[Doubt]:
     found = []
     for i, payload in enumerate(loaded.weighed):
+        if not loaded.told(i):
+            continue
         factor = _freed(observation, loaded, i)
         if factor.sigma is None or not _contradicts(factor.value, factor.sigma):
             continue

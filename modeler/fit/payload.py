@@ -1,6 +1,7 @@
 """Runs with a load on a link: its inertial parameters beside those of the robot."""
 
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -82,6 +83,10 @@ class Loaded:
     weighed: tuple[Payload, ...]
     torques: np.ndarray
 
+    def told(self, i: int) -> bool:
+        """True if the logs tell the mass of a weighed payload from all other parameters."""
+        return bool(independent(self.equations.W, self.torques[:, [i]]))
+
 
 def loaded_equations(
     model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
@@ -101,7 +106,15 @@ def loaded_equations(
             torques.append(before - equations.y)
     weighed = tuple(payload for payload in payloads if payload.mass is not None)
     stacked = np.column_stack(torques) if torques else np.zeros((len(equations.y), 0))
-    return Loaded(equations, weighed, stacked)
+    loaded = Loaded(equations, weighed, stacked)
+    blind = [
+        f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
+        "tell it from its other parameters"
+        for i, payload in enumerate(weighed)
+        if not loaded.told(i)
+    ]
+    told = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
+    return dataclasses.replace(loaded, equations=told)
 
 
 def _with_load(
@@ -114,12 +127,15 @@ def _with_load(
     if payload.mass is not None:
         y = y - payload.mass * columns[:, labels.index("M")]
         columns, labels, units = columns[:, 1:], labels[1:], units[1:]
-    kept = _independent(equations.W, columns)
-    remarks = _remarks(payload, columns, [f"{label}{link}" for label in labels], kept)
+    kept = independent(equations.W, columns)
+    names = [f"{label}{link}" for label in labels]
+    sums = _sums(equations.W, columns, names, kept)
+    own = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept]
+    remarks = _remarks(payload, columns, names, kept, sums)
     return Equations(
         W=np.column_stack([equations.W, columns[:, kept]]),
         y=y,
-        names=(*equations.names, *(f"{labels[i]}{link}_{payload.name}" for i in kept)),
+        names=(*equations.names, *own),
         units=(*equations.units, *(units[i] for i in kept)),
         sentences=(*equations.sentences, *remarks),
     )
@@ -183,9 +199,31 @@ def _load_columns(
     return rows, labels, [model.spec.standard[i].unit for i in columns]
 
 
+def _sums(
+    base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
+) -> dict[int, str]:
+    """{kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}, of those that are."""
+    basis = np.column_stack([base, columns[:, kept]])
+    lengths = np.linalg.norm(basis, axis=0)
+    basis = basis / np.where(lengths > 0.0, lengths, 1.0)
+    found: dict[int, str] = {}
+    for i, name in enumerate(names):
+        length = float(np.linalg.norm(columns[:, i]))
+        if i in kept or length == 0.0 or not kept:
+            continue
+        share = np.linalg.lstsq(basis, columns[:, i] / length, rcond=None)[0][-len(kept) :]
+        for k, part in zip(kept, share, strict=True):
+            if abs(part) > _TOLERANCE**0.5:
+                factor = part * length / float(np.linalg.norm(columns[:, k]))
+                term = f"{'-' if factor < 0.0 else '+'} {abs(factor):.4g}*{name}"
+                found[k] = f"{found.get(k, names[k])} {term}"
+    return found
+
+
 def _remarks(
-    payload: Payload, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
-) -> list[str]:
+    payload: Payload, columns: np.ndarray, names: Sequence[str], kept: Sequence[int],
+    sums: Mapping[int, str],
+) -> list[str]:  # fmt: skip
     """What became of the load's parameters that are not estimated."""
     idle = [name for i, name in enumerate(names) if not columns[:, i].any()]
     gone = [n for i, n in enumerate(names) if i not in kept and n not in idle]
@@ -197,10 +235,11 @@ def _remarks(
             f"{payload.name}: {', '.join(gone)} of the load cannot be told from the others "
             "and are grouped with them"
         )
+    said += [f"{payload.name}: {names[k]}R_{payload.name} = {text}" for k, text in sums.items()]
     return said
 
 
-def _independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
+def independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
     """Indices of the columns that neither `base` nor earlier columns reproduce."""
     lengths = np.linalg.norm(base, axis=0)
     basis = np.linalg.qr(base[:, lengths > 0.0] / lengths[lengths > 0.0])[0]
