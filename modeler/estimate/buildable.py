@@ -1,7 +1,7 @@
 """The physically consistent estimator: from a problem to a machine that could be built."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -37,7 +37,7 @@ def buildable(problem: Problem) -> Estimate:
         covariance=found.covariance * np.outer(told, told),
         rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
         standard=_named(model.spec, machine, found.chi),
-        sentences=tuple(_sentences(found, start, known)),
+        sentences=tuple(_sentences(model.spec, found, start, known)),
     )
 
 
@@ -67,7 +67,22 @@ def _named(spec: ModuleSpec, machine: Machine, chi: np.ndarray) -> dict[str, flo
     return {names[i]: float(value) for i, value in enumerate(chi)}
 
 
-def _sentences(found: Consistent, start: Estimate, known: Mapping[str, np.ndarray]) -> list[str]:
+def _at_zero(spec: ModuleSpec, names: Sequence[str]) -> list[str]:
+    """Of the parameters at 0: which the data would have below it, and which they do not tell."""
+    sums = [[term.parameter for term in base.terms] for base in spec.base]
+    own = [name for name in names if [name] in sums]
+    said = [f"{', '.join(own)} held at 0, which would be negative"] if own else []
+    for name in names:
+        if name not in own:
+            beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
+            others = " and ".join(x for x in beside if x != name)
+            said.append(f"{name} cannot be told from {others} and is put at 0")
+    return said
+
+
+def _sentences(
+    spec: ModuleSpec, found: Consistent, start: Estimate, known: Mapping[str, np.ndarray]
+) -> list[str]:
     degrees = len(found.beta)
     said = []
     if found.rise > degrees:
@@ -77,8 +92,7 @@ def _sentences(found: Consistent, start: Estimate, known: Mapping[str, np.ndarra
             "by one sigma each: these logs hold something that the model does not; see the doubts "
             "of --method weighted"
         )
-    if found.at_bound:
-        said.append(f"{', '.join(found.at_bound)} held at 0, which would be negative")
+    said += _at_zero(spec, found.at_bound)
     if start.rank.aside:
         names = ", ".join(tangle.name for tangle in start.rank.aside)
         said.append(f"not told by these data, but by what can be built: {names}")

@@ -270,14 +270,20 @@ def _figures(
 ) -> ModelFigures:
     sigma = np.sqrt(np.diag(covariance))
     W = observation.W
-    spread = float(np.sqrt(np.einsum("rc,cd,rd->", W, covariance, W, optimize=True)))
+    squares = np.einsum("rc,cd,rd->r", W, covariance, W, optimize=True)
+    owners = [(k, observation.row_joint == k) for k in range(len(observation.joints))]
     return ModelFigures(
         model=name,
         rows=rows,
         condition_scaled=condition,
         known=int(np.sum((sigma > 0.0) & (100.0 * sigma < SURE * np.abs(beta)))),
         torque_error=_torque_error(observation, beta),
-        torque_sigma=spread / float(np.linalg.norm(observation.y)),
+        torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(observation.y)),
+        joint_sigma={
+            observation.joints[k].name: float(np.sqrt(squares[own].mean()))
+            for k, own in owners
+            if own.any()
+        },
     )
 
 

@@ -1,7 +1,7 @@
 """The energy model beside the torque model of the same data: figures, and what they come to."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 SURE = 10.0
@@ -27,6 +27,8 @@ class ModelFigures:
             the rule against the difference of kinetic energy; None for the torque model.
         bias: what that moves the parameter that it moves most, in sigmas; None for the torque
             model.
+        joint_sigma: by joint, the root mean square of what the covariance comes to in its torques,
+            N m or N.
     """
 
     model: str
@@ -37,6 +39,7 @@ class ModelFigures:
     torque_sigma: float
     imbalance: float | None = None
     bias: float | None = None
+    joint_sigma: Mapping[str, float] = field(default_factory=dict)
 
     def cells(self) -> tuple[str, ...]:
         """Its line of the table."""
@@ -74,9 +77,20 @@ class EnergyReport:
 
     @property
     def ratio(self) -> float:
-        """Uncertainty of the torques over that of the torque model."""
+        """Uncertainty of the torques over that of the torque model, at the joint where it is most.
+
+        Of all joints together the largest torques alone would speak.
+        """
+        return self._worst()[1]
+
+    def _worst(self) -> tuple[str, float]:
         torque, energy, _ = self.figures
-        return energy.torque_sigma / torque.torque_sigma if torque.torque_sigma > 0.0 else 1.0
+        pairs = {
+            f"joint {name}": (sigma, torque.joint_sigma.get(name, 0.0))
+            for name, sigma in energy.joint_sigma.items()
+        } or {"all joints": (energy.torque_sigma, torque.torque_sigma)}  # a file from before
+        ratios = {name: own / first if first > 0.0 else 1.0 for name, (own, first) in pairs.items()}
+        return max(ratios.items(), key=lambda item: item[1])
 
     def summary(self) -> list[str]:
         """Lines of text."""
@@ -98,14 +112,18 @@ class EnergyReport:
     def sentences(self) -> list[str]:
         """Which of the two models to take, and what the rule of integration does."""
         torque, energy, _ = self.figures
+        where, ratio = self._worst()
+        knows = (
+            f"knows {energy.known} parameters where that knows {torque.known}, of {self.parameters}"
+        )
         first = (
-            f"the energy model predicts torques {self.ratio:.2g} times less surely than the torque "
-            f"model on the same data and knows {energy.known} parameters where that knows "
-            f"{torque.known}, of {self.parameters}: one equation a window in place of one a joint; "
-            "for torques and values take --model torque"
-            if self.ratio > _WORTH
-            else f"the energy model is about as sure as the torque model ({self.ratio:.2g} times "
-            "its sigma of the torques), and needs no acceleration"
+            f"the energy model predicts the torques of {where} {ratio:.3g} times less surely than "
+            f"the torque model on the same data and {knows}: one equation a window in place of one "
+            "a joint; for torques and values take --model torque"
+            if ratio > _WORTH
+            else "the energy model is about as sure as the torque model (at most "
+            f"{ratio:.3g} times its sigma of the torques, {where}), {knows}, and needs no "
+            "acceleration"
         )
         simpson, trapezoid = (item.bias or 0.0 for item in self.figures[1:])
         second = (

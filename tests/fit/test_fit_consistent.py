@@ -3,7 +3,9 @@
 import json
 
 import numpy as np
+import pyarrow
 import pytest
+from pyarrow import parquet
 
 from modeler.cli import main
 from modeler.fit import load_model
@@ -77,3 +79,35 @@ def test_a_drawing_counts(fitted, tmp_path):
     found = load_model(tmp_path / "m.json").fit.standard
     assert found[f"M{first}"] == pytest.approx(20.0, rel=0.3)
     assert abs(told["standard"][f"M{first}"] - 20.0) > abs(found[f"M{first}"] - 20.0)
+
+
+CROSSED = """name = "crossed"
+gravity = [0, 0, "-g"]
+[symbols]
+g = 9.81
+[mdh]
+columns = ["j", "a", "alpha", "d", "theta"]
+rows = [["1", "0", 0, 0, "q1"], ["2", "1", "pi/2", 0.3, "q2"]]
+[effects]
+viscous = "all"
+rotor_inertia = ["2"]
+[parameters]
+Fv1 = 0.1
+"""
+
+
+def test_what_is_put_at_zero_is_not_called_negative(tmp_path, capsys):
+    """ZZ2R = ZZ2 + Ia2 is positive and says nothing of Ia2; Fv1 has a column of its own."""
+    (tmp_path / "c.toml").write_text(CROSSED)
+    log, robot = tmp_path / "a.parquet", tmp_path / "c.toml"
+    words = f"simulate {robot} --duration 8 --rate 200 --seed 1 --out {log}"
+    assert main(words.split()) == 0
+    table = parquet.read_table(log)
+    pushed = table["tau1"].to_numpy() - 0.6 * np.gradient(table["q1"], table["time"])
+    at = table.column_names.index("tau1")
+    parquet.write_table(table.set_column(at, "tau1", pyarrow.array(pushed)), log)
+    words = f"fit {robot} {log} --method consistent --out {tmp_path / 'm.json'}"
+    assert main(words.split()) == 0
+    said = capsys.readouterr().out
+    assert "Ia2 cannot be told from ZZ2 and is put at 0" in said
+    assert "\nFv1 held at 0, which would be negative" in said

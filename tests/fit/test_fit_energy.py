@@ -118,6 +118,37 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     assert "energy, Simpson" in text and "integrals by Simpson's rule" in text
 
 
+def test_a_quiet_joint_beside_a_loud_one_is_not_overlooked(arm):
+    """All torques together are as sure as before; those of the quiet joint are not."""
+    truth, noise = some_beta(arm), np.array([1.0, 1e-3])
+    seen = observe(arm, [noisy_log(arm, 7, noise, seconds=20)])
+    fit = identify_energy(arm, seen)
+    report, quiet = fit.result.energy, seen.row_joint == 1
+    missed = [
+        np.linalg.norm((seen.W @ (beta - truth))[quiet])
+        for beta in (identify(seen).beta, fit.result.beta)
+    ]
+    torque, energy, _ = report.figures
+    name = seen.joints[1].name
+    assert report.ratio == energy.joint_sigma[name] / torque.joint_sigma[name]
+    assert report.ratio > 5 * energy.torque_sigma / torque.torque_sigma
+    assert 0.2 < report.ratio / (missed[1] / missed[0]) < 5  # the truth says the same
+    assert f"the torques of joint {name} " in report.sentences()[0]
+
+
+def test_both_verdicts_say_how_many_values_are_known(fitted):
+    report = fitted[1].result.energy
+    alike = tuple(
+        dataclasses.replace(item, known=known, joint_sigma={"1": 1.0, "2": sigma})
+        for item, known, sigma in zip(report.figures, (8, 5, 5), (1.0, 1.1, 1.1), strict=True)
+    )
+    first = dataclasses.replace(report, figures=alike).sentences()[0]
+    assert "about as sure as the torque model (at most 1.1 times" in first and "joint 2" in first
+    for text in (first, report.sentences()[0]):
+        assert "parameters where that knows" in text
+    assert "knows 5 parameters where that knows 8" in first
+
+
 def test_the_stated_uncertainty_of_the_torques_is_the_true_one(arm):
     """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over 40 fits."""
     truth, errors, stated = some_beta(arm), {0: [], 1: []}, {0: [], 1: []}
