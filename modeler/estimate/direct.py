@@ -8,7 +8,9 @@ parameters (Gautier, Janot and Vandanjon 2013, IEEE Trans. Control Systems Techn
     effort' = i kv^2/4 M(q) e.
 
 Speed loop kv, ratio r of the position loop, integral action i and feedforward f (0 or 1) are those
-that bring the simulated positions nearest to the logged ones.
+that bring the simulated positions nearest to the logged ones. Without a logged command the
+reference is the logged motion, smoothed, and only kv is chosen: the motion along which the torques
+fit best.
 """
 
 import dataclasses
@@ -55,7 +57,7 @@ class Loop:
         integral: i.
         forward: f, 1 if speed and acceleration of the reference are fed forward.
         distance: rms of simulated less logged position, as a share of that of reference less
-            logged position.
+            logged position; without commands, the criterion of the fit along its motion.
     """
 
     speed: float
@@ -90,6 +92,7 @@ class DirectModel:
         self.references = [self._reference(segment) for segment in self.segments]
         self.signals = [signals_of(model.spec, segment) for segment in self.segments]
         self.raised = 0.0  # share of samples whose inertia matrix was not positive definite
+        self.lightest = 0  # the joint that moves most along its lowest eigenvalue
 
     def columns(self, motions: list[Motion]) -> np.ndarray:
         """(rows, c) the columns of W along motions, filtered as those of the log."""
@@ -106,11 +109,13 @@ class DirectModel:
         return self.observation.filtered(evaluate)[self.observation.used]
 
     def chosen(self, beta: np.ndarray) -> Loop:
-        """The controller that brings the robot nearest to the logged positions."""
+        """The controller that brings the robot nearest to the logged positions.
+
+        Expects commanded positions. Without them the nearest is the fastest, see `gentlest`.
+        """
         pieces = self._pieces()
         pieces = [pieces[i] for i in sorted({*np.linspace(0, len(pieces) - 1, _TRIED).astype(int)})]
-        step = min(_LONGEST, min(segment.step for segment in self.segments))
-        speeds = [2 * np.pi * f for f in BANDWIDTHS if 2 * np.pi * f * step < _STABLE]
+        step, speeds = self._speeds()
         rough = self._nearest(
             beta, pieces,
             [Loop(speed, *kind, forward) for speed in speeds for kind in KINDS
@@ -123,9 +128,34 @@ class DirectModel:
                 [dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
                  for a in factors for b in factors if rough.speed * a * step < _STABLE],
             )  # fmt: skip
-        if not np.isfinite(rough.distance) or (self.commanded and rough.distance > 1.0):
+        if not np.isfinite(rough.distance) or rough.distance > 1.0:
             return Loop(np.inf, 0.0, 0.0, 1.0, 1.0)
         return rough
+
+    def gentlest(self, beta: np.ndarray, misfit: Callable[[list[Motion]], float]) -> Loop:
+        """The controller along whose motion the torques fit best, where no command was logged.
+
+        The reference is the logged motion itself. Its positions say nothing of the controller: the
+        faster that is, the nearer it comes to them and to their noise. So the cascade with integral
+        action, which holds friction and gravity from the first sample on, and feedforward is
+        taken, and its speed by `misfit`, the criterion of the fit along a motion.
+        """
+        ratio, integral = KINDS[0]
+        found = Loop(np.inf, 0.0, 0.0, 1.0, np.inf)
+        for speed in self._speeds()[1]:
+            loop = Loop(speed, ratio, integral, 1.0)
+            try:
+                far = misfit(self.followed(beta, loop))
+            except DataError:
+                continue
+            if far < found.distance:
+                found = dataclasses.replace(loop, distance=far)
+        return found
+
+    def _speeds(self) -> tuple[float, list[float]]:
+        """Step of the simulation, s, and speed loops to try, rad/s."""
+        step = min(_LONGEST, min(segment.step for segment in self.segments))
+        return step, [2 * np.pi * f for f in BANDWIDTHS if 2 * np.pi * f * step < _STABLE]
 
     def _nearest(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> Loop:
         ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
@@ -174,14 +204,16 @@ class DirectModel:
         return low_pass(signal, segment.step, min(self.cutoff, HIGHEST / segment.step))
 
     def _reference(self, segment: Segment) -> Motion:
-        """Commanded positions, or logged ones smoothed further, with their derivatives."""
+        """Commanded positions with their derivatives, or the motion of the fit smoothed further.
+
+        Derivatives that the log brought along are kept: those of its positions are noisier.
+        """
         if self.commanded:
             assert segment.commanded is not None
             return differentiated(segment.commanded, segment.step)
-        if self.cutoff == 0.0:
-            return np.stack([segment.q, segment.qd, segment.qdd])
         cutoff = min(_SHARE * self.cutoff, HIGHEST / segment.step)
-        return differentiated(low_pass(segment.q, segment.step, cutoff), segment.step)
+        motion = (segment.q, segment.qd, segment.qdd)
+        return np.stack([low_pass(signal, segment.step, cutoff) for signal in motion])
 
     def _pieces(self) -> list[_Piece]:
         pieces = []
@@ -215,7 +247,8 @@ class DirectModel:
             own = [i for i, other in enumerate(steps) if other == step]
             reference, signals = self._stacked([pieces[i] for i in own])
             robot = _Robot(self.model, beta, reference)
-            self.raised = max(self.raised, robot.raised)
+            if robot.raised > self.raised:
+                self.raised, self.lightest = robot.raised, robot.lightest
             start = np.stack([self._logged(pieces[i]) for i in own], axis=1)
             motion = _walk(robot, start, reference, signals, step, [loops[i] for i in own])
             for place, i in enumerate(own):
@@ -267,8 +300,9 @@ class _Robot:
         M = model.inertia_matrix(q[:: max(1, len(q) // 500)], beta)
         diagonal = np.abs(np.median(np.einsum("sjj->sj", M), axis=0))
         self.scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
-        low = np.linalg.eigvalsh(M / np.outer(self.scale, self.scale))[:, 0]
-        self.raised = float(np.mean(low < _FLOOR))
+        values, vectors = np.linalg.eigh(M / np.outer(self.scale, self.scale))
+        self.raised = float(np.mean(values[:, 0] < _FLOOR))
+        self.lightest = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
 
     def inertia(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """M of the model, and one that is positive definite: the same if it is."""

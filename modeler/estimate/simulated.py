@@ -7,12 +7,13 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.estimate.compressed import compress
-from modeler.estimate.direct import DirectModel, Loop
+from modeler.estimate.direct import DirectModel, Loop, Motion
 from modeler.estimate.instruments import with_instruments
 from modeler.estimate.least_squares import Estimate, Influence, least_squares
 from modeler.estimate.problem import Problem
 
 _ITERATIONS = 12
+_WORSE = 1.5  # error along the logged motion over that of the start, from which on it is told
 _NEAR = 0.1  # step, in standard deviations, at which the simulation need not be repeated
 
 
@@ -83,6 +84,32 @@ def _along(problem: Problem, W: np.ndarray) -> Estimate:
     )
 
 
+def _misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) -> float:
+    """rms of (y_j - W_j beta) / sigma_j over the counted rows, sigma_j of `start`."""
+    rows = problem.counted
+    residual = (problem.y[rows] - W[rows] @ beta) / start.sigma[problem.joint[rows]]
+    return float(np.sqrt(np.mean(residual**2)))
+
+
+def _loop(problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray) -> Loop:
+    if robot.commanded:
+        return robot.chosen(beta)
+    return robot.gentlest(beta, lambda way: _misfit(problem, start, robot.columns(way), beta))
+
+
+def _followed(
+    problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray, loop: Loop
+) -> tuple[list[Motion], Loop]:
+    """The simulated motion; where the loop was not in the log, by another one if it must be."""
+    try:
+        return robot.followed(beta, loop), loop
+    except DataError:
+        if robot.commanded:
+            raise
+    loop = _loop(problem, robot, start, beta)
+    return robot.followed(beta, loop), loop
+
+
 def _repeated(
     problem: Problem, method: str, estimate: Callable[[np.ndarray], Estimate]
 ) -> Estimate:
@@ -95,17 +122,18 @@ def _repeated(
             "motor a joint, so that a controller can hold the robot; use another method"
         )
     robot = DirectModel(model, problem.observation)
-    beta, settled = least_squares(problem.data, "weighted").beta, False
-    loop = robot.chosen(beta)
+    start = least_squares(problem.data, "weighted")
+    beta, settled = start.beta, False
+    loop = _loop(problem, robot, start, beta)
     for _ in range(_ITERATIONS):
-        motions = robot.followed(beta, loop)
+        motions, loop = _followed(problem, robot, start, beta, loop)
         found = estimate(robot.columns(motions))
         sigma = np.sqrt(np.diag(found.covariance))
         step = np.abs(found.beta - beta) / np.where(sigma > 0.0, sigma, np.inf)
         beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
         if settled or np.isinf(loop.speed):
             break
-    said = _told(problem, robot, loop, robot.error(motions))
+    said = _worse(problem, method, start, beta) + _told(problem, robot, loop, robot.error(motions))
     if not settled and np.isfinite(loop.speed):
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
@@ -116,6 +144,18 @@ def _repeated(
         settled=found.settled and (settled or bool(np.isinf(loop.speed))),
         sentences=(*said, *found.sentences),
     )
+
+
+def _worse(problem: Problem, method: str, start: Estimate, beta: np.ndarray) -> list[str]:
+    """Whether the method ends clearly worse than it started, by its criterion on the log."""
+    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
+    if after <= _WORSE * before:
+        return []
+    return [
+        f"along the logged motion the values leave {after / before:.3g} times the error of "
+        f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
+        'the log; take the values of method "weighted"'
+    ]
 
 
 def _told(problem: Problem, robot: DirectModel, loop: Loop, error: np.ndarray) -> list[str]:
@@ -133,8 +173,9 @@ def _told(problem: Problem, robot: DirectModel, loop: Loop, error: np.ndarray) -
     else:
         parts = [("integral action", loop.integral), ("feedforward", loop.forward)]
         fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
+        best = "comes nearest to the log" if robot.commanded else "explains the torques best"
         how = (
-            f"the simulated one that comes nearest to the log has speed loops of "
+            f"the simulated one that {best} has speed loops of "
             f"{loop.speed / 2 / np.pi:.3g} Hz, position loops of {loop.ratio:.2g} times that, {fed}"
         )
     said = [f"the controller of the log is not known: {how}, {near}"]
@@ -145,9 +186,10 @@ def _told(problem: Problem, robot: DirectModel, loop: Loop, error: np.ndarray) -
             'method "weighted"'
         )
     if robot.raised > 0.0:
+        light = problem.observation.joints[robot.lightest].name
         said.append(
-            f"the fitted inertia matrix is not positive definite in {100 * robot.raised:.2g} % of "
-            "the postures: it was raised for the simulation; record more motion, or leave out "
-            "parameters that are not essential"
+            f"the fitted inertia matrix is not positive definite in {100 * robot.raised:.0f} % of "
+            f"the postures, most at joint {light}: it was raised for the simulation; record "
+            "more motion, or leave out parameters that are not essential"
         )
     return said
