@@ -25,7 +25,7 @@ from modeler.terms.solution_text import (
     solution_json,
     solution_lines,
 )
-from modeler.terms.solved_values import VERIFIED, Derived, derive_values, verify
+from modeler.terms.solved_values import VERIFIED, Derived, derive_values, impossible, verify
 from modeler.terms.solving import ClosedSolution, solve
 
 _UNITS = {
@@ -53,6 +53,7 @@ class _Fitted:
 
 def run_physical(args: argparse.Namespace) -> Json:
     """Prints what was asked for; what there is to know if nothing was."""
+    _check_usage(args)
     derivation, model = _read(args.source)
     with working(f"physical parameters of {derivation.robot.name}"):
         system = physical_system(derivation.model, derivation.base, args.of)
@@ -64,7 +65,7 @@ def run_physical(args: argparse.Namespace) -> Json:
         result |= _known(args, system, fitted)
     cad = None if args.cad is None else _cad(args.cad, system, derivation)
     if args.sets is not None:
-        result["sets"] = _sets(system, None if args.sets == -1 else args.sets, cad)
+        result["sets"] = _sets(system, None if args.sets is True else args.sets, cad)
     elif cad is not None:
         if fitted is None:
             raise DataError(
@@ -73,8 +74,18 @@ def run_physical(args: argparse.Namespace) -> Json:
             )
         result["cad"] = _against_cad(system, fitted, cad)
     if args.known is None and args.sets is None and args.cad is None:
-        result |= _overview(system)
+        result |= _overview(system, args.source, model is not None)
     return result
+
+
+def _check_usage(args: argparse.Namespace) -> None:
+    """Before any long work."""
+    if args.near is not None and args.known is None:
+        raise DataError("--near: chooses between roots that --known leaves; add --known LIST")
+    if args.sets is not None and args.sets is not True and args.sets < 1:
+        raise DataError(
+            f"--sets: got {args.sets}; expected 1 or more, or --sets alone for the smallest"
+        )
 
 
 def _read(source: str) -> tuple[Derivation, IdentifiedModel | None]:
@@ -104,7 +115,7 @@ def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> _Fitted:
     return _Fitted(T @ model.beta[at], T @ model.covariance[np.ix_(at, at)] @ T.T, why)
 
 
-def _overview(system: PhysicalSystem) -> dict[str, Json]:
+def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
     """Parameters, quantities, and the easiest set."""
     number = smallest_number(system)
     say(f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} physical "
@@ -123,10 +134,12 @@ def _overview(system: PhysicalSystem) -> dict[str, Json]:
         say(line)
     easiest = easiest_set(system)
     say()
-    say(f"at least {number} parameters must be known that all others follow")
+    parameters = "parameter" if number == 1 else "parameters"
+    say(f"at least {number} {parameters} must be known that all others follow")
     if number:
         say(f"measured with the least trouble: {','.join(easiest)}")
-        say(f"formulas: modeler physical {system.robot} --known {','.join(easiest)}")
+        given = ",".join(f"{x}=VALUE" if fitted else x for x in easiest)
+        say(f"{'values' if fitted else 'formulas'}: modeler physical {source} --known {given}")
     return {
         "parameters": {x: system.kinds[x] for x in system.letters},
         "without_effect": list(system.vanishing),
@@ -140,6 +153,12 @@ def _known(
 ) -> dict[str, Json]:
     """Formulas; values if there is a model."""
     given = given_from_text(args.known, system)
+    if fitted is None and (given.values or args.near is not None):
+        raise DataError(
+            f"{'--known' if given.values else '--near'}: got values, but {args.source} is a robot "
+            "without identified ones; expected names alone, as am,bm, or a model file of "
+            "`modeler fit`"
+        )
     if fitted is not None:
         missing = [x for x in given.names if x not in given.values]
         if missing:
@@ -188,12 +207,7 @@ def _values(
         for name, why in fitted.aside.items():
             if derived.slopes[k, derived.inputs.index(name)] != 0.0:
                 doubts[letter] = f"{letter} needs {name}, and {why}"
-    for k, letter in enumerate(derived.letters):
-        if letter in system.masses and derived.values[k] <= 0.0:
-            doubts[letter] = (
-                f"{letter} = {derived.values[k]:.4g} +- {derived.sigmas[k]:.2g} is no mass: a "
-                "known value or the fit is wrong, or the fit is not sure enough"
-            )
+    doubts |= impossible(derived, system)
     say()
     say(f"{'parameter':<10} {'value':>13} {'sigma':>10} {'%sigma':>8}  {'unit':<7} mostly from")
     rows = [_row(derived, k, system, doubts) for k in range(len(derived.letters))]

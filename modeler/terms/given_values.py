@@ -35,7 +35,7 @@ def given_from_text(text: str, system: PhysicalSystem, where: str = "--known") -
     """Reads "am=12,bm=6+-0.1,bl1".
 
     Raises:
-        RobotError: an unknown or repeated name, or no number.
+        RobotError: an unknown or repeated name, no number, or that of no body.
     """
     values: dict[str, float] = {}
     sigmas: dict[str, float] = {}
@@ -48,7 +48,7 @@ def given_from_text(text: str, system: PhysicalSystem, where: str = "--known") -
         names.append(name)
         if equals:
             value, spread, sigma = rest.replace("±", "+-").partition("+-")
-            values[name] = _number(value, f"{where}, {name}")
+            values[name] = _possible(name, _number(value, f"{where}, {name}"), system, where)
             if spread:
                 sigmas[name] = _sigma(sigma, f"{where}, {name}")
     effective = tuple(name for name in names if name in system.letters)
@@ -80,6 +80,14 @@ def _number(text: Any, where: str) -> float:
         value = math.nan
     if isinstance(text, bool) or not math.isfinite(value):
         raise RobotError(f"{where}: got {text!r}; expected a finite number, SI units")
+    return value
+
+
+def _possible(name: str, value: float, system: PhysicalSystem, where: str) -> float:
+    if name in system.masses and value <= 0.0:
+        raise RobotError(f"{where}, {name}: got the mass {value:g} kg; expected more than 0")
+    if name in system.moments and value < 0.0:
+        raise RobotError(f"{where}, {name}: got the moment {value:g} kg m^2; expected 0 or more")
     return value
 
 

@@ -19,6 +19,7 @@ from modeler.symbolic import LinkColumn, SymbolicModel, in_block
 from modeler.terms.ring import Poly, TrigRing
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
+_DIAGONAL = (0, 3, 5)  # of XX XY XZ YY YZ ZZ
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,7 @@ class PhysicalParameters:
         letters: names of the physical parameters in order: per link mass, mass centre, inertia
             about the mass centre, rotor inertia; then lengths and angles, gravity left out.
         masses: those letters that stand alone as the mass of a link.
+        moments: those that stand alone as a moment of inertia of a link or a rotor.
         standard: {column: the standard parameter as a polynomial}.
         kinds: {letter: "mass", "centre", "inertia", "rotor inertia" or "length"}.
     """
@@ -37,6 +39,7 @@ class PhysicalParameters:
     ring: PolyRing
     letters: tuple[str, ...]
     masses: tuple[str, ...]
+    moments: tuple[str, ...]
     standard: Mapping[int, Poly]
     kinds: Mapping[str, str]
 
@@ -88,11 +91,15 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     ring = PolyRing(letters + static, QQ, lex)
     standard = _standard(model, links, _Reader(model, ring, zeros))
     masses = [x.mass.text for x in links.values() if x.mass.text in letters]
+    alone = {x.inertia[i].text for x in links.values() for i in _DIAGONAL} | set(rotors)
+    moments = tuple(name for name in letters if name in alone)
     gravity = _gravity_only(algebra)
     lengths = [name for name in _lengths(algebra) if name not in gravity]
     kinds = dict.fromkeys(rotors, "rotor inertia") | dict.fromkeys(lengths, "length")
     kinds = _kinds(links.values()) | kinds
-    return PhysicalParameters(ring, tuple(letters + lengths), tuple(masses), standard, kinds)
+    return PhysicalParameters(
+        ring, tuple(letters + lengths), tuple(masses), moments, standard, kinds
+    )
 
 
 def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:

@@ -39,6 +39,7 @@ class PhysicalSystem:
         letters: physical parameters that the data depend on.
         kinds: {letter: "mass", "centre", "inertia", "rotor inertia" or "length"}.
         masses: letters that are the mass of a link.
+        moments: letters that are a moment of inertia, of a link or a rotor.
         vanishing: physical parameters without effect on any torque.
         constants: {generator of the geometry: value in the robot file}.
         abbreviations: {generator: what it stands for}, for quotients of lengths.
@@ -55,6 +56,7 @@ class PhysicalSystem:
     letters: tuple[str, ...]
     kinds: Mapping[str, str]
     masses: tuple[str, ...]
+    moments: tuple[str, ...]
     vanishing: tuple[str, ...]
     constants: Mapping[str, float]
     abbreviations: Mapping[str, str]
@@ -324,6 +326,7 @@ def _system(
         letters,
         {x: physical.kinds[x] for x in letters},
         tuple(x for x in physical.masses if x in letters),
+        tuple(x for x in physical.moments if x in letters),
         tuple(x for x in physical.letters if x not in used and _stands(x, physical)),
         constants,
         geometry.quotients,

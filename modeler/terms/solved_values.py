@@ -16,7 +16,7 @@ from modeler.terms.ring import Poly
 from modeler.terms.solving import ClosedSolution, Step
 
 _REAL = 1e-6  # imaginary parts below this share of a root are rounding
-_SURE = 3.0  # standard deviations that a denominator must be away from zero
+_SURE = 3.0  # standard deviations that a denominator, or what is below zero, must be away from it
 VERIFIED = 20
 
 
@@ -162,6 +162,25 @@ def derive_values(
         parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
     )
     return Derived(solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful)
+
+
+def impossible(derived: Derived, system: PhysicalSystem) -> dict[str, str]:
+    """Why a value is that of no body: a mass that is not above 0, a moment of inertia below it.
+
+    A moment may be 0; it is told if it is below by more than 3 sigma.
+    """
+    found = {}
+    for k, letter in enumerate(derived.letters):
+        value, sigma = derived.values[k], derived.sigmas[k]
+        if letter in system.masses and value <= 0.0:
+            found[letter] = "mass"
+        elif letter in system.moments and value < -_SURE * sigma:
+            found[letter] = "moment of inertia"
+    return {
+        letter: f"{letter} = {derived.value(letter):.4g} +- {derived.sigma(letter):.2g} is no "
+        f"{what}: a known value or the fit is wrong, or the fit is not sure enough"
+        for letter, what in found.items()
+    }
 
 
 def _start(

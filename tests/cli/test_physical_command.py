@@ -12,6 +12,14 @@ from modeler.terms.printed import read_print
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
 
+SLIDE = """name = "pr"
+gravity = [0, 0, "-g"]
+[symbols]
+g = 9.81
+[mdh]
+columns = ["j", "sigma", "alpha", "d", "theta", "r"]
+rows = [["z", 1, 0, 0, 0, "qz"], ["e", 0, "pi/2", 0.2, "qe", 0]]
+"""
 EIGHT = ",".join((*SEVEN, "cm"))
 
 
@@ -58,6 +66,33 @@ def test_overview_names_the_easiest_set(capsys, tmp_path):
     assert "at least 2 parameters must be known" in out
     assert "formulas: modeler physical two-link --known m1,m2" in out
     assert json.loads((tmp_path / "o.json").read_text())["easiest_set"] == ["m1", "m2"]
+
+
+def test_the_hint_is_what_can_be_typed(capsys, tmp_path, wrist):
+    """A file by its path, and with a model a place for values; one parameter is no plural."""
+    robot = tmp_path / "slide.toml"
+    robot.write_text(SLIDE)
+    status, out, _ = run(capsys, robot)
+    assert status == 0 and f"formulas: modeler physical {robot} --known mz\n" in out
+    assert "at least 1 parameter must be known" in out
+    status, out, _ = run(capsys, wrist[0])
+    assert status == 0 and f"values: modeler physical {wrist[0]} --known am=VALUE,at2=VALUE," in out
+
+
+def test_a_moment_of_inertia_below_zero_is_not_told(capsys, tmp_path, wrist):
+    """m2 far too large: Izz2 = ZZ2 - m2 cx2^2 or so comes out negative, and is not put down."""
+    log, file = tmp_path / "t.csv", tmp_path / "t.json"
+    assert main(["simulate", "two-link", "--duration", "4", "--out", str(log)]) == 0
+    assert main(["fit", "two-link", str(log), "--out", str(file)]) == 0
+    moments = [x for x in system_of("two-link").moments]
+    told = {}
+    for m2 in (1e-3, 1e3):  # a light link of the same moments reaches far, and has none of its own
+        assert run(capsys, file, "--known", f"m1=1,m2={m2}", "--json", tmp_path / "v.json")[0] == 0
+        rows = json.loads((tmp_path / "v.json").read_text())["values"]["parameters"]
+        told[m2] = {row["parameter"]: row for row in rows if row["parameter"] in moments}
+    light = told[1e-3]["Izz2"]
+    assert light["value"] is None and "is no moment of inertia: a known" in light["doubt"]
+    assert told[1e3]["Izz2"]["value"] > 0
 
 
 def test_formulas_in_three_forms(capsys, tmp_path):
@@ -194,6 +229,23 @@ def test_the_robot_file_as_cad(capsys, wrist):
         (("two-link", "--cad"), "modeler: --cad, robot two-link: the robot file has no values"),
         (("two-link", "--cad", "none.toml"), "modeler: none.toml: cannot be read"),
         (("wrist", "--cad"), "modeler: --cad: wrist is a robot, with no identified values"),
+        (("two-link", "--known", "m1=-1,m2"), "modeler: --known, m1: got the mass -1 kg; expected"),
+        (
+            ("two-link", "--known", "m1=0,m2"),
+            "modeler: --known, m1: got the mass 0 kg; expected mo",
+        ),
+        (
+            ("two-link", "--known", "Izz2=-1"),
+            "modeler: --known, Izz2: got the moment -1 kg m^2; ex",
+        ),
+        (
+            ("two-link", "--known", "m1=1,m2"),
+            "modeler: --known: got values, but two-link is a robo",
+        ),
+        (("wrist", "--known", "cm", "--near", "cm=4"), "modeler: --near: got values, but wrist is"),
+        (("wrist", "--near", "cm=4"), "modeler: --near: chooses between roots that --known leaves"),
+        (("two-link", "--sets", "-1"), "modeler: --sets: got -1; expected 1 or more, or --sets al"),
+        (("two-link", "--sets", "0"), "modeler: --sets: got 0; expected 1 or more, or --sets alon"),
         (("two-link", "--sets", "9"), "modeler: two-link: got sets of 9; expected 0 to 8"),
         (("puma560", "--sets"), "modeler: puma560: about 9.7e+13 sets to look at, more than"),
         (("sr400", "--from", "coefficients"), "modeler: sr400: coefficients are written for ser"),

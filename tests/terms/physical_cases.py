@@ -36,8 +36,9 @@ def data_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
 
 
 def random_letters(system: PhysicalSystem, rng: np.random.Generator) -> dict[str, float]:
-    """A made-up robot; masses are positive."""
-    return {
+    """A made-up robot; masses are positive, moments of inertia not negative."""
+    drawn = {
         x: float(rng.uniform(1, 5) if x in system.masses else rng.uniform(-1, 1))
         for x in system.letters
     }
+    return {x: abs(value) if x in system.moments else value for x, value in drawn.items()}

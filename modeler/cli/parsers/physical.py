@@ -44,7 +44,7 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         help='about what a parameter is, "cm=4": chooses between roots where several fit',
     )  # fmt: skip
     parser.add_argument(
-        "--sets", metavar="N", nargs="?", type=int, const=-1,
+        "--sets", metavar="N", nargs="?", type=int, const=True,
         help="count and rank the sets of N known parameters that suffice; the smallest without N",
     )  # fmt: skip
     parser.add_argument(
