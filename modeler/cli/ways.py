@@ -61,7 +61,8 @@ def estimated(
     if args.method == TWO_STEPS:
         ways = Directions(joint_directions(robot))
         steps = two_step.identify_in_two_steps(compiled, observation, ways)
-        return Way(steps.result, lines=steps.summary(), further={"two_step": steps.to_json()})
+        further = {"two_step": steps.to_json()}
+        return Way(steps.result, steps.doubts(), lines=steps.summary(), further=further)
     if loaded:
         payloads = carried(args, loaded)
         result = identify_with_payloads(compiled, observation, payloads, args.method)
