@@ -71,7 +71,7 @@ def _chosen(text: str | None) -> list[Method]:
             f"--methods: got {got}{near(got, list(ABOUT))}; expected some of "
             f"{', '.join(ABOUT)}, with commas between"
         )
-    return chosen
+    return [*dict.fromkeys(chosen)]
 
 
 def _listed(methods: list[Method]) -> Json:

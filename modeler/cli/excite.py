@@ -74,6 +74,12 @@ def _check_usage(args: argparse.Namespace) -> None:
         raise DataError("--out: missing; expected the file of the motion, .csv or .parquet")
     if (args.choose is None) != (not args.candidates):
         raise DataError("--choose and --from go together: --choose 2 --from a.csv b.csv c.csv")
+    for option in ("out", "picture", "between") if args.choose is not None else ():
+        if getattr(args, option) is not None:
+            raise DataError(
+                f"--{option}: got it with --choose, which names motions of --from and writes none; "
+                f"leave --{option} out"
+            )
     if args.out is not None:
         check_suffix(Path(args.out))
     if args.picture is not None:

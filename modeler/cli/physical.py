@@ -153,19 +153,7 @@ def _known(
 ) -> dict[str, Json]:
     """Formulas; values if there is a model."""
     given = given_from_text(args.known, system)
-    if fitted is None and (given.values or args.near is not None):
-        raise DataError(
-            f"{'--known' if given.values else '--near'}: got values, but {args.source} is a robot "
-            "without identified ones; expected names alone, as am,bm, or a model file of "
-            "`modeler fit`"
-        )
-    if fitted is not None:
-        missing = [x for x in given.names if x not in given.values]
-        if missing:
-            raise DataError(
-                f"--known: no value of {', '.join(missing)}; expected {missing[0]}=VALUE, SI "
-                "units, for every known parameter of a model"
-            )
+    _check_given(args, given, fitted is not None)
     with working("solving"):
         solution = solve(system, given.names)
         good = verify(solution)
@@ -194,6 +182,23 @@ def _known(
         near = given_from_text(args.near or "", system, "--near")
         told["values"] = _values(solution, fitted, given, near.values)
     return dict(told)
+
+
+def _check_given(args: argparse.Namespace, given: Given, fitted: bool) -> None:
+    """A model needs values of all that is known, a robot has no use for any."""
+    if not fitted and (given.values or args.near is not None):
+        raise DataError(
+            f"{'--known' if given.values else '--near'}: got values, but {args.source} is a robot "
+            "without identified ones; expected names alone, as am,bm, or a model file of "
+            "`modeler fit`"
+        )
+    if fitted:
+        missing = [x for x in given.names if x not in given.values]
+        if missing:
+            raise DataError(
+                f"--known: no value of {', '.join(missing)}; expected {missing[0]}=VALUE, SI "
+                "units, for every known parameter of a model"
+            )
 
 
 def _values(

@@ -31,7 +31,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
     robot = robot_of(args)
     settings = SimulationSettings(
         motion=args.motion if args.motion in MOTIONS else "exciting",
-        duration=args.duration,
+        duration=_duration(args),
         rate=args.rate,
         seed=args.seed,
         parameter_seed=args.parameter_seed,
@@ -65,6 +65,18 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "hidden": told_hidden(log),
         "range_share": log.range_share,
     }
+
+
+def _duration(args: argparse.Namespace) -> float:
+    """Of a motion that is made; a file has its own."""
+    if args.duration is None:
+        return SimulationSettings().duration
+    if args.motion not in MOTIONS:
+        raise DataError(
+            f"--duration: got {args.duration:g} s with --motion {args.motion}, which is as long as "
+            "it is; leave --duration out"
+        )
+    return float(args.duration)
 
 
 def _commanded(args: argparse.Namespace, robot: Robot) -> Reference:

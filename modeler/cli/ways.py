@@ -27,6 +27,8 @@ from modeler.observation import Log, Observation
 from modeler.robot import Robot
 from modeler.robot.motors import joint_directions
 
+_WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
+
 
 @dataclass(frozen=True, eq=False)
 class Way:
@@ -59,7 +61,8 @@ def estimated(
     if args.method == TWO_STEPS:
         ways = Directions(joint_directions(robot))
         steps = two_step.identify_in_two_steps(compiled, observation, ways)
-        return Way(steps.result, lines=steps.summary(), further={"two_step": steps.to_json()})
+        further = {"two_step": steps.to_json()}
+        return Way(steps.result, steps.doubts(), lines=steps.summary(), further=further)
     if loaded:
         payloads = carried(args, loaded)
         result = identify_with_payloads(compiled, observation, payloads, args.method)
@@ -75,10 +78,10 @@ def check_way(args: argparse.Namespace) -> None:
         if value is not None and value is not False and not args.payload_log:  # 0 is given too
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
-    if args.payload_log and args.method == TWO_STEPS:
+    if args.payload_log and args.method in _WITHOUT_LOADS:
         raise DataError(
             f"--payload-log: got it with --method {args.method}, which knows no loads; expected "
-            "--method weighted or ordinary"
+            "--method weighted, ordinary, robust, ridge or tls"
         )
     if args.model != "energy" and args.window is not None:
         raise DataError("--window: only windows of --model energy have a length; add that option")

@@ -43,7 +43,7 @@ class Essential:
             return f"all {len(self.names)} parameters are essential"
         return (
             f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
-            f"essential; leaving the others out raises the relative error from "
+            f"essential; leaving the others out changes the relative error from "
             f"{100.0 * self.error_before:.4g} % to {100.0 * self.error_after:.4g} %"
         )
 

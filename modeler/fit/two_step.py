@@ -8,6 +8,7 @@ from modeler.core.choices import TWO_STEPS
 from modeler.estimate.alone import Directions
 from modeler.estimate.excited import Excitation, excitations
 from modeler.estimate.two_step import Configuration, TwoStep, two_steps
+from modeler.fit.doubts import LITTLE, Doubt
 from modeler.fit.essential import essential_parameters, relative_error
 from modeler.fit.identify import identify, parts_of
 from modeler.fit.result import FitResult
@@ -43,6 +44,23 @@ class TwoStepFit:
         lines.append("step 2: theta = Phi beta")
         lines += [f"  {excitation.line()}" for excitation in self.excitation]
         return [*lines, *self._compared()]
+
+    def doubts(self) -> list[Doubt]:
+        """Joints that never moved alone, where torques are not described for want of them."""
+        used = {c.joint for c in self.steps.configurations}
+        never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
+        short = all(why.startswith("too short") for why in self.steps.left_out)
+        poor = any((joint.relative_error or 0.0) > LITTLE for joint in self.result.joints)
+        if not (never and short and poor):
+            return []
+        return [
+            Doubt(
+                f"joint {', '.join(never)} never moved alone for long enough, and the two steps "
+                "use no other motion: what only its torque tells is not found; record more motion "
+                "of it alone, or take --method weighted",
+                explains=True,
+            )
+        ]
 
     def _line(self, c: Configuration) -> str:
         names, own = self.steps.directions.names, c.felt[0]

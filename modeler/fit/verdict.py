@@ -71,12 +71,23 @@ def with_verdict(
     seen = crossed(observation, rows, sigma, refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
-    found += [*scarce(result, seen), *undescribed(result)]
+    found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
     found += systematic(result, _lasting(observation, rows, result))
     found += undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
     directions = friction_by_direction(model.spec, result)
     return dataclasses.replace(result, verdict=_verdict(found, result, seen), directions=directions)
+
+
+def _with_poor(found: list[Doubt], poor: list[Doubt]) -> list[Doubt]:
+    """With torques that are badly described; where it is known why, that stands in their place."""
+    if not any(doubt.explains for doubt in found):
+        return [*found, *poor]
+    fatal = any(doubt.certain for doubt in poor)
+    return [
+        dataclasses.replace(doubt, certain=doubt.certain or (doubt.explains and fatal))
+        for doubt in found
+    ]
 
 
 def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:

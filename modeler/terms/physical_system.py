@@ -321,9 +321,7 @@ def _system(
     return PhysicalSystem(
         robot,
         "base" if free is None else "coefficients",
-        ring,
-        tuple(definitions),
-        letters,
+        ring, tuple(definitions), letters,
         {x: physical.kinds[x] for x in letters},
         tuple(x for x in physical.masses if x in letters),
         tuple(x for x in physical.moments if x in letters),
@@ -333,7 +331,7 @@ def _system(
         {name: lift(poly) for name, poly in definitions.items()},
         *base,
         to_data,
-    )
+    )  # fmt: skip
 
 
 def _used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:

@@ -261,6 +261,22 @@ def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
     assert "\niv: bare.csv: method" in out
 
 
+def test_a_method_named_twice_is_told_once(capsys):
+    assert main(["estimators", "--methods", "weighted,ridge,weighted"]) == 0
+    out = capsys.readouterr().out
+    assert out.count("weighted least squares\n") == 1 and out.startswith("weighted")
+
+
+@pytest.mark.parametrize("method", ["iv", "iv-direct", "didim", "consistent"])
+def test_methods_without_loads_say_so_before_any_log_is_read(capsys, tmp_path, method):
+    log = tmp_path / "bad.csv"
+    log.write_text("no log\n")
+    argv = ["fit", "two-link", log, "--payload-log", log, "--method", method, "--out", "m.json"]
+    assert main([*map(str, argv)]) == 1
+    err = capsys.readouterr().err
+    assert f"--payload-log: got it with --method {method}, which knows no loads" in err
+
+
 def test_the_list_says_law_source_and_when_not(capsys):
     assert main(["estimators", "--json", "-"]) == 0
     said = json.loads(capsys.readouterr().out)

@@ -185,6 +185,7 @@ EXCITE = ("excite", "demo-arm", "--duration", "3", "--starts", "1")
         (("--time-limit", "0"), "time limit"),
         (("--picture", "p.bmp"), ".png, .svg or .pdf"),
         (("--choose", "1"), "go together"),
+        (("--choose", "1", "--from", "a.csv"), "--out: got it with --choose, which names motions"),
         (("--between", "stribeck@2,spring@2"), "has no values"),
     ],
 )
@@ -209,6 +210,20 @@ def test_one_line_for_what_cannot_be(capsys, tmp_path, monkeypatch, words, told)
 )
 def test_one_line_for_what_a_model_cannot(capsys, folder, tmp_path, words, told):
     assert told in refused(capsys, "excite", folder / "m.json", *words, "--out", tmp_path / "m.csv")
+
+
+def test_a_motion_of_a_file_is_as_long_as_it_is(capsys, folder, tmp_path):
+    words = ("simulate", "demo-arm", "--motion", folder / "motion.csv", "--out", tmp_path / "l.csv")
+    told = refused(capsys, *words, "--duration", 3)
+    assert "--duration: got 3 s with --motion" in told and "as long as it is" in told
+    assert not (tmp_path / "l.csv").exists()
+    assert run(capsys, *words)[0] == 0  # and without that option it is simulated
+
+
+def test_a_choice_draws_nothing(capsys, tmp_path):
+    words = ("excite", "demo-arm", "--choose", 1, "--from", "a.csv")
+    told = refused(capsys, *words, "--picture", tmp_path / "p.png")
+    assert "--picture: got it with --choose" in told
 
 
 def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):

@@ -105,3 +105,10 @@ def test_a_model_predicts_with_it(robot, fitted, tmp_path):
     old = dataclasses.replace(model, fit=dataclasses.replace(fit, essential=None))
     with pytest.raises(DataError, match=r"m.json: holds no reduced model .*; fit it again"):
         with_essential_only(old, "m.json")
+
+
+def test_errors_that_fall_are_not_said_to_be_raised(robot):
+    """Weighted squares are least with all parameters; the relative error is unweighted."""
+    _, fit = seen_and_fit(robot)
+    sentence = next(text for text in fit.sentences if "are essential; " in text)
+    assert "leaving the others out changes the relative error from" in sentence

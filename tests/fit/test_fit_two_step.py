@@ -285,3 +285,33 @@ def test_loads_are_not_known_to_it(simulated, capsys):
     line = ["fit", "wrist-coupled", log, "--payload-log", log, "--method", "two-step"]
     assert main([*line, "--out", str(simulated / "x.json")]) == 1
     assert "--payload-log: got it with --method two-step" in capsys.readouterr().err
+
+
+SLIDE = """name = "pr"
+gravity = [0, 0, "-g"]
+[symbols]
+g = 9.81
+[mdh]
+columns = ["j", "sigma", "alpha", "d", "theta", "r"]
+rows = [["z", 1, 0, 0, 0, "qz"], ["e", 0, "pi/2", 0.2, "qe", 0]]
+[effects]
+viscous = "all"
+coulomb = "all"
+[limits]
+z = [-0.2, 0.3, 1, 6]
+e = [-2, 2, 3, 15]
+"""
+
+
+def test_a_joint_that_never_moves_alone_is_named(tmp_path, capsys):
+    """12 s reach the slide only: that, and no unit or sign, is why the elbow is not described."""
+    robot, log = tmp_path / "pr.toml", tmp_path / "a.parquet"
+    robot.write_text(SLIDE)
+    words = f"simulate {robot} --motion one-joint --duration 12 --seed 1 --out {log}"
+    assert main(words.split()) == 0
+    words = f"fit {robot} {log} --method two-step --out {tmp_path / 'm.json'}"
+    assert main(words.split()) == 0
+    out = capsys.readouterr().out
+    assert "not usable: joint e never moved alone for long enough" in out
+    assert "check units, signs and columns" not in out
+    assert main(words.replace("two-step", "weighted").split()) == 0

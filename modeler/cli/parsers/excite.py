@@ -75,7 +75,7 @@ def _add_limits(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_choice(parser: argparse.ArgumentParser) -> None:
-    add_number(parser, "--choose", "N", int, "take N of the motions of --from; needs no --out")
+    add_number(parser, "--choose", "N", int, "take N of the motions of --from; takes no --out")
     parser.add_argument(
         "--from", metavar="LOG", nargs="+", default=[], type=MotionFile, dest="candidates",
         help="logs or motions to choose from",

@@ -49,7 +49,10 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
         "log, whose (commanded) positions are then the motion, as long as it is (default "
         "%(default)s)",
     )  # fmt: skip
-    add_number(parser, "--duration", "S", float, "seconds", default.duration)
+    add_number(
+        parser, "--duration", "S", float,
+        f"seconds (default {default.duration:g}); not of a file, which is as long as it is",
+    )  # fmt: skip
     add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)
     add_number(parser, "--seed", "N", int, "of motion and noise", default.seed)
     add_number(
