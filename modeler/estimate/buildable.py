@@ -18,8 +18,8 @@ _LEAST = 1e-6  # a plate or a rod of a drawing is given so much thickness, relat
 def buildable(problem: Problem) -> Estimate:
     """The machine that fits best, weighted as `least_squares` weights.
 
-    Links of which the robot file states all ten parameters are references: they count as known to
-    a tenth. What the data cannot tell has a value here, which follows from the bounds and the
+    Links of which the robot file states all ten parameters are references: a guide, that the data
+    overrule. What the data cannot tell has a value here, which follows from the bounds and the
     references, but no sigma.
 
     Raises:

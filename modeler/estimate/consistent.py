@@ -24,7 +24,8 @@ WEIGHT = 0.01
 """gamma where nothing is known of the links: so small that no value which the data tell moves."""
 
 KNOWN_WEIGHT = 1.0
-"""gamma of a link whose parameters are known from drawings: as good as some rows of the logs."""
+"""gamma of a link that the robot file states: to be off by its own size, in any direction of the
+pseudo-inertia, costs about as much as one standard deviation of a row. A guide, not a fact."""
 
 _ROUNDS = (1e4, 1e2, 1.0, 1.0)
 """Factors of gamma, one round after the other, each written around the answer before: the first
@@ -62,7 +63,6 @@ def consistent(
     machine: Machine,
     whole: np.ndarray,
     reference: Mapping[str, np.ndarray],
-    weight: float | None = None,
 ) -> Consistent:
     """The machine that fits best.
 
@@ -71,14 +71,12 @@ def consistent(
         whole: (c + 1, c + 1) or fewer rows, triangle [R z; 0 .] of the rows over their standard
             deviations.
         reference: (4, 4) pseudo-inertias of known links, positive definite; others get one.
-        weight: gamma of known links; `KNOWN_WEIGHT` if None.
 
     Raises:
         DataError: the solver finds no answer.
     """
     R, z = whole[:, :-1], whole[:, -1]
-    known = KNOWN_WEIGHT if weight is None else weight
-    gamma = {name: known if name in reference else WEIGHT for name in machine.links}
+    gamma = {name: KNOWN_WEIGHT if name in reference else WEIGHT for name in machine.links}
     near = {name: _root(P) for name, P in _references(machine, R, z, reference).items()}
     problem = _Problem(machine, R @ machine.K, z, gamma, near)
     roots, others = problem.answer()

@@ -15,6 +15,7 @@ from modeler.fit.crossed import solved
 from modeler.fit.energy_report import SURE, EnergyReport, ModelFigures
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.identify import dead_joints, identify
+from modeler.fit.parameter import estimates
 from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
@@ -194,19 +195,9 @@ def _joints(observation: Observation, beta: np.ndarray) -> tuple[JointFit, ...]:
 def _parameters(
     observation: Observation, found: Unequal, essential: Essential
 ) -> tuple[ParameterEstimate, ...]:
-    kept, needed = set(found.rank.kept), set(essential.names)
+    labels = list(zip(observation.names, observation.units, strict=True))
     deviations = np.sqrt(np.diag(found.covariance))
-    return tuple(
-        ParameterEstimate(
-            name=name,
-            unit=unit,
-            value=float(found.beta[i]),
-            sigma=float(deviations[i]) if i in kept else None,
-            essential=name in needed,
-            status="estimated" if i in kept else "set aside",
-        )
-        for i, (name, unit) in enumerate(zip(observation.names, observation.units, strict=True))
-    )
+    return estimates(labels, found.beta, deviations, found.rank.kept, essential.names)
 
 
 def _status(found: Unequal) -> str:

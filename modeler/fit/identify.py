@@ -15,6 +15,7 @@ from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
 from modeler.estimate.methods import method_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
+from modeler.fit.parameter import estimates
 from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
@@ -196,18 +197,8 @@ def _check_enough_rows(observation: Observation, equations: Equations, rows: int
 def _parameters(
     estimate: Estimate, essential: Essential, equations: Equations, sigma: np.ndarray
 ) -> tuple[ParameterEstimate, ...]:
-    kept, needed = set(estimate.rank.kept), set(essential.names)
-    return tuple(
-        ParameterEstimate(
-            name=name,
-            unit=unit,
-            value=float(estimate.beta[i]),
-            sigma=float(sigma[i]) if i in kept else None,
-            essential=name in needed,
-            status="estimated" if i in kept else "set aside",
-        )
-        for i, (name, unit) in enumerate(zip(equations.names, equations.units, strict=True))
-    )
+    labels = list(zip(equations.names, equations.units, strict=True))
+    return estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
 
 
 def _joints(observation: Observation, data: Compressed, estimate: Estimate) -> tuple[JointFit, ...]:

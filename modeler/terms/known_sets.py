@@ -8,7 +8,7 @@ one in a million, and the count is repeated at another point with another prime.
 """
 
 import random
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import combinations, islice
 from math import comb
@@ -125,12 +125,6 @@ def _part(tell: Callable[[float], None], number: int) -> Callable[[float], None]
 
 def _trouble(system: PhysicalSystem, k: int) -> tuple[int, int]:
     return EASE[system.kinds[system.letters[k]]], k
-
-
-def class_of(system: PhysicalSystem, members: Sequence[str]) -> tuple[int, int, int]:
-    """(masses, lengths and rotor inertias, centres, inertias) of a set."""
-    eases = [EASE[system.kinds[x]] for x in members]
-    return sum(e < 2 for e in eases), eases.count(2), eases.count(3)
 
 
 def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:

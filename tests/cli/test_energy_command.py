@@ -106,6 +106,13 @@ def test_loads_are_for_the_torque_model(capsys, folder):
     assert status == 1 and "--payload-log: the energy model takes logs without load" in err
 
 
+@pytest.mark.parametrize("method", ["robust", "consistent", "tls", "two-step"])
+def test_windows_are_fitted_by_least_squares(capsys, folder, method):
+    status, out, err = fit(capsys, folder, "--model", "energy", "--method", method)
+    assert (status, out) == (1, "") and err.count("\n") == 1
+    assert f"--method {method}: got it with --model energy, whose rows are windows" in err
+
+
 def test_a_log_without_a_motors_torque(capsys, folder):
     table = parquet.read_table(folder / "a.parquet")
     tau = next(i for i, name in enumerate(table.column_names) if name.startswith("tau"))

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.estimate.consistent import consistent, parameters_of, pseudo_inertia_of
+from modeler.estimate.consistent import (
+    KNOWN_WEIGHT,
+    consistent,
+    parameters_of,
+    pseudo_inertia_of,
+)
 from modeler.estimate.possible import machine_of
 from modeler.robot import INERTIAL, read_robot
 from tests.modules import compiled
@@ -127,7 +132,7 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
         mujoco.mj_inverse(theirs, data)
         expected = np.array(data.qfrc_inverse)
         tau = model.inverse_dynamics(*(x[k : k + 1] for x in (q, qd, qdd)), found.beta)[0]
-        np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-7 * np.abs(expected).max())
+        np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
 def test_values_that_the_data_tell_keep_their_least_squares_and_sigma():
@@ -144,7 +149,7 @@ def test_no_machine_nearby_is_better():
     model, whole, _ = rows_of("two-link", np.random.default_rng(5), 30, 0.5, wide=0.3)
     machine = machine_of(model.spec)
     reference = {name: cloud(np.random.default_rng(6)) for name in machine.links}
-    found = consistent(machine, whole, reference, weight=2.0)
+    found = consistent(machine, whole, reference)
 
     def cost(bodies, others):
         chi = others.copy()
@@ -155,7 +160,7 @@ def test_no_machine_nearby_is_better():
         total = 0.5 * error @ error
         for name, P in bodies.items():
             ratio = np.linalg.solve(reference[name], P)
-            total += 2.0 * (np.trace(ratio) - np.linalg.slogdet(ratio)[1] - 4.0)
+            total += KNOWN_WEIGHT * (np.trace(ratio) - np.linalg.slogdet(ratio)[1] - 4.0)
         return total
 
     least, rng = cost(found.bodies, found.chi), np.random.default_rng(7)

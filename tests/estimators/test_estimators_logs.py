@@ -267,7 +267,7 @@ def test_a_method_named_twice_is_told_once(capsys):
     assert out.count("weighted least squares\n") == 1 and out.startswith("weighted")
 
 
-@pytest.mark.parametrize("method", ["iv", "iv-direct", "didim", "consistent"])
+@pytest.mark.parametrize("method", ["iv", "iv-direct", "didim", "consistent", "two-step"])
 def test_methods_without_loads_say_so_before_any_log_is_read(capsys, tmp_path, method):
     log = tmp_path / "bad.csv"
     log.write_text("no log\n")

@@ -193,7 +193,7 @@ def test_links_that_cannot_exist_are_proved_impossible(stated):
 
 def test_the_completion_is_the_reference_where_that_fits():
     stated = {p: REFERENCE[p] for p in ("ZZ", "MX", "MY", "M")}
-    assert completed(stated, REFERENCE).values == pytest.approx(REFERENCE, rel=1e-4, abs=1e-5)
+    assert completed(stated, REFERENCE).values == pytest.approx(REFERENCE, rel=1e-6, abs=1e-8)
 
 
 def test_a_search_that_fails_does_not_claim_that_no_body_exists(monkeypatch):

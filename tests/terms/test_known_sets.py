@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.terms.known_sets import class_of, easiest_set, known_sets, smallest_number
+from modeler.terms.known_sets import EASE, easiest_set, known_sets, smallest_number
 from modeler.terms.set_sensitivity import rated
 from modeler.terms.solved_values import Numbers
 from tests.terms.physical_cases import data_of, example, random_letters, system_of
@@ -68,6 +68,12 @@ def test_the_best_class_is_a_product():
     easiest = known_sets(system_of("wrist")).easiest
     assert len(easiest) == 44 and {frozenset(s) for s in easiest} == expected
     assert easiest_set(system_of("wrist")) in easiest
+
+
+def class_of(system, members):
+    """(masses, lengths and rotor inertias, centres, inertias) of a set."""
+    eases = [EASE[system.kinds[x]] for x in members]
+    return sum(e < 2 for e in eases), eases.count(2), eases.count(3)
 
 
 @pytest.mark.parametrize(
