@@ -16,6 +16,7 @@ from modeler.codegen.names import (
     symbol_constants,
     symbol_macros,
 )
+from modeler.codegen.package import package_files
 from modeler.codegen.render import render
 from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.core.contract import (
@@ -86,12 +87,11 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     values |= {"loops": _loops(model), "names": constants, "signature": ""}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
+    code = _code(spec, values)
     files = {
-        **_code(spec, values),
-        "Makefile": render("Makefile", **values),
-        "CMakeLists.txt": render("CMakeLists.txt", **values),
+        **code,
+        **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
-        "README.md": render("README.md", **values),
         MANIFEST: spec.to_json(),
     }
     return Emitted(spec, files)
