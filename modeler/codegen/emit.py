@@ -11,6 +11,7 @@ from modeler.codegen.closed import closed_functions
 from modeler.codegen.functions import Closed, Function, tree_functions
 from modeler.codegen.manifest import module_spec
 from modeler.codegen.names import (
+    enumerators,
     graph_places,
     module_prefix,
     symbol_constants,
@@ -33,6 +34,8 @@ from modeler.symbolic import SymbolicModel
 
 _CLOSED = 1e-9
 """Residual of a closed loop, relative to the robot's size."""
+
+_RESTRICT = "MODELER_RESTRICT "
 
 
 @dataclass(frozen=True)
@@ -168,7 +171,7 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
         equation=function.equation,
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
-        definition=layout.prototype(name, layout.arguments(function, "restrict "), returns),
+        definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
         closed=function.closed,
         output=function.output,
@@ -191,6 +194,10 @@ def _values(
         "symbols": symbols,
         "standard": standard,
         "base": base,
+        "enums": [
+            layout.name_lines(enumerators(spec.prefix, kind, [each.name for each in parameters]))
+            for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
+        ],
         "joints": ", ".join(joint.name for joint in spec.joints),
         "relations": relations,
         "functions": functions,
@@ -199,7 +206,7 @@ def _values(
             layout.observation_prototype(
                 spec.prefix, r, spec.closure is not None, bool(spec.signals)
             )
-            for r in ("", "restrict ")
+            for r in ("", _RESTRICT)
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),

@@ -69,7 +69,7 @@ def argument_lines(function: Function) -> list[str]:
 
 
 def arguments(function: Function, restrict: str) -> list[str]:
-    """C parameters: inputs const; `restrict` is put before the output's name."""
+    """C parameters: inputs const; `restrict`, or nothing, is put before the output's name."""
     return [
         *(f"const double *{argument.name}" for argument in function.inputs),
         f"double *{restrict}{function.output.name}",
@@ -148,4 +148,11 @@ def _unread(function: Function, block: Block | None) -> Iterable[str]:
 
 def number_lines(numbers: Sequence[int]) -> list[str]:
     """The numbers of a C table, in lines of readable length."""
-    return textwrap.wrap(", ".join(str(number) for number in numbers), _WIDTH - 4)
+    return name_lines([str(number) for number in numbers])
+
+
+def name_lines(names: Sequence[str]) -> list[str]:
+    """Words of a C table or enum, in lines of readable length."""
+    return textwrap.wrap(
+        ", ".join(names), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
+    )
