@@ -26,6 +26,11 @@ def comment_text(text: str) -> str:
     return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 
+def comment_lines(sentences: Iterable[str]) -> list[str]:
+    """Sentences as lines for the inside of a C comment."""
+    return [line for each in sentences for line in comment_text(each).split("\n * ")]
+
+
 def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[str], list[str]]:
     """Comment lines that say which column is which parameter: (standard, base).
 
