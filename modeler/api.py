@@ -198,10 +198,11 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
     Raises:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
-    return compile_model(_emitted_anew(model)[1])
+    otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
+    return compile_model(_emitted_anew(model, otherwise)[1])
 
 
-def _emitted_anew(model: IdentifiedModel) -> tuple[Derivation, Emitted]:
+def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
     """What the robot text of a model gives, if that is what its values belong to."""
     robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
     derivation = derive(robot)
@@ -210,8 +211,8 @@ def _emitted_anew(model: IdentifiedModel) -> tuple[Derivation, Emitted]:
         what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
         raise ManifestError(
             f"model of {model.spec.robot}: its robot text gives another {what} than its values "
-            "belong to: made by another version of modeler, or changed since; fit it again, or use "
-            "--run-embedded-c to run the C in the file if you trust its source"
+            "belong to: made by another version of modeler, or changed since; fit it again"
+            f"{otherwise}"
         )
     return derivation, emitted
 

@@ -33,6 +33,13 @@ def _remarks(model: IdentifiedModel) -> list[str]:
         f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
         f"{100.0 * fit.relative_error:.3g} %."
     ]
+    added = [
+        step.effect if step.joint is None else f"{step.effect} (joint {step.joint})"
+        for step in model.history
+        if step.effect
+    ]
+    if added:
+        told.append(f"Effects added since the first fit: {', '.join(added)}.")
     if fit.processing.delay:
         told.append(
             f"The torques of the logs stood {1e3 * fit.processing.delay:.3g} ms before the motion "
