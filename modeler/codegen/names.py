@@ -1,7 +1,7 @@
 """C names: of the module, of geometric symbols, of arrays."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from modeler.core.errors import EmitError
 
@@ -46,6 +46,27 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
             )
         macros[symbol] = f"{prefix.upper()}_GEO_{symbol}"
     return macros
+
+
+def enumerators(prefix: str, kind: str, names: Sequence[str]) -> tuple[str, ...]:
+    """C constants of places in a list of parameters: `PUMA560_BETA_ZZ1R`, spelled as it is printed.
+
+    `BETA` and `CHI` keep them apart from the header's other names. Letters that C has not become
+    `_`; of names that are the same then, or were before (ZZ1 regrouped, and ZZ of a joint 1R), all
+    but the first end in their place.
+
+    Args:
+        prefix: of the module.
+        kind: "beta" or "chi".
+        names: of the parameters, in order.
+    """
+    found: dict[str, None] = {}
+    for place, name in enumerate(names):
+        text = f"{prefix}_{kind}_".upper() + re.sub(r"[^A-Za-z0-9_]", "_", name)
+        while text in found:
+            text += f"_{place}"
+        found[text] = None
+    return tuple(found)
 
 
 def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.codegen.render import render
-from modeler.core.contract import ModuleSpec
+from modeler.core.contract import FunctionSpec, ModuleSpec
 
 C_INTERFACE = 1
 """Raised when a function of the emitted C takes other arguments under the same name."""
@@ -59,12 +59,13 @@ def package_files(
     examples: tuple[str, ...] = ()
     given = {
         **values,
-        "package": _package(prefix, values["signature"], code),
+        "package": _package(spec, code),
         "examples": examples,
         "programs": (f"{prefix}_check", *examples),
         "call": _calls(spec),
+        "every": _functions(spec),
         "home": _home(spec),
-        "fitted": f"{prefix}_fitted.h" in code,
+        "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
     }
@@ -80,7 +81,9 @@ def package_files(
     return {name: render(template, **given) for name, template in names.items()}
 
 
-def _package(prefix: str, signature: str, code: Mapping[str, str]) -> Package:
+def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
+    prefix = spec.prefix
+    signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     public = [name for name in (f"{prefix}.h", f"{prefix}_fitted.h") if name in code]
     for name in public:  # grows while it is read
         public += [h for h in _included(code[name]) if h in code and h not in public]
@@ -103,8 +106,12 @@ def _calls(spec: ModuleSpec) -> dict[str, str]:
         function.name.removeprefix(f"{spec.prefix}_"): (
             f"{function.name}({', '.join(argument.name for argument in function.inputs)}"
         )
-        for function in spec.functions
+        for function in _functions(spec)
     }
+
+
+def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
+    return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
 
 
 def _home(spec: ModuleSpec) -> str:
