@@ -69,9 +69,7 @@ class _Written:
     multiplications: int
 
 
-def emit(
-    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None = None
-) -> Emitted:
+def emit(model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None = None) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
     Args:
