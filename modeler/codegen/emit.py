@@ -70,9 +70,7 @@ class _Written:
     multiplications: int
 
 
-def emit(
-    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None = None
-) -> Emitted:
+def emit(model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None = None) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
     Args:
@@ -85,6 +83,40 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
+    module = _module(model, base)
+    spec, values = module.spec, module.values
+    code = _code(spec, values)
+    if fitted is not None:
+        spec, unit = _fitted_unit(model, base, fitted, module)
+        values |= {"spec": spec}
+        code |= unit
+    files = {
+        **code,
+        **package_files(spec, code, values),
+        "base_parameters.md": render("base_parameters.md", **values),
+        MANIFEST: spec.to_json(),
+    }
+    return Emitted(spec, files)
+
+
+@dataclass(frozen=True)
+class _Module:
+    """A module before it is laid out.
+
+    Attributes:
+        spec: its manifest.
+        blocks: functions and their bodies.
+        places: C text of every symbol of the graph.
+        values: what the templates read.
+    """
+
+    spec: ModuleSpec
+    blocks: list[tuple[Function, Block | None]]
+    places: dict[str, str]
+    values: dict[str, Any]
+
+
+def _module(model: SymbolicModel, base: BaseParameters) -> _Module:
     prefix = module_prefix(model.robot.name)
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
@@ -103,28 +135,7 @@ def emit(
     values |= {"loops": _loops(model), "names": constants, "signature": ""}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
-    code = _code(spec, values)
-    if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, _Module(spec, blocks, places, values))
-        values |= {"spec": spec}
-        code |= unit
-    files = {
-        **code,
-        **package_files(spec, code, values),
-        "base_parameters.md": render("base_parameters.md", **values),
-        MANIFEST: spec.to_json(),
-    }
-    return Emitted(spec, files)
-
-
-@dataclass(frozen=True)
-class _Module:
-    """What the unit of the values reads of the module that it stands in."""
-
-    spec: ModuleSpec
-    blocks: list[tuple[Function, Block | None]]
-    places: dict[str, str]
-    values: dict[str, Any]
+    return _Module(spec, blocks, places, values)
 
 
 def _fitted_unit(

@@ -81,9 +81,7 @@ def fitted_functions(
         given = arguments_of(model.robot.free, model, base)
         return tuple(map(_public, dynamics_functions(model, values, given)))
     tree, public = closed_dynamics(model, base, values)
-    inner = [
-        dataclasses.replace(_public(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree
-    ]
+    inner = [dataclasses.replace(_public(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree]
     return (*inner, *map(_public, public))
 
 
@@ -103,9 +101,7 @@ def _closed(closed: Closed) -> Closed:
     return dataclasses.replace(closed, tree=_TREE, reads=reads)
 
 
-def widths(
-    prefix: str, model: SymbolicModel, functions: Sequence[Function]
-) -> tuple[Width, ...]:
+def widths(prefix: str, model: SymbolicModel, functions: Sequence[Function]) -> tuple[Width, ...]:
     """One for every joint or motor of whose speed the functions read the sign.
 
     Joints that always move alike have one speed, and the width of the first of them. A sign of
@@ -152,7 +148,7 @@ def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -
 def _value_lines(spec: ModuleSpec, parameters: Sequence[FittedParameter]) -> list[str]:
     """Lines of the C table: the value, which it is, its unit, how sure it is."""
     places = enumerators(spec.prefix, "beta", [base.name for base in spec.base])
-    lines = []
+    lines: list[str] = []
     for parameter, place in zip(parameters, places, strict=True):
         comma = "," if len(lines) + 1 < len(parameters) else " "
         about = layout.comment_line(f"{place} [{parameter.unit}], {_sure(parameter)}")

@@ -1,7 +1,7 @@
 """C names: of the module, of geometric symbols, of arrays."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from modeler.core.errors import EmitError
 
@@ -48,25 +48,18 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     return macros
 
 
-def enumerators(prefix: str, kind: str, names: Sequence[str]) -> tuple[str, ...]:
-    """C constants of places in a list of parameters: `PUMA560_BETA_ZZ1R`, spelled as it is printed.
+def enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
+    """C constants of places in a list of parameters: PUMA560_BETA_ZZ1R, spelled as it is printed.
 
-    `BETA` and `CHI` keep them apart from the header's other names. Letters that C has not become
-    `_`; of names that are the same then, or were before (ZZ1 regrouped, and ZZ of a joint 1R), all
-    but the first end in their place.
+    `BETA` and `CHI` keep them apart from the header's other names, as GEO does symbols. The reader
+    of robot files sees to it that parameters have different names of letters, digits and `_`.
 
     Args:
         prefix: of the module.
         kind: "beta" or "chi".
         names: of the parameters, in order.
     """
-    found: dict[str, None] = {}
-    for place, name in enumerate(names):
-        text = f"{prefix}_{kind}_".upper() + re.sub(r"[^A-Za-z0-9_]", "_", name)
-        while text in found:
-            text += f"_{place}"
-        found[text] = None
-    return tuple(found)
+    return [f"{prefix}_{kind}_".upper() + name for name in names]
 
 
 def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from modeler.codegen.examples import call_head, example_values, examples_of
 from modeler.codegen.render import render
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
@@ -56,13 +57,13 @@ def package_files(
         values: what all templates of the module are given.
     """
     prefix = spec.prefix
-    examples: tuple[str, ...] = ()
+    examples = examples_of(spec)
     given = {
         **values,
         "package": _package(spec, code),
         "examples": examples,
         "programs": (f"{prefix}_check", *examples),
-        "call": _calls(spec),
+        "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
         "every": _functions(spec),
         "home": _home(spec),
         "fitted": spec.fitted,
@@ -78,7 +79,10 @@ def package_files(
         f"{prefix}_check.c": "check.c",
         "README.md": "README.md",
     }
-    return {name: render(template, **given) for name, template in names.items()}
+    texts = {name: render(template, **given) for name, template in names.items()}
+    for name in examples:
+        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
+    return texts
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
@@ -98,16 +102,6 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
 
 def _included(text: str) -> list[str]:
     return re.findall(r'^#include "([^"]+)"', text, flags=re.MULTILINE)
-
-
-def _calls(spec: ModuleSpec) -> dict[str, str]:
-    """{role: the call up to its output}: `wrist_gravity(q, beta`."""
-    return {
-        function.name.removeprefix(f"{spec.prefix}_"): (
-            f"{function.name}({', '.join(argument.name for argument in function.inputs)}"
-        )
-        for function in _functions(spec)
-    }
 
 
 def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:

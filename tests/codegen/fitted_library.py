@@ -58,7 +58,9 @@ def fitted_of(spec: ModuleSpec, seed: int = 4) -> FittedSpec:
         value = float(random.normal())
         value = abs(value) if base.column_of.startswith(("Fs", "Fv")) else value
         parameters.append(FittedParameter(base.name, base.unit, value, 0.1))
-    return FittedSpec("weighted", True, "usable: yes", (), ("Values of a test.",), tuple(parameters))
+    return FittedSpec(
+        "weighted", True, "usable: yes", (), ("Values of a test.",), tuple(parameters)
+    )
 
 
 def with_values(name: str, fitted: FittedSpec | None = None) -> Emitted:
