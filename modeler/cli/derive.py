@@ -1,4 +1,4 @@
-"""`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
+"""`modeler derive ROBOT`."""
 
 import argparse
 import dataclasses
@@ -16,7 +16,7 @@ from modeler.cli.parsers.derive import Form
 from modeler.cli.robots import robot_of, robot_with_effects
 from modeler.cli.words import Words
 from modeler.core.errors import RobotError
-from modeler.derivation import Derivation, derive, generate
+from modeler.derivation import Derivation, derive
 from modeler.robot import Robot
 from modeler.symbolic import LinkColumn, SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
@@ -99,20 +99,3 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     other = lagrange_torque(model, *states, chi)
     largest = float(np.max(np.abs(other)))
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
-
-
-def run_generate(args: argparse.Namespace) -> Json:
-    """Writes the folder and says what is in it."""
-    robot = robot_of(args)
-    with working(f"deriving {robot.name}"):
-        derivation = derive(robot)
-        emitted = generate(derivation, args.out, args.force)
-    say(f"{robot.name}: {derivation.base.rank} base parameters, written to {args.out}:")
-    for name in sorted(emitted.files):
-        say(f"  {name}")
-    for function in emitted.spec.functions:
-        say(
-            f"  {function.name}: {function.equation} ({function.additions} additions, "
-            f"{function.multiplications} multiplications)"
-        )
-    return {"robot": robot.name, "folder": args.out, "files": sorted(emitted.files)}

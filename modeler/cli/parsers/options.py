@@ -34,6 +34,11 @@ def add_robot(parser: argparse.ArgumentParser) -> None:
         "robot", metavar="ROBOT", type=RobotFile,
         help="a robot file, or the name of a built-in robot",
     )  # fmt: skip
+    add_effects(parser)
+
+
+def add_effects(parser: argparse.ArgumentParser) -> None:
+    """`--effects LIST`, which changes ROBOT."""
     parser.add_argument(
         "--effects",
         metavar="LIST",
