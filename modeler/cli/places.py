@@ -24,6 +24,11 @@ from modeler.simulate.settings import MOTIONS
 _LOGS = (".csv", ".parquet")
 
 
+def log_endings() -> tuple[str, ...]:
+    """How the name of a log ends."""
+    return _LOGS
+
+
 class Word(str):
     """A text that names no file."""
 
