@@ -7,8 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses", "scoring",
-    "diagnose", "pages", "excite",
+    "compiled", "logs", "observation", "estimate", "fit", "residuals", "compare", "hypotheses",
+    "scoring", "diagnose", "pages", "excite",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -23,6 +23,7 @@ STAGES: dict[str, set[str]] = {
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
     "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
+    "logs": {"core"},
     "excite": {"core", "effects", "compiled", "observation", "hypotheses"},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
@@ -56,7 +57,8 @@ PACKAGES: dict[str, set[str]] = {
     "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "compiled": {"numpy", "cffi"},
-    "observation": {"numpy", "scipy", "pyarrow"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "observation": {"numpy", "scipy"},
     "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
@@ -84,6 +86,8 @@ ONLY_IN = {
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
     "flint": ("symbolic/balls.py",),
+    "h5py": ("logs/hdf5.py",),
+    "rosbags": ("logs/bags.py",),
 }
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

@@ -1,6 +1,6 @@
 """`modeler add MODEL EFFECT LOG... --out MODEL2`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_page
+from modeler.cli.parsers.options import Commands, Run, add_json, add_map, add_page
 from modeler.cli.places import LogFile, ModelFile, Output, Word
 
 
@@ -31,6 +31,7 @@ def add_add(commands: Commands) -> None:
         help="logs of other motion to judge on",
     )  # fmt: skip
     parser.add_argument("--robot", metavar="FILE", type=Output, help="write the new robot file too")
+    add_map(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_add)
