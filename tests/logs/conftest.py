@@ -10,7 +10,7 @@ from modeler.compiled import CompiledModel
 from modeler.fit import identify
 from modeler.simulate import SimulationSettings, simulate
 from modeler.simulate.log import log_columns
-from tests.logs.writers import foreign, meant, parquet
+from tests.logs.writers import Run, parquet
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -18,7 +18,7 @@ class Case:
     """A robot, a run as columns in our names, and the parameters that its Parquet file gives."""
 
     compiled: CompiledModel
-    table: dict[str, np.ndarray]
+    table: Run
     beta: np.ndarray
 
     def fitted(self, path, mapping) -> np.ndarray:
@@ -30,7 +30,6 @@ def case(tmp_path_factory) -> Case:
     derivation = derive(load("demo-arm"))
     compiled = compile_model(generate(derivation))
     run = simulate(derivation.robot, SimulationSettings(duration=6.0, seed=3, torque_noise=0.01))
-    table = {n: v for n, v in log_columns(run).items() if not n.startswith("qc")}
-    table = meant(foreign(table))  # rounded as degrees, so that both files hold the same run
+    table = Run(log_columns(run))
     path = parquet(tmp_path_factory.mktemp("run") / "run.parquet", table)
     return Case(compiled, table, identify(observe(compiled, [path])).beta)

@@ -22,19 +22,20 @@ def joined(table: Table, prefix: str) -> np.ndarray:
     return np.column_stack([table[f"{prefix}{j}"] for j in (1, 2, 3)])
 
 
-def foreign(table: Table) -> dict[str, np.ndarray]:
-    """In ms, degrees, one joint the other way, and mN m."""
-    q = np.rad2deg(joined(table, "q"))
-    q[:, 1] *= -1.0
-    return {"t": table["time"] * 1e3, "pos": q, "load": joined(table, "tau") * 1e3}
+class Run(dict[str, np.ndarray]):
+    """A run in our columns and SI units, and the same numbers as other people log them.
 
+    `other` is in ms, degrees, one joint the other way, and mN m; ours are what these mean.
+    """
 
-def meant(other: Table) -> dict[str, np.ndarray]:
-    """Ours again."""
-    q, tau = np.deg2rad(other["pos"]) * [1.0, -1.0, 1.0], other["load"] * 1e-3
-    table = {"time": other["t"] * 1e-3}
-    table |= {f"q{j + 1}": q[:, j] for j in range(3)}
-    return table | {f"tau{j + 1}": tau[:, j] for j in range(3)}
+    def __init__(self, table: Table) -> None:
+        q = np.rad2deg(joined(table, "q")) * [1.0, -1.0, 1.0]
+        tau = joined(table, "tau") * 1e3
+        self.other = {"t": table["time"] * 1e3, "pos": q, "load": tau}
+        super().__init__(time=self.other["t"] * 1e-3)
+        q = np.deg2rad(q) * [1.0, -1.0, 1.0]
+        self.update({f"q{j + 1}": q[:, j] for j in range(3)})
+        self.update({f"tau{j + 1}": tau[:, j] * 1e-3 for j in range(3)})
 
 
 MAPPING = {
@@ -61,21 +62,21 @@ def parquet(path: Path, table: Table) -> Path:
     return path
 
 
-def mat(path: Path, table: Table) -> Path:
+def mat(path: Path, table: Run) -> Path:
     """A struct `data` of (n, 1) and (n, 3) arrays, and things that are no columns."""
-    other = foreign(table) | {"t": foreign(table)["t"][:, None]}
+    other = table.other | {"t": table.other["t"][:, None]}
     content = {"data": other, "fs": 500.0, "who": "me", "pose": np.eye(4)}
     scipy.io.savemat(path, content, do_compression=True)
     return path
 
 
-def mat73(path: Path, table: Table) -> Path:
-    """As MATLAB writes -v7.3: HDF5 with a block in front, arrays by columns, classes as attributes."""
+def mat73(path: Path, table: Run) -> Path:
+    """As MATLAB writes -v7.3: HDF5 after a block, arrays by columns, classes as attributes."""
     h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
     with h5py.File(path, "w", userblock_size=512) as file:
         group = file.create_group("data")
         group.attrs["MATLAB_class"] = np.bytes_("struct")
-        for name, values in foreign(table).items():
+        for name, values in table.other.items():
             values = values[:, None] if values.ndim == 1 else values
             item = group.create_dataset(name, data=values.T, chunks=True, compression="gzip")
             item.attrs["MATLAB_class"] = np.bytes_("double")
@@ -86,19 +87,19 @@ def mat73(path: Path, table: Table) -> Path:
     return path
 
 
-def hdf5(path: Path, table: Table) -> Path:
+def hdf5(path: Path, table: Run) -> Path:
     """A group `arm`; the current of the unit is an attribute of the positions."""
     h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
     with h5py.File(path, "w") as file:
-        for name, values in foreign(table).items():
+        for name, values in table.other.items():
             file[f"arm/{name}"] = values
         file["arm/pos"].attrs["units"] = "deg"
         file["version"] = 3
     return path
 
 
-def npz(path: Path, table: Table) -> Path:
-    np.savez(path, **{name: values.T for name, values in foreign(table).items()})
+def npz(path: Path, table: Run) -> Path:
+    np.savez(path, **{name: values.T for name, values in table.other.items()})
     return path
 
 
@@ -125,7 +126,7 @@ def states(table: Table):
         yield stamp, [JOINTS[i] for i in order], q[k, order], tau[k, order]
 
 
-def mcap(path: Path, table: Table) -> Path:
+def mcap(path: Path, table: Run) -> Path:
     """By the library of the format: joint states, and a slower temperature."""
     reason = "NOT CHECKED: needs mcap-ros2-support; pip install mcap-ros2-support"
     writer_of = pytest.importorskip("mcap_ros2.writer", reason=reason)
@@ -147,7 +148,7 @@ def mcap(path: Path, table: Table) -> Path:
     return path
 
 
-def bag(path: Path, table: Table, storage: str = "sqlite3", extra_topic: str = "") -> Path:
+def bag(path: Path, table: Run, storage: str = "sqlite3", extra_topic: str = "") -> Path:
     """A ROS 2 bag as a folder; with another robot's joint states if a topic is given for them."""
     reason = "NOT CHECKED: needs rosbags; pip install rosbags"
     rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)
@@ -170,7 +171,7 @@ def bag(path: Path, table: Table, storage: str = "sqlite3", extra_topic: str = "
     return path
 
 
-def bag1(path: Path, table: Table) -> Path:
+def bag1(path: Path, table: Run) -> Path:
     """A bag of ROS 1."""
     reason = "NOT CHECKED: needs rosbags; pip install rosbags"
     rosbag1 = pytest.importorskip("rosbags.rosbag1", reason=reason)
