@@ -39,6 +39,7 @@ class Table:
         self._columns: dict[str, Column] = {}
         self._check()
         self._entries = mapping.entries(joints)
+        self._taken: dict[str, str] = {}
         self._taken = self._matched()
         self._rate = mapping.rate if not self._has_time() else None
         self._units = {name: self._unit(name) for name in self._own_names()}
@@ -75,7 +76,7 @@ class Table:
             if entry.strict and own not in found:
                 alike = [o for o, e in self._entries.items() if e.where == entry.where]
                 if not any(other in found for other in alike):
-                    raise DataError(f"{entry.where}: {self._absent(own)}")
+                    raise DataError(f"{self.path}: {entry.where}: {self._absent(own)}")
         return found
 
     def _has_time(self) -> bool:
