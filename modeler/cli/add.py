@@ -25,7 +25,7 @@ def run_add(args: argparse.Namespace) -> Json:
     model = load_model(args.model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
+        logs = Logs(*(read_logs(compiled, p, args.map) for p in (args.logs, args.holdout)))
     check_apart(logs.fitted, logs.held_out)
     better, left_out = _better(model, compiled, args, logs)
     written = _written(args, better, left_out)

@@ -11,7 +11,7 @@ from modeler.base import BaseParameters
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
 from modeler.cli.closed_forms import check_loops, check_request, say_closed_forms
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, working
 from modeler.cli.parsers.derive import Form
 from modeler.cli.robots import robot_of, robot_with_effects
 from modeler.cli.words import Words

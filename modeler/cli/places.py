@@ -21,7 +21,8 @@ from modeler.robot.builtin import builtin_file, builtin_names
 from modeler.robot.converted import OTHER_PROGRAMS
 from modeler.simulate.settings import MOTIONS
 
-_LOGS = (".csv", ".parquet")
+_MOTIONS = (".csv", ".parquet")
+_LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
 
 
 def log_endings() -> tuple[str, ...]:
@@ -31,6 +32,10 @@ def log_endings() -> tuple[str, ...]:
 
 class Word(str):
     """A text that names no file."""
+
+
+class MapWord(Word):
+    """A line of a mapping, or a file of such lines."""
 
 
 class Input(str):
@@ -87,7 +92,7 @@ class MotionOrKind(MotionFile):
 
     def __new__(cls, text: str) -> "MotionOrKind":
         """Refuses what is neither, as a wrong usage."""
-        if text not in MOTIONS and not text.endswith(_LOGS):
+        if text not in MOTIONS and not text.endswith(_MOTIONS):
             raise argparse.ArgumentTypeError(
                 f"got {text}; expected {', '.join(MOTIONS)}, or a .csv or .parquet file"
             )

@@ -3,12 +3,23 @@
 import argparse
 from typing import get_args
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_number,
+    add_page,
+    add_robot,
+)
 from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
 from modeler.core.choices import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
 from modeler.core.estimators import ABOUT, APART
 
-_LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
+_LOGS = (
+    "Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; FILE@START:END takes the rows between these "
+    "seconds"
+)
 
 
 def add_fit(commands: Commands) -> None:
@@ -22,6 +33,7 @@ def add_fit(commands: Commands) -> None:
     )
     add_robot(parser)
     parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    add_map(parser)
     parser.add_argument(
         "--out", metavar="MODEL", required=True, type=Output, help="model file to write"
     )
@@ -137,6 +149,7 @@ def add_compare(commands: Commands) -> None:
         "model", metavar="MODEL", type=ModelFile, help="a model file of `modeler fit`"
     )
     parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    add_map(parser)
     add_page(parser, PageOrFolder)
     parser.add_argument(
         "--pictures", metavar="DIR", type=PictureFolder,
