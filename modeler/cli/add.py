@@ -13,7 +13,7 @@ from modeler.diagnose import Known, diagnose
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
 from modeler.observation.apart import check_apart
-from modeler.pages import write_additions
+from modeler.pages.additions import write_additions
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar

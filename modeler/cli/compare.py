@@ -16,7 +16,7 @@ from modeler.fit.reduced import with_essential_only
 from modeler.observation import Log
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
-from modeler.pages import write_report
+from modeler.pages.comparison import write_report
 
 _TRAINING = "training only: "
 

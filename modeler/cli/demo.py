@@ -14,7 +14,9 @@ from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
-from modeler.pages import write_additions, write_diagnosis, write_report
+from modeler.pages.additions import write_additions
+from modeler.pages.comparison import write_report
+from modeler.pages.report import write_diagnosis
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 
