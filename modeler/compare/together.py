@@ -83,6 +83,6 @@ def _check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> No
         if joints(model) != joints(models[0]):
             said = [", ".join(f"{j} [{u}]" for j, u in joints(m)) for m in (models[0], model)]
             raise DataError(
-                f"{name}: joints {said[1]}; expected those of {names[0]}, {said[0]}; only models of "
-                "robots with the same joints are set side by side"
+                f"{name}: joints {said[1]}; expected those of {names[0]}, {said[0]}; only models "
+                "of robots with the same joints are set side by side"
             )

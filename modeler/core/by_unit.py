@@ -27,12 +27,12 @@ def errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
 
 
 def effort(errors: Mapping[str, float]) -> str:
-    """ "torque", "force", or "torque and force": what the joints of these units exert."""
+    """What the joints of these units exert: "torque", "force", or "torque and force"."""
     return " and ".join(WORDS[unit] for unit in errors) or "torque"
 
 
 def told_by_unit(errors: Mapping[str, float], form: str = "{:.3f} %") -> str:
-    """ "2.1 % of the torques (N m), 3 % of the forces (N)"; one unit alone: "2.1 %".
+    """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %".
 
     Args:
         errors: from `errors_by_unit`.

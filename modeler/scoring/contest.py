@@ -134,9 +134,7 @@ def _joint(
     norms = [float(np.linalg.norm(e)) for e in left]
     errors = tuple(norm / whole for norm, whole in zip(norms, size, strict=True))
     top = int(np.argmin(errors))
-    sums = [
-        np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)
-    ]
+    sums = [np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)]
     rivals = [k for k in range(len(predictions)) if k != top]
     chances = [_chance(sums[k], sums[top]) for k in rivals]
     worth = all(errors[top] < (1.0 - FELT) * errors[k] for k in rivals)
