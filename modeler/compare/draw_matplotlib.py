@@ -23,6 +23,7 @@ from modeler.compare.picture import (
     Series,
 )
 
+_BESIDE = 4  # entries of a legend that leave room for the title
 _SETTINGS: Any = {
     "font.size": 9,
     "axes.titlesize": 9.5,
@@ -83,7 +84,7 @@ def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
             list(handles.values()),
             list(handles),
             loc="outside upper right",
-            ncols=len(handles),
+            ncols=len(handles) if len(handles) <= _BESIDE else -(-len(handles) // 2),
             frameon=False,
         )
 
