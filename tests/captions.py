@@ -2,7 +2,7 @@
 
 import re
 
-from modeler.compare.picture import COLOR_NAMES, SHADE, Heat, Picture
+from modeler.pictures.picture import COLOR_NAMES, SHADE, Heat, Picture
 
 
 def colours_said(picture: Picture) -> set[str]:

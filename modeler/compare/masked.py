@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from modeler.compare.picture import (
+from modeler.compare.prediction import Prediction
+from modeler.observation.masks import MASKS, WHY
+from modeler.pictures.picture import (
     COLOR_NAMES,
     PALE_BLUE,
     PALE_BROWN,
@@ -12,8 +14,6 @@ from modeler.compare.picture import (
     PALE_YELLOW,
     Span,
 )
-from modeler.compare.prediction import Prediction
-from modeler.observation.masks import MASKS, WHY
 
 GAP = "no rows"
 OTHER = "left out"

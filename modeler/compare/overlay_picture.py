@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.compare.masked import masked_spans, told_masks
-from modeler.compare.picture import COLORS, Curve, Panel, Picture, Style
 from modeler.compare.prediction import Prediction, residual
-from modeler.compare.thinning import thin_curves
 from modeler.compare.time_picture import broken, running_time
+from modeler.pictures.picture import COLORS, Curve, Panel, Picture, Style
+from modeler.pictures.thinning import thin_curves
 
 _MOST = 2500  # points of a curve
 
@@ -33,18 +33,11 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
     for name, style, e, total in zip(names, styles, left, sums, strict=True):
         residuals.append(Curve(name, *broken(segment[kept], time[kept], e[kept]), style))
         gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
-    told = " ".join([
-        ", ".join(f"{style.named.capitalize()}: {name}"
-                  for name, style in zip(names, styles, strict=True)) + ".",
-        "Below: the squared residual summed up to that time, in percent of the largest sum at the "
-        "end; where one curve is steeper, that model is worse there.",
-        told_masks(first, j),
-    ])  # fmt: skip
     spans = masked_spans(first, j, time, np.arange(time.size))
     return Picture(
         name=f"joint_{joint.name}_models",
         title=f"Joint {joint.name}: what each model leaves",
-        caption=told.strip(),
+        caption=_caption(names, styles, told_masks(first, j)),
         panels=(
             (Panel("Residual", label, f"residual [{joint.effort_unit}]", tuple(residuals),
                    marks=marks, zero=True, spans=spans),),
@@ -55,3 +48,12 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
         height=430,
         shared_time=True,
     )  # fmt: skip
+
+
+def _caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:
+    pairs = zip(names, styles, strict=True)
+    said = ", ".join(f"{style.named.capitalize()}: {name}" for name, style in pairs)
+    return (
+        f"{said}. Below: the squared residual summed up to that time, in percent of the largest "
+        f"sum at the end; where one curve is steeper, that model is worse there. {masks}"
+    ).strip()

@@ -7,7 +7,10 @@ import numpy as np
 from modeler.compare.band import DEVIATIONS
 from modeler.compare.comparison import JointComparison
 from modeler.compare.masked import masked_spans, told_masks
-from modeler.compare.picture import (
+from modeler.compare.prediction import Prediction, residual
+from modeler.compare.where import WINDOW
+from modeler.core.by_unit import WORDS
+from modeler.pictures.picture import (
     BLACK,
     COLOR_NAMES,
     ORANGE,
@@ -21,10 +24,7 @@ from modeler.compare.picture import (
     Series,
     Style,
 )
-from modeler.compare.prediction import Prediction, residual
-from modeler.compare.thinning import thin_curves
-from modeler.compare.where import WINDOW
-from modeler.core.by_unit import WORDS
+from modeler.pictures.thinning import thin_curves
 
 _MEASURED = Style(BLACK, width=1.1)
 _PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)

@@ -40,14 +40,7 @@ def predict_together(
         for model, own, read in zip(models, compiled, logs, strict=True)
     ]
     predictions = [prediction for prediction, _ in made]
-    for prediction, name in zip(predictions[1:], names[1:], strict=True):
-        if not _same_rows(predictions[0], prediction):
-            raise DataError(
-                f"{name}: its rows of these logs are not those of {names[0]}, so errors cannot be "
-                "set side by side; expected robots that read the same columns; compare them one "
-                "by one"
-            )
-    used = np.logical_and.reduce([prediction.used for prediction in predictions])
+    used = np.logical_and.reduce(_used_of(predictions, names))
     if not used.any():
         raise DataError(
             f"{', '.join(names)}: no row of these logs counts for every model; compare them one by "
@@ -55,6 +48,18 @@ def predict_together(
         )
     found = [_on(prediction, used) for prediction in predictions]
     return found, [observation for _, observation in made]
+
+
+def _used_of(predictions: Sequence[Prediction], names: Sequence[str]) -> list[np.ndarray]:
+    """Rows that count for each model, if they are the same rows."""
+    for prediction, name in zip(predictions[1:], names[1:], strict=True):
+        if not _same_rows(predictions[0], prediction):
+            raise DataError(
+                f"{name}: its rows of these logs are not those of {names[0]}, so errors cannot be "
+                "set side by side; expected robots that read the same columns; compare them one "
+                "by one"
+            )
+    return [prediction.used for prediction in predictions]
 
 
 def _processed_as(model: IdentifiedModel, other: Processing) -> IdentifiedModel:

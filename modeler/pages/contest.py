@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.compare.overlay_picture import overlay_picture
-from modeler.core.files import write_atomically
+from modeler.compare.pictures import write_each
 from modeler.pages.sheet import (
     Cell,
     Figure,
@@ -15,8 +15,6 @@ from modeler.pages.sheet import (
     Table,
     write_page,
 )
-from modeler.pictures.draw_matplotlib import images
-from modeler.pictures.numbers import picture_csv
 from modeler.pictures.picture import Picture
 from modeler.scoring.contest import DOUBT, Contest, JointContest
 from modeler.scoring.contest_text import contest_sentences, headline_of, percent
@@ -68,16 +66,7 @@ def write_overlays(
     Raises:
         ModelerError: the folder cannot be written.
     """
-    written = []
-    for number, item in enumerate(found.joints, start=1):
-        picture = _picture(found, item)
-        for kind, content in {**images(picture), "csv": picture_csv(picture).encode()}.items():
-            place = Path(folder) / f"{picture.name}.{kind}"
-            write_atomically(place, content)
-            written.append(place)
-        if progress is not None:
-            progress(number / len(found.joints))
-    return tuple(written)
+    return write_each(folder, [_picture(found, item) for item in found.joints], progress)
 
 
 def _fact(found: Contest, k: int) -> str:

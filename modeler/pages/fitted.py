@@ -8,7 +8,17 @@ import numpy as np
 from modeler.core.estimators import titled
 from modeler.fit import IdentifiedModel
 from modeler.fit.result import FitResult
-from modeler.pages.sheet import Cell, Items, Judged, Origin, Section, Sheet, Table, Verdicts, write_page
+from modeler.pages.sheet import (
+    Cell,
+    Items,
+    Judged,
+    Origin,
+    Section,
+    Sheet,
+    Table,
+    Verdicts,
+    write_page,
+)
 from modeler.pages.values import joints_table, values_table
 
 _TANGLED = 0.95  # correlation of two estimates from which on they are told

@@ -2,7 +2,11 @@
 
 import numpy as np
 
-from modeler.compare.picture import (
+from modeler.compare.time_picture import broken
+from modeler.compare.where import WINDOW
+from modeler.core.by_unit import WORDS
+from modeler.pages.shown import Shown
+from modeler.pictures.picture import (
     BLACK,
     COLOR_NAMES,
     GREEN,
@@ -13,10 +17,6 @@ from modeler.compare.picture import (
     Picture,
     Style,
 )
-from modeler.compare.time_picture import broken
-from modeler.compare.where import WINDOW
-from modeler.core.by_unit import WORDS
-from modeler.pages.shown import Shown
 
 MEASURED = Style(BLACK, width=1.2)
 BEFORE = Style(VERMILLION, width=1.6, dash=True)

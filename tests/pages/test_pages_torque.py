@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from modeler.compare.picture import Band, Curve
 from modeler.pages.evidence import evidence_picture, rivals_of, rivals_picture
 from modeler.pages.law_band import covariance_of
 from modeler.pages.shown import Shown, shown
 from modeler.pages.torque_picture import torque_picture, worst_stretch
+from modeler.pictures.picture import Band, Curve
 from modeler.scoring.gram import base_of
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case
