@@ -6,6 +6,7 @@ from pathlib import Path
 
 from modeler.api import Mapped, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.contest import models_of, run_contest
 from modeler.cli.given import check_logs, given
 from modeler.compare import Comparison, compare, verdict, write_pictures
 from modeler.compare.predict import predict
@@ -23,6 +24,8 @@ _TRAINING = "training only: "
 
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
+    if len(models_of(args)) > 1:
+        return run_contest(args)
     model = load_model(args.model)
     if args.essential:
         model = with_essential_only(model, args.model)
@@ -61,7 +64,7 @@ def judged(
     lines = [
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
-        f"{100 * model.fit.relative_error:.2f} %"
+        f"{model.fit.error_told('{:.2f} %')}"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)
