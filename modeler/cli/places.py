@@ -153,7 +153,10 @@ class OutputFolder(str):
 class ModuleFolder(OutputFolder):
     """Of an emitted module."""
 
-    writes = ("*.c", "*.h", "*.md", "*.sha256", "manifest.json", "Makefile", "CMakeLists.txt")
+    writes = (
+        "*.c", "*.h", "*.md", "*.sha256", "*.pc.in", "*.cmake", "manifest.json", "Makefile",
+        "CMakeLists.txt",
+    )  # fmt: skip
 
 
 class PictureFolder(OutputFolder):
