@@ -73,7 +73,7 @@ def test_friction_takes_power_at_every_width_and_tends_to_the_sign(name):
     slow = np.logspace(-3, 0, len(given["qd"]))[:, None]
     given["qd"] = speeds = np.copysign(slow + np.abs(given["qd"]) * slow, given["qd"])
     sharp, farther = Functions(emitted)("fitted_friction", given), np.inf
-    for width in (1.0, 1e-2, 1e-4):
+    for width in (1.0, 1e-2, 1e-8):
         friction = Functions(emitted, COULOMB_WIDTH=width)("fitted_friction", given)
         assert np.all(np.sum(friction * speeds, axis=1) >= 0.0)
         distance = float(np.abs(friction - sharp).max())
