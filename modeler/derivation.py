@@ -1,5 +1,6 @@
 """The deriving half of the chain: a robot, its model, its base parameters, its C."""
 
+import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,6 +50,7 @@ def generate(
             that were edited since, and `force` is not given; or it cannot be written.
     """
     emitted = emit(derivation.model, derivation.base, fitted)
+    emitted = dataclasses.replace(emitted, log=derivation.robot.log)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)
     return emitted

@@ -25,6 +25,7 @@ from modeler.codegen.names import (
     symbol_constants,
     symbol_macros,
 )
+from modeler.codegen.package import package_files
 from modeler.codegen.render import render
 from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.core.contract import (
@@ -87,14 +88,12 @@ def emit(model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None =
     code = _code(spec, values)
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
-        values |= {"spec": spec, "sources": _sources(spec)}
+        values |= {"spec": spec}
         code |= unit
     files = {
         **code,
-        "Makefile": render("Makefile", **values),
-        "CMakeLists.txt": render("CMakeLists.txt", **values),
+        **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
-        "README.md": render("README.md", **values),
         MANIFEST: spec.to_json(),
     }
     return Emitted(spec, files)
@@ -295,12 +294,7 @@ def _values(
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
-        "sources": _sources(spec),
     }
-
-
-def _sources(spec: ModuleSpec) -> list[str]:
-    return [name for name in spec.sources if name.endswith(".c")]
 
 
 def _unit(unit: str, values: dict[str, Any]) -> str:

@@ -8,7 +8,7 @@ import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -246,10 +246,12 @@ class Emitted:
     Attributes:
         spec: its manifest.
         files: {file name: text}; the C files of `spec.sources`, the manifest, build files, tables.
+        log: what the robot file says of the columns of logs; no part of the C.
     """
 
     spec: ModuleSpec
     files: Mapping[str, str]
+    log: Mapping[str, object] = field(default_factory=dict)
 
 
 def module_from_json(text: bytes | str, where: str) -> ModuleSpec:

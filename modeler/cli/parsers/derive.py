@@ -28,12 +28,16 @@ def add_derive(commands: Commands) -> None:
         description="Derives the model of ROBOT, linear in the dynamic parameters: which base "
         "parameters it has, how the standard parameters group, and the proof. Robots of up to "
         f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
-        epilog="example: modeler derive puma560 --format latex",
+        epilog="example: modeler derive puma560 --format latex --document > puma560.tex",
     )
     add_robot(parser)
     parser.add_argument(
         "--format", choices=sorted(get_args(Form)), default="text", help="of what is printed"
     )
+    parser.add_argument(
+        "--document", action="store_true",
+        help="with --format latex: a whole document; without, what \\input takes beside amsmath",
+    )  # fmt: skip
     _add_formulas(parser)
     parser.add_argument(
         "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
