@@ -120,8 +120,9 @@ class Functions:
 
 @contextmanager
 def _flags(defined: list[str]) -> Iterator[None]:
+    """Compile fast: what is tested does not hang on the last digits of an optimiser."""
     before = os.environ.get("CFLAGS")
-    os.environ["CFLAGS"] = " ".join([before or "-O1 -ffp-contract=off", *defined])
+    os.environ["CFLAGS"] = " ".join(["-O0", *defined])
     try:
         yield
     finally:
