@@ -14,6 +14,7 @@ from modeler.base.result import (
     SampledRank,
     Sampling,
 )
+from modeler.core.latex_lines import Equation, display
 
 _WIDTH = 96
 
@@ -35,9 +36,9 @@ def as_markdown(base: BaseParameters) -> str:
 
 
 def as_latex(base: BaseParameters) -> str:
-    """The relations as an align environment."""
-    lines = [relation_latex(p).replace(" = ", " &= ", 1) for p in base.parameters]
-    return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
+    """The relations as an align environment, in lines that fit the page."""
+    sides = [relation_latex(p).split(" = ", 1) for p in base.parameters]
+    return display([Equation(left, (right,)) for left, right in sides], numbered=True)
 
 
 def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
@@ -117,8 +118,13 @@ def _sampling(sampling: Sampling) -> dict[str, Any]:
 
 def proof_text(proof: Proof) -> str:
     """The proof in a few lines."""
-    paragraphs = [f"proof: {proof.kind}. {proof.statement}"]
-    paragraphs += [
+    return "\n".join(textwrap.fill(text, _WIDTH) for text in proof_paragraphs(proof))
+
+
+def proof_paragraphs(proof: Proof) -> list[str]:
+    """The proof, a paragraph for each of its parts."""
+    return [
+        f"proof: {proof.kind}. {proof.statement}",
         _independence_text(proof.certificate),
         f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
         f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
@@ -126,7 +132,6 @@ def proof_text(proof: Proof) -> str:
         *([] if proof.sampling is None else [_sampling_text(proof.sampling, proof.seed)]),
         f"base torque against standard torque: {proof.agreement:.1e} of the largest",
     ]
-    return "\n".join(textwrap.fill(text, _WIDTH) for text in paragraphs)
 
 
 def _independence_text(found: Certificate) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeler.core.files import page_place, write_atomically
+from modeler.core.formula import Formula
 from modeler.pages.render import render
 from modeler.pictures.picture import Picture
 
@@ -90,6 +91,14 @@ class Figure:
 
 
 @dataclass(frozen=True)
+class Formulas:
+    """Formulas below one another, each in pieces between which a line may break, and its unit."""
+
+    rows: Sequence[tuple[Sequence[Formula], str]]
+    block: str = "formulas"
+
+
+@dataclass(frozen=True)
 class Code:
     """Commands or text to copy, as it is."""
 
@@ -97,7 +106,7 @@ class Code:
     block: str = "code"
 
 
-Block = Table | Lead | Items | Verdicts | Figure | Code
+Block = Table | Lead | Items | Verdicts | Figure | Formulas | Code
 
 
 @dataclass(frozen=True)
