@@ -58,7 +58,7 @@ def _written(
         write_atomically(Path(args.robot), better.robot_text)
         places.append(args.robot)
     if args.report is not None and better.history:
-        write_additions(Path(args.report), better.spec.robot, better.history, left_out)
+        write_additions(Path(args.report), better, left_out)
         places.append(args.report)
     return places
 

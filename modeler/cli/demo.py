@@ -101,5 +101,5 @@ def _improved(
     for line in (*waterfall(better), *left_out):
         say(f"   {line}")
     if better.history:
-        write_additions(out / "improved.html", better.spec.robot, better.history, left_out)
+        write_additions(out / "improved.html", better, left_out)
     return better
