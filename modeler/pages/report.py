@@ -8,7 +8,7 @@ from modeler.diagnose.search import Step
 from modeler.diagnose.sentences import blind_spots, percent, unit, where
 from modeler.effects import effect_named
 from modeler.pages.event_pictures import play_picture, push_picture
-from modeler.pages.evidence import evidence_picture, rivals_of, rivals_picture
+from modeler.pages.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.pages.sheet import (
     Block,
     Cell,
@@ -134,7 +134,7 @@ def _shown(diagnosis: Diagnosis, step: Step, own: str) -> Section:
         Lead(figures(item)), Figure(torque_picture(item)), Figure(evidence_picture(item)),
     ]  # fmt: skip
     if rivals_of(step):
-        blocks.append(Figure(rivals_picture(step)))
+        blocks.append(rivals_table(step))
     else:
         blocks.append(
             Lead(f"No other effect of the catalogue explains anything of {where(joint)}.")
@@ -170,7 +170,7 @@ def _table(diagnosis: Diagnosis) -> list[Block]:
     if not findings:
         return [Lead(diagnosis.sentences[0])]
     head = (
-        "effect", Cell("joint", "text"), Cell("values", "text"), "error before", "error after",
+        "effect", Cell("joint", "text"), Cell("values", "values"), "error before", "error after",
         Cell("gain", "bar"), Cell("why", "why"),
     )  # fmt: skip
     drawn = {step.pick.key for step in diagnosis.search.steps}
@@ -198,7 +198,7 @@ def _row(finding: Finding, drawn: bool) -> list[str | Cell]:
     return [
         Cell(name, "text", link=_id(finding.effect, finding.joint) if drawn else ""),
         Cell(finding.joint or "all", "text"),
-        Cell(values, "text"),
+        Cell(values, "values"),
         percent(finding.error_before),
         percent(finding.error_after),
         Cell(percent(finding.gain), "bar", max(0.0, finding.gain)),

@@ -26,16 +26,16 @@ def values_table(
         [
             p.name,
             "set aside" if p.sigma is None else f"{p.value:.5g}",
-            "" if p.sigma is None else told_spread(p.value, p.sigma, p.interval).strip() or "0",
+            "" if p.sigma is None else _plain(told_spread(p.value, p.sigma, p.interval)) or "0",
             _share(p),
             Cell(p.unit, "text"),
-            Cell(sums.get(p.name, ""), "text"),
+            Cell(sums.get(p.name, ""), "values"),
         ]
         for p in parameters
     ]
     head = (
         "parameter", "value", "sigma", Cell("% sigma", "bar"), Cell("unit", "text"),
-        Cell("is the sum of", "text"),
+        Cell("is the sum of", "values"),
     )  # fmt: skip
     return Table(head, rows, caption)
 
@@ -130,7 +130,11 @@ def shapes_table(steps: Sequence[tuple[Addition, Mapping[str, str]]]) -> Table |
 
 def _spread(step: Addition, name: str) -> str:
     sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
-    return told_spread(step.shapes[name], sigma, interval).strip() or "-"
+    return _plain(told_spread(step.shapes[name], sigma, interval)) or "-"
+
+
+def _plain(spread: str) -> str:
+    return spread.strip().removeprefix("+- ").removeprefix("(").removesuffix(")")
 
 
 def chosen(

@@ -20,9 +20,14 @@ def step_name(step: Addition) -> str:
     return f"+ {step.effect}" + (f" @{step.joint}" if step.joint else "")
 
 
+def _broken(step: Addition) -> str:
+    """Its name on several lines, so that bars may be narrow."""
+    return step_name(step).replace("_", "\n").replace(" @", "\n@")
+
+
 def waterfall_picture(history: Sequence[Addition]) -> Picture:
     """Error over the joints after every effect, on held-out and on fitted logs."""
-    names = tuple(step_name(step) for step in history)
+    names = tuple(_broken(step) for step in history)
     held = np.array([100.0 * s.error for s in history])
     fitted = np.array([100.0 * s.training_error for s in history])
     apart = bool(history[-1].held_out)
@@ -80,7 +85,7 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
 def _joint(history: Sequence[Addition], name: str, unit: str) -> Panel:
     """Bars of one joint, those that change by chance only and the others."""
     steps = [step for step in history if name in step.joints]
-    names = tuple(step_name(step) for step in steps)
+    names = tuple(_broken(step) for step in steps)
     errors = np.array([100.0 * step.joints[name][1] for step in steps])
     surely = np.array([name in step.changed for step in steps])
     series = [
