@@ -14,7 +14,11 @@ from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
-from modeler.pages import write_additions, write_diagnosis, write_report
+from modeler.pages.additions import write_additions
+from modeler.pages.comparison import write_report
+from modeler.pages.following import after_add, after_compare, after_diagnosis
+from modeler.pages.report import write_diagnosis
+from modeler.pages.sheet import Origin
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 
@@ -64,7 +68,7 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
         found = diagnose(model, compiled, logs.fitted, logs.held_out, progress=bar)
     for line in lines(found):
         say(f"   {line}")
-    write_diagnosis(out / "diagnosis.html", found)
+    _diagnosed(out, found, (train, held_out))
     better = _improved(model, compiled, found, logs, out)
     say(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
     say(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
@@ -87,9 +91,21 @@ def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: P
     for line in (*comparison.summary().splitlines(), *verdict(comparison)):
         say(f"   {line}")
     with working("drawing the page"):
-        write_report(out / "compare.html", comparison, provenance)
+        place, fitted = str(out / "model.json"), [str(out / "train.parquet")]
+        write_report(
+            out / "compare.html", comparison, provenance,
+            Origin(place, comparison.prediction.logs, held_out=True),
+            [after_compare(place, fitted, [str(log)], held_out=True)],
+        )  # fmt: skip
     with progress("drawing pictures") as bar:
         write_pictures(out / "pictures", comparison, bar)
+
+
+def _diagnosed(out: Path, found: Diagnosis, logs: tuple[Path, Path]) -> None:
+    place, (train, held) = str(out / "model.json"), map(str, logs)
+    origin = Origin(place, [log.name for log in logs], held_out=True)
+    following = after_diagnosis(place, [train], [held], found)
+    write_diagnosis(out / "diagnosis.html", found, (), origin, following)
 
 
 def _improved(
@@ -101,5 +117,8 @@ def _improved(
     for line in (*waterfall(better), *left_out):
         say(f"   {line}")
     if better.history:
-        write_additions(out / "improved.html", better, left_out)
+        held = better.history[-1].held_out
+        origin = Origin(str(out / "improved.json"), held, held_out=True)
+        following = after_add(origin.model, [str(out / name) for name in held])
+        write_additions(out / "improved.html", better, left_out, origin, following)
     return better

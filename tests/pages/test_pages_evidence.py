@@ -13,10 +13,10 @@ from modeler.diagnose import Diagnosis, diagnose
 from modeler.effects import CATALOGUE, VARIABLES
 from modeler.observation import Log
 from modeler.observation.bristle import bristle
-from modeler.pages import write_diagnosis
 from modeler.pages.bins import bins_of, calm_rows
 from modeler.pages.event_pictures import play_picture
 from modeler.pages.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
+from modeler.pages.report import write_diagnosis
 from modeler.pages.shown import figures, shown
 from modeler.pictures.picture import COLOR_NAMES, Curve, Means, Panel, Picture
 from modeler.robot import robot_from_text
