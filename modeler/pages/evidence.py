@@ -178,7 +178,7 @@ def rivals_of(step: Step) -> list[Judged]:
 def rivals_table(step: Step) -> Table:
     """What the best effects on the same joint explain within the logs, below one another."""
     items = [step.judged, *rivals_of(step)[:7]]
-    rows = [
+    rows: list[list[str | Cell]] = [
         [item.candidate.effect.id, Cell(percent(gain), "bar", gain)]
         for item in items
         for gain in [max(0.0, item.gain)]
