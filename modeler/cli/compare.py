@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import read_logs, recompile
+from modeler.api import Mapped, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.contest import models_of, run_contest
 from modeler.cli.given import check_logs, given
@@ -33,7 +33,7 @@ def run_compare(args: argparse.Namespace) -> Json:
         model = with_essential_only(model, args.model)
     with working("predicting"):
         compiled = model.compile() if args.run_embedded_c else recompile(model)
-        comparison, lines, found = judged(model, args.logs, compiled)
+        comparison, lines, found = judged(model, args.logs, compiled, args.map)
     say(comparison.summary())
     say()
     for sentence in (*verdict(comparison), *model.warning):
@@ -65,10 +65,10 @@ def _page(
 
 
 def judged(
-    model: IdentifiedModel, logs: list[str], compiled: CompiledModel
+    model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = ()
 ) -> tuple[Comparison, list[str], tuple[Fault, ...]]:
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
-    read = read_logs(compiled, logs)
+    read = read_logs(compiled, logs, mapping)
     check_logs(given(logs, read), [])
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)

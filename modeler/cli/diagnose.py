@@ -27,8 +27,8 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     _check_joints(args.without, model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = read_logs(compiled, args.logs)
-        holdout = read_logs(compiled, args.holdout)
+        logs = read_logs(compiled, args.logs, args.map)
+        holdout = read_logs(compiled, args.holdout, args.map)
     check_apart(logs, holdout)
     with progress("looking for missing effects") as bar:
         diagnosis = diagnose(

@@ -21,11 +21,21 @@ from modeler.robot.builtin import builtin_file, builtin_names
 from modeler.robot.converted import OTHER_PROGRAMS
 from modeler.simulate.settings import MOTIONS
 
-_LOGS = (".csv", ".parquet")
+_MOTIONS = (".csv", ".parquet")
+_LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
+
+
+def log_endings() -> tuple[str, ...]:
+    """How the name of a log ends."""
+    return _LOGS
 
 
 class Word(str):
     """A text that names no file."""
+
+
+class MapWord(Word):
+    """A line of a mapping, or a file of such lines."""
 
 
 class Input(str):
@@ -97,7 +107,7 @@ class MotionOrKind(MotionFile):
 
     def __new__(cls, text: str) -> "MotionOrKind":
         """Refuses what is neither, as a wrong usage."""
-        if text not in MOTIONS and not text.endswith(_LOGS):
+        if text not in MOTIONS and not text.endswith(_MOTIONS):
             raise argparse.ArgumentTypeError(
                 f"got {text}; expected {', '.join(MOTIONS)}, or a .csv or .parquet file"
             )
@@ -143,7 +153,10 @@ class OutputFolder(str):
 class ModuleFolder(OutputFolder):
     """Of an emitted module."""
 
-    writes = ("*.c", "*.h", "*.md", "*.sha256", "manifest.json", "Makefile", "CMakeLists.txt")
+    writes = (
+        "*.c", "*.h", "*.md", "*.sha256", "*.pc.in", "*.cmake", "manifest.json", "Makefile",
+        "CMakeLists.txt",
+    )  # fmt: skip
 
 
 class PictureFolder(OutputFolder):

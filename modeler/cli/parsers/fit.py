@@ -3,7 +3,15 @@
 import argparse
 from typing import get_args
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_number,
+    add_page,
+    add_robot,
+)
 from modeler.cli.places import (
     LogFile,
     ModelFile,
@@ -16,7 +24,10 @@ from modeler.cli.places import (
 from modeler.core.choices import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
 from modeler.core.estimators import ABOUT, APART
 
-_LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
+_LOGS = (
+    "Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; FILE@START:END takes the rows between these "
+    "seconds"
+)
 
 
 def add_fit(commands: Commands) -> None:
@@ -30,6 +41,7 @@ def add_fit(commands: Commands) -> None:
     )
     add_robot(parser)
     parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    add_map(parser)
     parser.add_argument(
         "--out", metavar="MODEL", required=True, type=Output, help="model file to write"
     )
@@ -150,6 +162,7 @@ def add_compare(commands: Commands) -> None:
         "logs", metavar="LOG", nargs="+", type=model_or_log,
         help=f"{_LOGS}; before them perhaps further models, which are set beside the first",
     )  # fmt: skip
+    add_map(parser)
     add_page(parser, PageOrFolder)
     parser.add_argument(
         "--pictures", metavar="DIR", type=PictureFolder,
