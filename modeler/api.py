@@ -30,7 +30,7 @@ from modeler.core.errors import DataError, ManifestError
 from modeler.core.window import file_and_window
 from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
-from modeler.derivation import generate as generate
+from modeler.derivation import generate as generate_robot
 from modeler.derivation import load as load
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
@@ -38,6 +38,7 @@ from modeler.fit import (
     FitResult,
     IdentifiedModel,
     check_currents,
+    fitted_spec,
     identify,
     in_drive_units,
     provenance,
@@ -74,6 +75,29 @@ def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
         RobotError: a mistake in the definition, or an id that the robot has already.
     """
     return robot_from_text(with_own_effect(robot.text, name, definition), robot.name)
+
+
+def generate(
+    source: Derivation | IdentifiedModel,
+    folder: str | Path | None = None,
+    force: bool = False,
+) -> Emitted:
+    """The C module of a robot; of a model, with functions that have its fitted values.
+
+    Args:
+        source: what was derived, or a fitted model.
+        folder: the module is written there if it is given.
+        force: write also over files that no earlier run wrote, or that were edited since.
+
+    Raises:
+        ManifestError: this version derives another manifest than the one that the values of the
+            model belong to.
+        ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
+    """
+    if isinstance(source, Derivation):
+        return generate_robot(source, folder, force)
+    derivation, _ = _emitted_anew(source)
+    return generate_robot(derivation, folder, force, fitted_spec(source))
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
@@ -201,16 +225,23 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
     Raises:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
+    otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
+    return compile_model(_emitted_anew(model, otherwise)[1])
+
+
+def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
+    """What the robot text of a model gives, if that is what its values belong to."""
     robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
-    emitted = generate(derive(robot))
+    derivation = derive(robot)
+    emitted = generate_robot(derivation)
     if emitted.spec.signature() != model.spec.signature():
         what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
         raise ManifestError(
             f"model of {model.spec.robot}: its robot text gives another {what} than its values "
-            "belong to: made by another version of modeler, or changed since; fit it again, or use "
-            "--run-embedded-c to run the C in the file if you trust its source"
+            "belong to: made by another version of modeler, or changed since; fit it again"
+            f"{otherwise}"
         )
-    return compile_model(emitted)
+    return derivation, emitted
 
 
 def _uncoded(spec: ModuleSpec) -> ModuleSpec:

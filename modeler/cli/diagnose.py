@@ -12,7 +12,7 @@ from modeler.diagnose.sentences import blind_spots
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.observation.apart import check_apart
-from modeler.pages import write_diagnosis
+from modeler.pages.report import write_diagnosis
 from modeler.robot import robot_from_text
 from modeler.robot.place import near
 

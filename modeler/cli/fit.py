@@ -53,7 +53,8 @@ def run_fit(args: argparse.Namespace) -> Json:
         loaded = read_logs(compiled, args.payload_log, args.map)
         _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
-    way = estimated(args, robot, compiled, observation, logs, loaded)
+    with working("estimating"):
+        way = estimated(args, robot, compiled, observation, logs, loaded)
     with working("judging the fit"):
         told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
         bare = [log.name for log in logs]

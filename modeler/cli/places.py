@@ -25,6 +25,11 @@ _MOTIONS = (".csv", ".parquet")
 _LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
 
 
+def log_endings() -> tuple[str, ...]:
+    """How the name of a log ends."""
+    return _LOGS
+
+
 class Word(str):
     """A text that names no file."""
 

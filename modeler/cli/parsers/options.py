@@ -28,12 +28,33 @@ def add_number(
     parser.add_argument(option, metavar=metavar, type=kind, default=default, help=told)
 
 
+def add_several(
+    parser: argparse._ActionsContainer,
+    option: str,
+    metavar: str,
+    kind: type[str],
+    text: str,
+    dest: str | None = None,
+) -> None:
+    """An option that takes several words, and may be repeated; see `words` on where it ends."""
+    parser.add_argument(
+        option, metavar=metavar, nargs="+", action="extend", default=[], type=kind,
+        dest=dest or option.lstrip("-").replace("-", "_"),
+        help=f"{text}; all words up to the next option or --; may be repeated",
+    )  # fmt: skip
+
+
 def add_robot(parser: argparse.ArgumentParser) -> None:
     """The ROBOT argument and what changes it."""
     parser.add_argument(
         "robot", metavar="ROBOT", type=RobotFile,
         help="a robot file, or the name of a built-in robot",
     )  # fmt: skip
+    add_effects(parser)
+
+
+def add_effects(parser: argparse.ArgumentParser) -> None:
+    """`--effects LIST`, which changes ROBOT."""
     parser.add_argument(
         "--effects",
         metavar="LIST",
