@@ -73,7 +73,7 @@ def guesses(
     """
     groups: dict[str, list[str]] = {}
     for name in columns:
-        template, label = _template(name)
+        template, label = template_of(name)
         groups.setdefault(template, []).append(label)
     found: dict[str, Guess] = {}
     for template, labels in groups.items():
@@ -91,7 +91,7 @@ def guesses(
     return [_with_unit(one, columns, stated, slides) for one in known]
 
 
-def _template(name: str) -> tuple[str, str]:
+def template_of(name: str) -> tuple[str, str]:
     """`pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`."""
     match = _LABEL.search(name)
     if match is None:

@@ -1,8 +1,10 @@
 """What is in a log: clock, channels, doubts; numbers only, whoever shows them."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
+from typing import Any
 
 import numpy as np
 
@@ -77,6 +79,7 @@ class Look:
     """All that a log shows by itself.
 
     Attributes:
+        name: of the file.
         rows: of it.
         clock: None if no column is a time.
         channels: in the order of the file.
@@ -88,6 +91,8 @@ class Look:
         values: (n,) of every channel, SI where its unit is stated.
     """
 
+    name: str
+
     rows: int
     clock: Clock | None
     channels: tuple[Channel, ...]
@@ -98,16 +103,39 @@ class Look:
     time: np.ndarray
     values: Mapping[str, np.ndarray]
 
+    def to_json(self) -> dict[str, Any]:
+        """Plain data, without the values; a number that is not there is null."""
+        return {
+            "log": self.name,
+            "rows": self.rows,
+            "clock": None if self.clock is None else dataclasses.asdict(self.clock),
+            "channels": [_plain(dataclasses.asdict(channel)) for channel in self.channels],
+            "streams": [dataclasses.asdict(stream) for stream in self.streams],
+            "notes": list(self.notes),
+            "doubts": list(self.doubts),
+            "suggested": self.suggested,
+        }
 
-def look(table: Table, mapping: LogMap, joints: Sequence[JointSpec] = ()) -> Look:
+
+def look(
+    table: Table,
+    mapping: LogMap,
+    joints: Sequence[JointSpec] = (),
+    span: tuple[float | None, float | None] = (None, None),
+) -> Look:
     """What is in a log.
 
     Args:
         table: of the file, read with `mapping`.
         mapping: stated by the user; what it leaves open is guessed.
         joints: of the robot, if it is known.
+        span: only the rows from one time to another, s.
+
+    Raises:
+        DataError: no rows in that span, or a time column without values.
     """
     values = {name: table.numbers(name) for name in table.names if table.is_numeric(name)}
+    values = _within(table, values, span, joints)
     found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
     units = {name: one.unit for one in found for name in one.columns if one.unit}
     time, clock = _clock(table, values, found)
@@ -119,9 +147,38 @@ def look(table: Table, mapping: LogMap, joints: Sequence[JointSpec] = ()) -> Loo
     ]  # fmt: skip
     suggested = "" if mapping.layers else log_text(found, joints)
     return Look(
-        table.rows, clock, channels, table.found.streams, table.notes, tuple(doubts), suggested,
-        time, values,
+        table.path.name, len(time), clock, channels, table.found.streams, table.notes,
+        tuple(doubts), suggested, time, values,
     )  # fmt: skip
+
+
+def _plain(channel: dict[str, Any]) -> dict[str, Any]:
+    unlike = {k: None for k, v in channel.items() if isinstance(v, float) and not np.isfinite(v)}
+    return channel | unlike
+
+
+def _within(
+    table: Table,
+    values: dict[str, np.ndarray],
+    span: tuple[float | None, float | None],
+    joints: Sequence[JointSpec],
+) -> dict[str, np.ndarray]:
+    """The rows of a span of time."""
+    if span == (None, None):
+        return values
+    time, clock = _clock(table, values, guesses(values, {}, joints))
+    low, high = (-np.inf, np.inf)
+    if span[0] is not None:
+        low = span[0]
+    if span[1] is not None:
+        high = span[1]
+    rows = (time >= low) & (time < high)
+    if clock is None or rows.sum() < 2:
+        raise DataError(
+            f"{table.path}: fewer than two rows from {low:g} to {high:g} s; its times go from "
+            f"{np.nanmin(time):g} to {np.nanmax(time):g} s"
+        )
+    return {name: v[rows] for name, v in values.items()}
 
 
 def _clock(
@@ -130,7 +187,7 @@ def _clock(
     guess = next((one for one in found if one.own == "time"), None)
     name = guess.columns[0] if guess is not None else "time"
     if name not in values:
-        return np.arange(table.rows, dtype=float), None
+        return np.arange(len(next(iter(values.values()), ())), dtype=float), None
     time = values[name]
     if guess is not None and guess.unit and not table.unit(name):
         time = time * unit_named(guess.unit).factor
