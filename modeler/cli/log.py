@@ -68,8 +68,8 @@ def _of_fit(
             found = findings_of_fit(compiled, observation, result.beta)
     except ModelerError as error:
         return [f"as a log of {compiled.spec.robot} it cannot be fitted: {error}"]
-    notes = [note for note in log.notes if note not in seen.notes]
-    lines = [*notes, *(fault.line for fault in found)]
+    heard = [*log.notes, *(fault.line for fault in found)]
+    lines = [line for line in heard if not line.endswith(seen.notes)]
     told = (
         f"a fit of {observation.robot} leaves {result.relative_error:.1%} of the torque unexplained"
     )

@@ -30,6 +30,7 @@ _COUNTS = 5000.0  # span of whole numbers from which on a position is in counts
 _TURNS = 7.0  # rad; a joint that goes further in either way is likely in degrees
 _LONG = 3.0  # m; an axis that is longer is likely in mm
 _STRONG = 200.0  # A
+_HEAVY = 1e4  # N m
 
 RATES: Mapping[str, float] = {
     "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
@@ -151,18 +152,20 @@ def _ranged(own: str, values: Sequence[np.ndarray], slides: bool) -> str:
         if slides:
             return "mm" if span > _LONG else ""
         return "deg" if max(float(np.abs(v).max()) for v in values) > _TURNS else ""
+    if own == "tau":
+        return "mN m" if span > _HEAVY and not slides else ""
     return "mA" if own == "current" and span > _STRONG else ""
 
 
 def log_text(found: Sequence[Guess], joints: Sequence[JointSpec] = ()) -> str:
-    """The guesses as a table [log] to paste; "" if there are none."""
-    if not found:
-        return ""
-    count = max(len(one.labels) for one in found)
+    """The guesses as a table [log] to paste; "" if there are none, or all is ours already."""
+    count = max(len(one.labels) for one in found) if found else 0
     own = [joint.name for joint in joints] or [str(k + 1) for k in range(count)]
     lines, named = ["[log]  # guessed from names and ranges: check every line"], False
     for one in found:
         unit = f" [{one.unit}]" if one.unit else ""
+        if not unit and all(c in (one.own, *(one.own + j for j in own)) for c in one.columns):
+            continue  # ours already
         told = f"  # {one.why}" if one.why == "by its range" else ""
         if one.own == "time" or one.labels == ("",):
             key = one.own if one.own == "time" else f"{one.own}{own[0]}"
@@ -175,7 +178,7 @@ def log_text(found: Sequence[Guess], joints: Sequence[JointSpec] = ()) -> str:
             named = True
         column = one.template.replace("{}", mark)
         lines.append(f'"{one.own}<j>" = "{column}{_once(one.columns[0], unit)}"{told}')
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" if len(lines) > 1 else ""
 
 
 def _once(column: str, unit: str) -> str:

@@ -20,7 +20,9 @@ _GAP = 1.5  # of the median step
 _LIKE = 0.95  # correlation from which on a speed is the derivative of a position
 _NEAR = 0.1  # relative; of a ratio that is a matter of units
 _HELD = 3  # rows in a row at the extreme value that make it a limit
-_STUCK = 0.002  # share of the rows
+_STUCK = 0.005  # share of the rows
+_SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
+_JITTER = 0.05
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ class Channel:
     Attributes:
         name: as the user knows it: `pos[2] (q2)`.
         unit: stated or guessed, "" if nobody knows; `guessed` says which.
-        low, high: of the values in the file's unit; NaN without any.
+        low, high: of the values, in that unit; NaN without any.
         missing: rows without value.
         resolution: smallest step between values, 0 if there is no grid.
         limits: values at which it stays, with the share of rows: saturation.
@@ -88,7 +90,7 @@ class Look:
         doubts: what contradicts itself or looks like another unit.
         suggested: a [log] to paste, guessed; "" if a mapping is there already.
         time: (n,) s, or row numbers without a clock.
-        values: (n,) of every channel, SI where its unit is stated.
+        values: (n,) of every channel, in its unit.
     """
 
     name: str
@@ -139,8 +141,9 @@ def look(
     found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
     units = {name: one.unit for one in found for name in one.columns if one.unit}
     time, clock = _clock(table, values, found)
-    channels = tuple(_channel(table, name, v, units.get(name, "")) for name, v in values.items())
-    doubts = [*_units(found), *_rates(found, values, time)]
+    shown = {name: table.in_unit(name, v) for name, v in values.items()}
+    channels = tuple(_channel(table, name, v, units.get(name, "")) for name, v in shown.items())
+    doubts = [*_of_clock(clock), *_units(found), *_rates(found, values, time)]
     doubts += [
         f"{channel.name} never changes: is it connected?" for channel in channels
         if channel.constant
@@ -148,7 +151,7 @@ def look(
     suggested = "" if mapping.layers else log_text(found, joints)
     return Look(
         table.path.name, len(time), clock, channels, table.found.streams, table.notes,
-        tuple(doubts), suggested, time, values,
+        tuple(doubts), suggested, time, shown,
     )  # fmt: skip
 
 
@@ -241,16 +244,44 @@ def _resolution(values: np.ndarray) -> float:
 
 
 def _limits(values: np.ndarray, low: float, high: float) -> tuple[tuple[float, float], ...]:
-    """Ends of the range at which the values stay for some rows, and for which share of all."""
+    """Ends of the range at which the values stay for some rows, and for which share of all.
+
+    Not at the beginning or the end, where a robot stands still; and not of a channel that stays
+    anywhere, because it is slower than the log.
+    """
+    if not low < high:
+        return ()
+    edges = np.flatnonzero(np.diff(values)) + 1  # where another value begins
+    starts, ends = edges[:-1], edges[1:]
+    lengths = ends - starts
+    long = lengths >= _HELD
+    if lengths[long].sum() > _SLOW * values.size:
+        return ()
     found = []
-    for end in (low, high) if low < high else ():
-        at = np.concatenate(([0], (values == end).astype(int), [0]))
-        edges = np.flatnonzero(np.diff(at))
-        lengths = edges[1::2] - edges[::2]
-        rows = int(lengths[lengths >= _HELD].sum())
+    for end in (low, high):
+        rows = int(lengths[long & (values[starts] == end)].sum())
         if rows > _STUCK * values.size:
             found.append((end, rows / values.size))
     return tuple(found)
+
+
+def _of_clock(clock: Clock | None) -> list[str]:
+    """What a clock should not do."""
+    if clock is None:
+        return ["no column looks like the time: name it with --map time=COLUMN, or give --map rate"]
+    lines = []
+    if clock.back:
+        lines.append(f"{clock.column} goes back in {clock.back} rows: sort or split the log")
+    if clock.repeated:
+        lines.append(f"{clock.column} repeats itself in {clock.repeated} rows: delete them")
+    if clock.gaps:
+        lines.append(
+            f"{clock.column} has {clock.gaps} gaps, the widest {clock.largest:.4g} s at "
+            f"{clock.at:.4g} s"
+        )
+    if clock.jitter > _JITTER:
+        lines.append(f"{clock.column} is uneven: its steps differ by {clock.jitter:.0%}")
+    return lines
 
 
 def _units(found: Sequence[Guess]) -> list[str]:
@@ -310,9 +341,10 @@ def _ratio(name: str, position: str, slope: np.ndarray, speed: np.ndarray) -> st
     if abs(ratio + 1.0) < _NEAR:
         return f"{name} has the other sign of the derivative of {position}"
     pairs = [
-        (a.removesuffix("/s"), b) for a, b in permutations(RATES, 2)
-        if a in ("rad/s", "deg/s", "rev/s")
-        and abs(abs(ratio) * RATES[b] / RATES[a] - 1.0) < _NEAR
-    ]  # fmt: skip
-    words = f": {position} in {pairs[0][0]} and {name} in {pairs[0][1]}?" if pairs else ""
+        (abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a.removesuffix("/s"), b)
+        for a, b in permutations(RATES, 2)
+        if a != "rpm"
+    ]
+    off, first, second = min(pairs)
+    words = f": {position} in {first} and {name} in {second}?" if off < _NEAR else ""
     return f"{name} is {ratio:.3g} times the derivative of {position}{words}"

@@ -134,6 +134,11 @@ class Table:
         unit = self._units[name]
         return "" if unit is None else unit.text
 
+    def in_unit(self, name: str, values: np.ndarray) -> np.ndarray:
+        """SI values of a column in the unit that it is known to be in."""
+        unit = self._units[name]
+        return values if unit is None else values / unit.factor - unit.zero
+
     def source(self, name: str) -> str:
         """The same, ours first: `tau2`, or `tau2 from moment_b`."""
         column = self._taken.get(name, name)

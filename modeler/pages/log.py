@@ -53,7 +53,7 @@ def write_log_page(
 def clock_line(clock: Clock) -> str:
     """The clock in words."""
     parts = [f"{clock.column}: {clock.rate:.6g} Hz over {clock.duration:.4g} s"]
-    parts.append(f"jitter {100 * clock.jitter:.2g} % of a step")
+    parts.append(f"jitter {100 * clock.jitter:.2g} % of a step" if clock.jitter > 1e-6 else "even")
     if clock.gaps:
         parts.append(
             f"{clock.gaps} gaps, about {clock.lost} rows lost, the widest {clock.largest:.4g} s "
@@ -107,13 +107,15 @@ def channel_pictures(seen: Look) -> list[Picture]:
 
 def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) -> Picture:
     title = template.replace("{}", "*")
+    unit = next((c.unit for c in seen.channels if c.unit and names[0] in c.name), "")
+    label = f"{title} [{unit}]" if unit else title
     curves = []
     for k, name in enumerate(names):
         values = seen.values[name]
         rows = thin_curves((values,), _LIMIT)
         style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
         curves.append(Curve(name, seen.time[rows], values[rows], style))
-    panel = Panel("", _time_label(seen), title, tuple(curves))
+    panel = Panel("", _time_label(seen), label, tuple(curves))
     caption = (
         f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
         "between them are thinned. A value that is missing breaks its line."
