@@ -63,8 +63,7 @@ def _written(
         held = better.history[-1].held_out
         origin = Origin(args.out, held or args.logs, bool(held))
         following = after_add(args.out, args.holdout)
-        place = Path(args.report)
-        write_additions(place, better.spec.robot, better.history, left_out, origin, following)
+        write_additions(Path(args.report), better, left_out, origin, following)
         places.append(args.report)
     return places
 

@@ -126,6 +126,5 @@ def _improved(
         held = better.history[-1].held_out
         origin = Origin(str(out / "improved.json"), held, held_out=True)
         following = after_add(origin.model, [str(out / name) for name in held])
-        page, robot = out / "improved.html", better.spec.robot
-        write_additions(page, robot, better.history, left_out, origin, following)
+        write_additions(out / "improved.html", better, left_out, origin, following)
     return better

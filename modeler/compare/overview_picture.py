@@ -43,8 +43,8 @@ def _caption(comparison: Comparison) -> str:
     methods = {item.shares.method for item in comparison.joints if item.shares is not None}
     how = "; ".join(METHODS[name] for name in METHODS if name in methods)
     return (
-        "Relative error: unexplained share of each joint's torque. Variance: of the torque, and of "
-        "what is left alone. "
+        "Relative error: unexplained share of each joint's own torque or force. Variance: of it, "
+        "and of what is left alone. "
         + (f"Repeatable is {how}; noise is the rest. " if how else "")
         + "Where: in which velocity region the squared residual sits, and in brackets the share of "
         "the samples there; fast is beyond 40 %, around zero within 5 % of the joint's own top "

@@ -105,7 +105,7 @@ def _picture(found: Contest, item: JointContest) -> Picture:
 
 def _errors(found: Contest) -> Table:
     top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
-    rows = [
+    rows: list[list[str | Cell]] = [
         [
             Cell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
             *(Cell(percent(e), "bar", e / top) for e in item.errors),
@@ -126,7 +126,7 @@ def _errors(found: Contest) -> Table:
 
 
 def _sizes(found: Contest) -> Table:
-    rows = [
+    rows: list[list[str | Cell]] = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in found.joints
     ]
