@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import read_logs, recompile
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, progress, say, working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
@@ -13,7 +13,7 @@ from modeler.diagnose import Known, diagnose
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
 from modeler.observation.apart import check_apart
-from modeler.pages import write_additions
+from modeler.pages.additions import write_additions
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
@@ -23,11 +23,11 @@ def run_add(args: argparse.Namespace) -> Json:
     """Adds, saves, draws the waterfall."""
     _check(args)
     model = load_model(args.model)
-    with working(f"adding {args.effect}"):
+    with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
-        check_apart(logs.fitted, logs.held_out)
-        better, left_out = _better(model, compiled, args, logs)
+        logs = Logs(*(read_logs(compiled, p, args.map) for p in (args.logs, args.holdout)))
+    check_apart(logs.fitted, logs.held_out)
+    better, left_out = _better(model, compiled, args, logs)
     written = _written(args, better, left_out)
     for line in (
         *waterfall(better),
@@ -80,13 +80,17 @@ def _better(
     And why effects that the diagnosis names are left out.
     """
     if args.effect == "undo":
-        return undone(model, logs), ()
+        with working("fitting without the last effect"):
+            return undone(model, logs), ()
     if args.effect != "auto":
-        return add_effect(model, compiled, args.effect, args.joint, logs), ()
+        with working(f"adding {args.effect}"):
+            return add_effect(model, compiled, args.effect, args.joint, logs), ()
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     known = Known(robot.catalogue, robot.coupling)
-    found = diagnose(model, compiled, logs.fitted, logs.held_out, known=known)
-    better, left_out = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
+    with progress("looking for missing effects") as bar:
+        found = diagnose(model, compiled, logs.fitted, logs.held_out, known=known, progress=bar)
+    with working("adding what is missing"):
+        better, left_out = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
     if better is model and not left_out:
         raise DataError(
             "auto: nothing is added, because nothing that can be added is missing in this model "

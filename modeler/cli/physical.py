@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.cli.console import Json, complain, progress, say, working
+from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.parsers.physical import NOMINAL
 from modeler.cli.robots import read_told
 from modeler.core.errors import DataError, ModelerError
@@ -59,7 +59,7 @@ def run_physical(args: argparse.Namespace) -> Json:
         system = physical_system(derivation.model, derivation.base, args.of)
     fitted = None if model is None else _fitted(system, model)
     for line in () if model is None else model.warning:
-        complain(line)
+        note(line)
     result: dict[str, Json] = {"robot": system.robot, "from": system.source}
     if args.known is not None:
         result |= _known(args, system, fitted)

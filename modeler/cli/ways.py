@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from modeler.cli.console import working
 from modeler.cli.drive_gains import carried
 from modeler.compiled import CompiledModel
 from modeler.core.choices import TWO_STEPS
@@ -55,8 +54,7 @@ def estimated(
 ) -> Way:  # fmt: skip
     """The fit that the options ask for."""
     if args.model == "energy":
-        with working("integrating the work of the motors"):
-            energy = identify_energy(compiled, observation, args.window, args.method)
+        energy = identify_energy(compiled, observation, args.window, args.method)
         return Way(energy.result, refit=energy.without)
     if args.method == TWO_STEPS:
         ways = Directions(joint_directions(robot))
