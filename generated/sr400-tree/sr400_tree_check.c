@@ -61,10 +61,11 @@ static double difference(int state)
 int main(void)
 {
     double worst = 0.0;
+    const char *const signature = sr400_tree_signature();
 
-    if (strcmp(sr400_tree_signature(), SR400_TREE_SIGNATURE) != 0) {
-        printf("sr400_tree: the library is %s, the header %s\n", sr400_tree_signature(),
-               SR400_TREE_SIGNATURE);
+    if (strcmp(signature, SR400_TREE_SIGNATURE) != 0) {
+        printf("sr400_tree: the library is %s,\n", signature);
+        printf("the header %s\n", SR400_TREE_SIGNATURE);
         return 1;
     }
     for (int state = 0; state < STATES; state++) {
@@ -72,11 +73,11 @@ int main(void)
 
         worst = fmax(worst, found);
     }
+    printf("sr400_tree %s:\n", signature);
     if (worst > TOLERANCE) {
-        printf("sr400_tree %s: three ways to the torques do not agree; other compiler flags?\n",
-               sr400_tree_signature());
+        printf("three ways to the torques do not agree; other compiler flags?\n");
         return 1;
     }
-    printf("sr400_tree %s: three ways to the torques agree to %.1e\n", sr400_tree_signature(), worst);
+    printf("three ways to the torques agree to %.1e\n", worst);
     return 0;
 }

@@ -1,4 +1,4 @@
-"""What makes an emitted folder a package: its version, what is installed, the texts of the build."""
+"""What makes an emitted folder a package: its version, what is installed, texts of the build."""
 
 import re
 from collections.abc import Mapping
