@@ -56,7 +56,8 @@ def test_exceptions_are_still_needed() -> None:
 
 def test_what_is_imported_is_what_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    declared = {re.split("[<>=!~; ]", line)[0] for line in project["dependencies"]}
+    optional = project["optional-dependencies"]["notebook"]
+    declared = {re.split("[<>=!~; ]", line)[0] for line in [*project["dependencies"], *optional]}
     assert imported_packages(PACKAGE) == {name.removeprefix("python-") for name in declared}
 
 

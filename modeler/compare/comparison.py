@@ -23,6 +23,7 @@ from modeler.compare.shares import Shares, shares
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
+from modeler.core.presented import Presented
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
 
@@ -59,7 +60,7 @@ class JointComparison:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Presented):
     """What `compare` found; carries the prediction so that pictures can be drawn from it."""
 
     prediction: Prediction

@@ -15,6 +15,7 @@ from typing import Any
 from modeler.core.errors import ManifestError
 from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, built
+from modeler.core.presented import Presented
 
 FORMAT = 2
 
@@ -200,7 +201,7 @@ def code_digest(sources: Mapping[str, str]) -> str:
 
 
 @dataclass(frozen=True)
-class Emitted:
+class Emitted(Presented):
     """An emitted module, on no disk yet.
 
     Attributes:

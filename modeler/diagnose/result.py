@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.presented import Presented
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
@@ -149,7 +150,7 @@ class JointState:
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis:
+class Diagnosis(Presented):
     """What is missing in a model.
 
     Attributes:

@@ -92,7 +92,7 @@ class EnergyReport:
         ratios = {name: own / first if first > 0.0 else 1.0 for name, (own, first) in pairs.items()}
         return max(ratios.items(), key=lambda item: item[1])
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text."""
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
         lines = [

@@ -39,7 +39,7 @@ class Reduced:
     ratio: float
     limit: float | None
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text; none if nothing was left out."""
         if not self.dropped:
             return []

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from modeler.core.expression import Expression
+from modeler.core.presented import Presented
 from modeler.effects import CATALOGUE, Effect, Form, effect_named
 from modeler.robot.joint import Joint
 
@@ -114,7 +115,7 @@ class SharedParameter:
 
 
 @dataclass(frozen=True)
-class Robot:
+class Robot(Presented):
     """A robot: serial, tree-structured, or with closed loops.
 
     Attributes:

@@ -13,6 +13,7 @@ import pyarrow.parquet as pq
 
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
+from modeler.core.presented import Presented
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.settings import SimulationSettings
 
@@ -39,7 +40,7 @@ class Truth:
 
 
 @dataclass(frozen=True, eq=False)
-class SimulatedLog:
+class SimulatedLog(Presented):
     """What a robot's logger would have written.
 
     Attributes:
