@@ -23,6 +23,7 @@ from modeler.compare.shares import Shares, shares
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
+from modeler.core.brief import Brief
 from modeler.core.presented import Presented
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
@@ -38,7 +39,7 @@ class Moment:
 
 
 @dataclass(frozen=True, eq=False)
-class JointComparison:
+class JointComparison(Brief):
     """How one joint is predicted; N m for a revolute joint, N for a prismatic one."""
 
     joint: JointInfo

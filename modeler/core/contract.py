@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from modeler.core.brief import Brief
 from modeler.core.errors import ManifestError
 from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, built
@@ -40,7 +41,7 @@ class ArgumentSpec:
 
 
 @dataclass(frozen=True)
-class FunctionSpec:
+class FunctionSpec(Brief):
     """One emitted C function: all arguments are `const double *` inputs, then outputs."""
 
     name: str  # "wrist_base_regressor"
@@ -103,7 +104,7 @@ class TermSpec:
 
 
 @dataclass(frozen=True)
-class BaseSpec:
+class BaseSpec(Brief):
     """One base parameter: `name = sum of terms`, its column is that of `column_of`."""
 
     name: str  # "ZZ1R"
@@ -133,7 +134,7 @@ class SignalSpec:
 
 
 @dataclass(frozen=True)
-class ModuleSpec:
+class ModuleSpec(Brief):
     """The manifest of one robot."""
 
     robot: str

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.presented import Presented
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
@@ -22,7 +23,7 @@ LEFT = 0.15
 
 
 @dataclass(frozen=True, eq=False)
-class Pick:
+class Pick(Brief):
     """An effect ready to go into a model: nothing has to be searched for again.
 
     Attributes:
@@ -39,7 +40,7 @@ class Pick:
 
 
 @dataclass(frozen=True)
-class Finding:
+class Finding(Brief):
     """One missing effect.
 
     Attributes:
@@ -115,7 +116,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class JointState:
+class JointState(Brief):
     """One joint before and after.
 
     Attributes:

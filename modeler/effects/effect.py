@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 
 
@@ -176,7 +177,7 @@ VARIABLES = {
 
 
 @dataclass(frozen=True)
-class Form:
+class Form(Brief):
     """One way to write an effect: its columns and what shapes them.
 
     Attributes:
@@ -202,7 +203,7 @@ class Form:
 
 
 @dataclass(frozen=True)
-class Effect:
+class Effect(Brief):
     """A physical effect, defined once.
 
     Attributes:

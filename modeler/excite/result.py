@@ -10,6 +10,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from modeler.core.brief import Brief
 from modeler.core.presented import Presented
 from modeler.excite.bounds import Bounds
 from modeler.excite.series import Series, series
@@ -33,7 +34,7 @@ class Quality:
 
 
 @dataclass(frozen=True, eq=False)
-class Used:
+class Used(Brief):
     """What a motion uses of its limits, (J,) each, SI.
 
     Attributes:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.presented import Presented
 from modeler.fit.bodies import bodies_told
@@ -39,7 +40,7 @@ class JointFit:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Brief):
     """How a fit ends.
 
     Attributes:

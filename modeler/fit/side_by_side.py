@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from modeler.compiled import CompiledModel
+from modeler.core.brief import Brief
 from modeler.core.choices import Method
 from modeler.core.errors import ModelerError
 from modeler.core.estimators import ABOUT
@@ -21,7 +22,7 @@ FIRST: Method = "weighted"
 
 
 @dataclass(frozen=True, eq=False)
-class Tried:
+class Tried(Brief):
     """One estimator.
 
     Attributes:

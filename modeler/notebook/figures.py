@@ -37,7 +37,7 @@ def picture_figure(picture: Picture) -> Drawing:
 def robot_figure(robot: Robot) -> Drawing:
     """The robot at its [home], as wide as a column of a paper."""
     found = show(robot)
-    return skeleton_figure(found.skeleton, found.posture)
+    return skeleton_figure(found.skeleton, found.posture, Drawing)
 
 
 def parameters_figure(fit: FitResult) -> Drawing:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from modeler.core.brief import Brief
 from modeler.core.presented import Presented
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.damage import Damage
@@ -11,7 +12,7 @@ from modeler.observation.segments import JITTER
 
 
 @dataclass(frozen=True)
-class LogReport:
+class LogReport(Brief):
     """One log on its way to rows of W.
 
     Attributes:
@@ -108,7 +109,7 @@ class LogReport:
 
 
 @dataclass(frozen=True)
-class JointReport:
+class JointReport(Brief):
     """Rows of one joint.
 
     Attributes:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 from modeler.core.presented import Presented
 from modeler.effects import CATALOGUE, Effect, Form, effect_named
@@ -54,7 +55,7 @@ class EffectUse:
 
 
 @dataclass(frozen=True)
-class PhysicalLink:
+class PhysicalLink(Brief):
     """How a paper writes a link: mass, mass centre, inertia about the mass centre.
 
     Attributes:

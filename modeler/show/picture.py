@@ -5,6 +5,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from modeler.show.closing import Posture
@@ -33,18 +34,18 @@ def picture_bytes(skeleton: Skeleton, posture: Posture, suffix: str) -> bytes:
         return saved(_drawn(skeleton, posture), suffix)
 
 
-def picture_figure(skeleton: Skeleton, posture: Posture) -> Any:
-    """The picture as a figure of matplotlib, 3.5 inches wide."""
+def picture_figure(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) -> Any:
+    """The picture as a figure of that kind, 3.5 inches wide."""
     with matplotlib.rc_context(SETTINGS):
-        return _drawn(skeleton, posture).figure
+        return _drawn(skeleton, posture, kind).figure
 
 
-def _drawn(skeleton: Skeleton, posture: Posture) -> Any:
+def _drawn(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) -> Any:
     """The axes with the picture."""
     scene = scene_of(skeleton, posture)
     scene = replace(scene, lines=(*scene.lines, *gap_lines(skeleton, posture.u))).without(_HIDDEN)
     sheet = _sheet(skeleton, posture, scene)
-    axes = paper(sheet.size)
+    axes = paper(sheet.size, kind)
     draw_parts(axes, scene, sheet, posture.size)
     _names(axes, scene, sheet)
     _gravity(axes, skeleton.gravity, sheet)

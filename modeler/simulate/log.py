@@ -11,6 +11,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.presented import Presented
@@ -19,7 +20,7 @@ from modeler.simulate.settings import SimulationSettings
 
 
 @dataclass(frozen=True, eq=False)
-class Truth:
+class Truth(Brief):
     """What no sensor sees.
 
     Attributes:
