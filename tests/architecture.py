@@ -7,8 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses", "scoring",
-    "diagnose", "pages", "excite",
+    "pictures", "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses",
+    "scoring", "diagnose", "excite", "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -22,12 +22,12 @@ STAGES: dict[str, set[str]] = {
     "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
-    "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
-    "excite": {"core", "effects", "compiled", "observation", "hypotheses"},
+    "excite": {"core", "effects", "pictures", "compiled", "observation", "hypotheses"},
+    "pages": {"core", "effects", "robot", "show", *SOUTH[: SOUTH.index("pages")]},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
-    "showing": {"core", *NORTH, "show"},
+    "showing": {"core", *NORTH, "show", "pages"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
     "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
     "notebook": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing"},
@@ -40,7 +40,7 @@ STAGES: dict[str, set[str]] = {
         "showing",
         "improve",
         "notebook",
-    },  # fmt: skip
+    },
     "cli": {
         "core",
         *NORTH,
@@ -66,16 +66,17 @@ PACKAGES: dict[str, set[str]] = {
     "terms": {"numpy", "sympy"},
     "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
+    "pictures": {"numpy", "matplotlib"},
     "compiled": {"numpy", "cffi"},
     "observation": {"numpy", "scipy", "pyarrow"},
     "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
-    "compare": {"numpy", "scipy", "matplotlib", "plotly"},
+    "compare": {"numpy", "scipy"},
     "hypotheses": {"numpy", "scipy"},
     "scoring": {"numpy", "scipy"},
     "diagnose": {"numpy", "threadpoolctl"},
-    "pages": {"numpy", "scipy"},
+    "pages": {"numpy", "scipy", "jinja2"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "excite": {"numpy", "matplotlib", "pyarrow"},
     "show": {"numpy", "matplotlib"},
@@ -90,7 +91,7 @@ PACKAGES: dict[str, set[str]] = {
 
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
-    "jinja2": ("codegen/render.py",),
+    "jinja2": ("codegen/render.py", "pages/render.py"),
     "cffi": ("compiled/bind.py",),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.compare import Comparison
-from modeler.compare import write_report as write_comparison
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis
 from modeler.fit import IdentifiedModel
 from modeler.fit.side_by_side import SideBySide
 from modeler.pages import write_additions, write_diagnosis
+from modeler.pages import write_report as write_comparison
 from modeler.pages.estimators import write_estimators
 from modeler.robot import Robot
 from modeler.showing import show

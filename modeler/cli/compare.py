@@ -7,7 +7,7 @@ from pathlib import Path
 from modeler.api import read_logs, recompile
 from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
-from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
+from modeler.compare import Comparison, compare, verdict, write_pictures
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.estimators import titled
@@ -16,6 +16,7 @@ from modeler.fit.reduced import with_essential_only
 from modeler.observation import Log
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
+from modeler.pages import write_report
 
 _TRAINING = "training only: "
 

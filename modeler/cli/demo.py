@@ -8,13 +8,13 @@ from modeler.api import compile_model, derive, fit, generate, load, observe, rea
 from modeler.cli.add import waterfall
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
-from modeler.compare import verdict, write_pictures, write_report
+from modeler.compare import verdict, write_pictures
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose
 from modeler.diagnose.lines import lines
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
-from modeler.pages import write_additions, write_diagnosis
+from modeler.pages import write_additions, write_diagnosis, write_report
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 

@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.compare.comparison import JointComparison
-from modeler.compare.picture import (
+from modeler.compare.prediction import Prediction, residual
+from modeler.compare.where import WINDOW
+from modeler.pictures.picture import (
     BLACK,
     ORANGE,
     VERMILLION,
@@ -15,9 +17,7 @@ from modeler.compare.picture import (
     Series,
     Style,
 )
-from modeler.compare.prediction import Prediction, residual
-from modeler.compare.thinning import thin_curves
-from modeler.compare.where import WINDOW
+from modeler.pictures.thinning import thin_curves
 
 _MEASURED = Style(BLACK, width=1.1)
 _PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)

@@ -8,8 +8,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.compare.draw_matplotlib import Drawing, drawing
-from modeler.compare.picture import (
+from modeler.diagnose import Diagnosis
+from modeler.fit import FitResult
+from modeler.pictures.draw_matplotlib import Drawing, drawing
+from modeler.pictures.picture import (
     BLUE,
     COLORS,
     ORANGE,
@@ -19,9 +21,7 @@ from modeler.compare.picture import (
     Picture,
     Style,
 )  # fmt: skip
-from modeler.compare.thinning import thin_curves
-from modeler.diagnose import Diagnosis
-from modeler.fit import FitResult
+from modeler.pictures.thinning import thin_curves
 from modeler.robot import Robot
 from modeler.show.picture import picture_figure as skeleton_figure
 from modeler.showing import show
@@ -44,7 +44,7 @@ def parameters_figure(fit: FitResult) -> Drawing:
     """How sure each parameter is: its sigma in percent of its value."""
     known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
-    texts = tuple(f"{p.relative_sigma_percent:.2g}" for p in known)
+    texts = tuple(_rounded(p.relative_sigma_percent or 0.0) for p in known)
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
@@ -99,3 +99,8 @@ def _curves(joints: Sequence[str], time: np.ndarray, values: np.ndarray) -> list
         color = COLORS[j % len(COLORS)]
         found.append(Curve(name, time[rows], values[rows, j], Style(color, dash=j >= len(COLORS))))
     return found
+
+
+def _rounded(percent: float) -> str:
+    """Two digits, all of those before the point."""
+    return f"{percent:.2g}" if percent < 100.0 else f"{percent:.0f}" if percent < 1e4 else ">10000"

@@ -6,9 +6,7 @@ from functools import partial
 import numpy as np
 
 from modeler.compare import Comparison, headline, verdict
-from modeler.compare.draw_matplotlib import Drawing
 from modeler.compare.overview_picture import overview_picture
-from modeler.compare.picture import Picture
 from modeler.compare.prediction import residual
 from modeler.compare.residual_picture import residual_picture
 from modeler.compare.table import method_lines
@@ -22,6 +20,8 @@ from modeler.diagnose.sentences import blind_spots
 from modeler.notebook.figures import errors_picture, picture_figure
 from modeler.pages.evidence import evidence_picture
 from modeler.pages.shown import shown
+from modeler.pictures.draw_matplotlib import Drawing
+from modeler.pictures.picture import Picture
 
 
 def present_judgements() -> None:

@@ -5,7 +5,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.compare.picture import (
+from modeler.diagnose.search import Step
+from modeler.pages.bins import bins_of
+from modeler.pages.shown import Shown
+from modeler.pages.view import View, view_of
+from modeler.pictures.picture import (
     BLACK,
     BLUE,
     GREEN,
@@ -20,10 +24,6 @@ from modeler.compare.picture import (
     Series,
     Style,
 )
-from modeler.diagnose.search import Step
-from modeler.pages.bins import bins_of
-from modeler.pages.shown import Shown
-from modeler.pages.view import View, view_of
 from modeler.scoring.orders import order_spectrum
 
 ROWS = Style(GREY, 2.0, 0.35)
@@ -158,8 +158,8 @@ def rivals_picture(step: Step) -> Picture:
     """What the best effects explain within the logs, side by side."""
     items = [step.judged, *step.rivals[:7]]
     names = tuple(
-        i.candidate.effect.id.replace("_", "<br>")
-        + (f"<br>@{i.candidate.joint}" if i.candidate.joint else "")
+        i.candidate.effect.id.replace("_", "\n")
+        + (f"\n@{i.candidate.joint}" if i.candidate.joint else "")
         for i in items
     )
     gains = np.array([100.0 * max(0.0, i.gain) for i in items])

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.compare.picture import COLOR_NAMES, Curve, Means, Panel, Picture
 from modeler.diagnose import Diagnosis, diagnose
 from modeler.effects import CATALOGUE, VARIABLES
 from modeler.observation import Log
@@ -19,6 +18,7 @@ from modeler.pages.bins import bins_of, calm_rows
 from modeler.pages.event_pictures import play_picture
 from modeler.pages.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
 from modeler.pages.shown import figures, shown
+from modeler.pictures.picture import COLOR_NAMES, Curve, Means, Panel, Picture
 from modeler.robot import robot_from_text
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
@@ -141,7 +141,7 @@ def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
     size = float(np.sqrt(np.mean(item.after**2)))
     assert after == pytest.approx(size, rel=0.2)
     page = write_diagnosis(tmp_path / "page.html", diagnosis).read_text()
-    assert html.escape(text) in page
+    assert text in html.unescape(page)
 
 
 def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:

@@ -152,4 +152,4 @@ def _rows(series: Series) -> list[str]:
 
 def _quote(text: str) -> str:
     """Commas would shift the columns; line breaks of labels are no part of a name."""
-    return text.replace(",", ";").replace("<br>", " ")
+    return text.replace(",", ";").replace("\n", " ")

@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from modeler.compare.picture import (
+from modeler.pictures.picture import (
     BLUE,
     Bars,
     Curve,

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-LIMIT = 4000
+LIMIT = 1200
 
 
 def thin_curves(curves: tuple[np.ndarray, ...], limit: int = LIMIT) -> np.ndarray:
