@@ -151,6 +151,18 @@ def fit(
         DataError: the derivation, the C and the observation are not of one robot; or see
             `identify`.
     """
+    _check_of_one_robot(derivation, emitted, observation)
+    compiled = compile_model(emitted)
+    asked = Asked(method, energy, window, tuple(payloads))
+    way = estimated(asked, derivation.robot, compiled, observation)
+    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
+    loaded = {name for payload in payloads for name in payload.logs}
+    bare = [name for name in observation.logs if name not in loaded]
+    result = with_verdict(compiled, observation, way.result, told, bare, way.refit)
+    return identified(derivation, emitted, observation, result)
+
+
+def _check_of_one_robot(derivation: Derivation, emitted: Emitted, observation: Observation) -> None:
     names = tuple(base.name for base in emitted.spec.base)
     for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
         if other != emitted.spec.robot:
@@ -163,14 +175,6 @@ def fit(
             f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
             f"{', '.join(names)}; expected the same; observe with this C"
         )
-    compiled = compile_model(emitted)
-    asked = Asked(method, energy, window, tuple(payloads))
-    way = estimated(asked, derivation.robot, compiled, observation)
-    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-    loaded = {name for payload in payloads for name in payload.logs}
-    bare = [name for name in observation.logs if name not in loaded]
-    result = with_verdict(compiled, observation, way.result, told, bare, way.refit)
-    return identified(derivation, emitted, observation, result)
 
 
 def identified(

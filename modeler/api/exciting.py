@@ -207,23 +207,31 @@ def bounds_of(
             torques[name] = values[4]
     every = motion_limits(robot, changes)
     of = {name: every[moving.index(name)] for name in moving}
-    stated = {**robot.limits, **changes}
     lower, upper, speed, acceleration = np.array(
         [dataclasses.astuple(of[name])[:4] for name in coordinates]
     ).T
     closure = compiled.spec.closure
-    follow = () if closure is None else tuple(
-        (place, stated[name].lower, stated[name].upper)
-        for place, name in enumerate(closure.variables)
-        if place not in closure.given and name in stated
-    )  # fmt: skip
     home = None if closure is None else np.array(closure.home)[list(closure.given)]
     return Bounds(
         tuple(coordinates), lower, upper, speed, acceleration,
         torque=np.array([torques.get(name, np.inf) for name in coordinates]),
         boxes=tuple(_box(name, given, moving) for name, given in boxes.items()),
-        passive=follow, home=home,
+        passive=_following(compiled, {**robot.limits, **changes}), home=home,
     )  # fmt: skip
+
+
+def _following(
+    compiled: CompiledModel, stated: Mapping[str, Limits]
+) -> tuple[tuple[int, float, float], ...]:
+    """Ranges of the joints that follow, as stated."""
+    closure = compiled.spec.closure
+    if closure is None:
+        return ()
+    return tuple(
+        (place, stated[name].lower, stated[name].upper)
+        for place, name in enumerate(closure.variables)
+        if place not in closure.given and name in stated
+    )
 
 
 def _box(name: str, given: Sequence[float], moving: list[str]) -> Box:

@@ -89,11 +89,7 @@ def found_with_gains(
         found = identify_gains(compiled, observation, payloads)
     choices = observation.report.choices
     with working("reading the currents with these gains"):
-        gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
-        text = with_drive_gains(derivation.robot.text, gains)
-        robot = robot_from_text(text, derivation.robot.name)
-        model = dataclasses.replace(derivation.model, robot=robot)
-        derivation = dataclasses.replace(derivation, robot=robot, model=model)
+        derivation = _with_gains(derivation, found)
         emitted = generate(derivation)
         again = compile_model(emitted)
         observation, payloads = _observed(again, logs, load, observation.report.processing, check)
@@ -111,6 +107,15 @@ def found_with_gains(
     report = dataclasses.replace(observation.report, choices=choices)
     observation = dataclasses.replace(observation, report=report)
     return identified(derivation, emitted, observation, result), observation
+
+
+def _with_gains(derivation: Derivation, found: GainFit) -> Derivation:
+    """The same robot, its file with these gains."""
+    gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
+    text = with_drive_gains(derivation.robot.text, gains)
+    robot = robot_from_text(text, derivation.robot.name)
+    model = dataclasses.replace(derivation.model, robot=robot)
+    return dataclasses.replace(derivation, robot=robot, model=model)
 
 
 def _observed(

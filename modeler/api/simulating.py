@@ -47,18 +47,24 @@ def simulate(
     """
     if path is not None:
         check_suffix(Path(path))
-    known = {field.name for field in dataclasses.fields(SimulationSettings)}
-    for name in settings:
-        if name not in known:
-            raise DataError(f"simulate: got {name}; expected some of {', '.join(sorted(known))}")
-    hidden = tuple(hidden_from_text(each) if isinstance(each, str) else each for each in hide)
-    if str(motion).endswith((".csv", ".parquet")):
-        rate = settings.get("rate", SimulationSettings().rate)
-        joints = [joint.name for joint in robot.coordinates]
-        settings["commanded"] = at_rate(read_motion(motion, joints), rate)
-    else:
-        settings["motion"] = str(motion)
-    log = simulated(robot, SimulationSettings(hidden=hidden, **settings), progress)
+    asked = _settings(robot, hide, motion, settings)
+    log = simulated(robot, asked, progress)
     if path is not None:
         write_log(Path(path), log)
     return log
+
+
+def _settings(
+    robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, given: dict[str, Any]
+) -> SimulationSettings:
+    known = {field.name for field in dataclasses.fields(SimulationSettings)}
+    for name in given:
+        if name not in known:
+            raise DataError(f"simulate: got {name}; expected some of {', '.join(sorted(known))}")
+    hidden = tuple(hidden_from_text(each) if isinstance(each, str) else each for each in hide)
+    if not str(motion).endswith((".csv", ".parquet")):
+        return SimulationSettings(hidden=hidden, motion=str(motion), **given)
+    rate = given.get("rate", SimulationSettings().rate)
+    joints = [joint.name for joint in robot.coordinates]
+    commanded = at_rate(read_motion(motion, joints), rate)
+    return SimulationSettings(hidden=hidden, commanded=commanded, **given)
