@@ -82,7 +82,7 @@ class ExactState:
 
 
 @dataclass(frozen=True)
-class BallRank:
+class BallRank(Brief):
     """Independence proven in ball arithmetic: a minor of the torques whose ball excludes 0.
 
     Attributes:

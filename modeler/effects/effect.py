@@ -93,7 +93,7 @@ _SHAPE_UNITS: Mapping[Scale, tuple[str, str]] = {
 
 
 @dataclass(frozen=True)
-class Shape:
+class Shape(Brief):
     """A parameter that enters a column nonlinearly; found on a grid, then refined.
 
     Attributes:
@@ -137,7 +137,7 @@ class Memory:
 
 
 @dataclass(frozen=True)
-class EffectColumn:
+class EffectColumn(Brief):
     """One column: torque of the joint = equation * parameter.
 
     Attributes:
