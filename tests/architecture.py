@@ -7,8 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "pictures", "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses",
-    "scoring", "diagnose", "excite", "pages",
+    "pictures", "compiled", "logs", "observation", "estimate", "fit", "residuals", "compare",
+    "hypotheses", "scoring", "diagnose", "excite", "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -22,6 +22,7 @@ STAGES: dict[str, set[str]] = {
     "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
+    "logs": {"core"},
     "excite": {"core", "effects", "pictures", "compiled", "observation", "hypotheses"},
     "pages": {"core", "effects", "robot", "show", *SOUTH[: SOUTH.index("pages")]},
     "simulate": {"core", "robot"},
@@ -68,7 +69,8 @@ PACKAGES: dict[str, set[str]] = {
     "codegen": {"numpy", "sympy", "jinja2"},
     "pictures": {"numpy", "matplotlib"},
     "compiled": {"numpy", "cffi"},
-    "observation": {"numpy", "scipy", "pyarrow"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "observation": {"numpy", "scipy"},
     "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
@@ -98,6 +100,8 @@ ONLY_IN = {
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
     "flint": ("symbolic/balls.py",),
     "pandas": ("core/table.py",),
+    "h5py": ("logs/hdf5.py",),
+    "rosbags": ("logs/bags.py",),
 }
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

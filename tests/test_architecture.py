@@ -56,9 +56,16 @@ def test_exceptions_are_still_needed() -> None:
 
 def test_what_is_imported_is_what_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    optional = project["optional-dependencies"]["notebook"]
-    declared = {re.split("[<>=!~; ]", line)[0] for line in [*project["dependencies"], *optional]}
-    assert imported_packages(PACKAGE) == {name.removeprefix("python-") for name in declared}
+    declared = _names(project["dependencies"])
+    groups = project["optional-dependencies"]
+    extras = {name for group, lines in groups.items() if group != "test" for name in _names(lines)}
+    imported = imported_packages(PACKAGE)
+    assert declared <= imported <= declared | extras
+    assert extras <= imported
+
+
+def _names(lines: list[str]) -> set[str]:
+    return {re.split("[<>=!~; ]", line)[0].removeprefix("python-") for line in lines}
 
 
 # file, its text, what the checker must say of it

@@ -22,6 +22,7 @@ from modeler.api.catalogue import estimators as estimators
 from modeler.api.catalogue import robots as robots
 from modeler.api.chain import AnyLog as AnyLog
 from modeler.api.chain import Derivation as Derivation
+from modeler.api.chain import Mapped as Mapped
 from modeler.api.chain import compare as compare
 from modeler.api.chain import compile_model as compile_model
 from modeler.api.chain import derive as derive
@@ -37,6 +38,7 @@ from modeler.api.chain import read_logs as read_logs
 from modeler.api.chain import recompile as recompile
 from modeler.api.chain import reduced as reduced
 from modeler.api.chain import show as show
+from modeler.api.contests import contest as contest
 from modeler.api.exciting import excite as excite
 from modeler.api.exciting import tell_apart as tell_apart
 from modeler.api.files import open_model as open_model

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Sequence
 
-from modeler.api.chain import AnyLog, compile_model, generate, identified, read_currents
+from modeler.api.chain import AnyLog, Mapped, compile_model, generate, identified, read_currents
 from modeler.api.steps import Steps, silent
 from modeler.compiled import CompiledModel
 from modeler.core.contract import ModuleSpec
@@ -78,6 +78,7 @@ def found_with_gains(
     processing: Processing,
     check: Checked = _apart,
     working: Steps = silent,
+    mapping: Mapped = (),
 ) -> tuple[IdentifiedModel, Observation]:
     """The same, and the observation that the model was fitted to.
 
@@ -85,14 +86,16 @@ def found_with_gains(
     will: all that is told of the fit is told of those torques.
     """
     with working("finding the drive gains"):
-        observation, payloads = _observed(compiled, logs, load, processing, check)
+        observation, payloads = _observed(compiled, logs, load, processing, check, mapping)
         found = identify_gains(compiled, observation, payloads)
     choices = observation.report.choices
     with working("reading the currents with these gains"):
         derivation = _with_gains(derivation, found)
         emitted = generate(derivation)
         again = compile_model(emitted)
-        observation, payloads = _observed(again, logs, load, observation.report.processing, check)
+        observation, payloads = _observed(
+            again, logs, load, observation.report.processing, check, mapping
+        )
         result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
         told: list[Told] = [*findings_of_fit(again, observation, result.beta)]
@@ -124,8 +127,9 @@ def _observed(
     load: Load,
     processing: Processing,
     check: Checked,
+    mapping: Mapped,
 ) -> tuple[Observation, list[Payload]]:
-    bare, loaded = (read_currents(compiled, some) for some in (logs, load.logs))
+    bare, loaded = (read_currents(compiled, some, mapping) for some in (logs, load.logs))
     check(bare, loaded)
     return observe(compiled, [*bare, *loaded], processing), load.payloads(loaded)
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from modeler.api.chain import AnyLog, read_logs, recompile
+from modeler.api.steps import Steps, silent
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known
@@ -66,6 +67,7 @@ def auto_added(
     compiled: CompiledModel,
     logs: Logs,
     progress: Callable[[float], None] | None = None,
+    working: Steps = silent,
 ) -> tuple[IdentifiedModel, tuple[str, ...], Diagnosis]:
     """The model with what a diagnosis names, why some of it is left out, and the diagnosis.
 
@@ -78,7 +80,8 @@ def auto_added(
         model, compiled, logs.fitted, logs.held_out, progress=progress, known=known
     )
     findings = [*found.effects, *found.refinements]
-    better, left_out = add_findings(model, compiled, findings, logs)
+    with working("adding what is missing"):
+        better, left_out = add_findings(model, compiled, findings, logs)
     if better is model and not left_out:
         raise DataError(
             "auto: nothing is added, because nothing that can be added is missing in this model "

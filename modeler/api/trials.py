@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from modeler.api.chain import AnyLog, compile_model, derive, generate, read_logs
+from modeler.api.chain import AnyLog, Mapped, compile_model, derive, generate, read_logs
 from modeler.compiled import CompiledModel
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
@@ -43,10 +43,13 @@ def side_by_side(
 
 
 def observed_apart(
-    compiled: CompiledModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog]
+    compiled: CompiledModel,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog],
+    mapping: Mapped = (),
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""
-    given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    given, kept = (read_logs(compiled, some, mapping) for some in (logs, holdout))
     check_apart(given, kept)
     observation = observe(compiled, given)
     held = observe(compiled, kept, observation.report.processing) if kept else None

@@ -6,14 +6,14 @@ from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.api.improving import auto_added
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, progress, say, working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, added, notes, undone
 from modeler.observation.apart import check_apart
-from modeler.pages import write_additions
+from modeler.pages.additions import write_additions
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -22,11 +22,11 @@ def run_add(args: argparse.Namespace) -> Json:
     """Adds, saves, draws the waterfall."""
     _check(args)
     model = load_model(args.model)
-    with working(f"adding {args.effect}"):
+    with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
-        check_apart(logs.fitted, logs.held_out)
-        better, left_out = _better(model, compiled, args, logs)
+        logs = Logs(*(read_logs(compiled, p, args.map) for p in (args.logs, args.holdout)))
+    check_apart(logs.fitted, logs.held_out)
+    better, left_out = _better(model, compiled, args, logs)
     written = _written(args, better, left_out)
     for line in (
         *waterfall(better),
@@ -79,10 +79,13 @@ def _better(
     And why effects that the diagnosis names are left out.
     """
     if args.effect == "undo":
-        return undone(model, logs), ()
+        with working("fitting without the last effect"):
+            return undone(model, logs), ()
     if args.effect != "auto":
-        return add_effect(model, compiled, args.effect, args.joint, logs), ()
-    better, left_out, _ = auto_added(model, compiled, logs)
+        with working(f"adding {args.effect}"):
+            return add_effect(model, compiled, args.effect, args.joint, logs), ()
+    with progress("looking for missing effects") as bar:
+        better, left_out, _ = auto_added(model, compiled, logs, bar, working)
     return better, left_out
 
 

@@ -8,15 +8,20 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, redirect_stdout
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from modeler.cli.loudness import Loudness, loudness, step
 from modeler.core.destination import Kind, destination
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+_SHOWN: ContextVar[bool] = ContextVar("shown", default=False)
+"""Whether a bar is on the terminal: work inside work adds none."""
 
 Json = Any
 """What a command returns for `--json`: dicts, lists, texts, numbers."""
@@ -64,6 +69,12 @@ def complain(text: str) -> None:
         if sys.stderr is not None:
             sys.stderr.write(f"modeler: {text}\n")
             sys.stderr.flush()
+
+
+def note(text: str) -> None:
+    """One line on stderr that is no error; none with --quiet."""
+    if loudness() is not Loudness.QUIET:
+        complain(text)
 
 
 def show_any_letter() -> None:
@@ -119,30 +130,35 @@ def _is_stdout(place: str) -> bool:
 @contextmanager
 def progress(title: str) -> Iterator[Callable[[float], None]]:
     """A bar on stderr while something runs, if stderr is a terminal; call with the share done."""
-    console = _terminal()
+    with step(title), _bar(title, 1.0) as tell:
+        yield tell
+
+
+@contextmanager
+def working(title: str) -> Iterator[None]:
+    """A bar that says only that something runs, and for how long, if stderr is a terminal."""
+    with step(title), _bar(title, None):
+        yield
+
+
+@contextmanager
+def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
+    """A bar on a terminal; it moves to and fro where nobody knows the share."""
+    hidden = loudness() is Loudness.QUIET or _SHOWN.get()
+    console = None if hidden else _terminal()
     if console is None:
         yield lambda share: None
         return
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(title, total=1.0)
-        yield lambda share: bar.update(task, completed=share)
-
-
-@contextmanager
-def working(title: str) -> Iterator[None]:
-    """A spinner on stderr, if stderr is a terminal."""
-    console = _terminal()
-    if console is None:
-        yield
-        return
-    from rich.text import Text
-
-    letters = console.encoding.lower().startswith("utf")
-    with console.status(Text(title), spinner="dots" if letters else "line"):
-        yield
+    before = _SHOWN.set(True)
+    try:
+        with Progress(*columns, console=console, transient=True) as bar:
+            task = bar.add_task(title, total=total)
+            yield lambda share: bar.update(task, completed=share)
+    finally:
+        _SHOWN.reset(before)
 
 
 def _terminal() -> "Console | None":

@@ -14,7 +14,9 @@ from modeler.diagnose import Diagnosis, diagnose
 from modeler.diagnose.lines import lines
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
-from modeler.pages import write_additions, write_diagnosis, write_report
+from modeler.pages.additions import write_additions
+from modeler.pages.comparison import write_report
+from modeler.pages.report import write_diagnosis
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 
@@ -55,7 +57,8 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
     say(f"2. simulate two runs of {args.duration:g} s; the machine has something the file lacks")
     train, held_out = (_simulated(story, out, name, seed, args.duration) for name, seed in _RUNS)
     say(f"3. fit to {train.name}, compare with {held_out.name}")
-    model = fit(derivation, emitted, observe(compiled, [train]))
+    with working("fitting"):
+        model = fit(derivation, emitted, observe(compiled, [train]))
     save_model(out / "model.json", model)
     _compared(model, compiled, out, held_out)
     say("4. diagnose: which effect is missing?")
@@ -96,7 +99,8 @@ def _improved(
     model: IdentifiedModel, compiled: CompiledModel, found: Diagnosis, logs: Logs, out: Path
 ) -> IdentifiedModel:
     say("5. add it: new robot file, new C, new fit")
-    better, left_out = add_findings(model, compiled, found.effects, logs)
+    with working("adding what is missing"):
+        better, left_out = add_findings(model, compiled, found.effects, logs)
     save_model(out / "improved.json", better)
     for line in (*waterfall(better), *left_out):
         say(f"   {line}")

@@ -26,7 +26,7 @@ def fit_with_gains(
     check_load(args)
     return found_with_gains(
         derivation, compiled, args.logs, _load(args), processing,
-        lambda logs, loaded: check(args, logs, loaded), working,
+        lambda logs, loaded: check(args, logs, loaded), working, args.map,
     )  # fmt: skip
 
 

@@ -49,7 +49,7 @@ def _compared(
     with working(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
     with working("building the observation matrix"):
-        observation, held = observed_apart(compiled, args.logs, args.holdout)
+        observation, held = observed_apart(compiled, args.logs, args.holdout, args.map)
     with progress("fitting") as bar:
         tried = side_by_side(observation, compiled, held, methods, bar)
     return tried, tuple(observation.report.lines())

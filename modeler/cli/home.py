@@ -35,7 +35,8 @@ def run_home(args: argparse.Namespace) -> Json:
     for line in _table(found):
         say(line)
     if args.pictures is not None:
-        write_atomically(Path(args.pictures), modes_file(found, kind))
+        with working("drawing"):
+            write_atomically(Path(args.pictures), modes_file(found, kind))
         say(f"written: {args.pictures}")
     home = written(found.linkage, found.modes[chosen].posture)
     if args.write:

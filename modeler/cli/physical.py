@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from modeler.api.physical import UNITS, Physical, PhysicalValues, physical
-from modeler.cli.console import Json, complain, progress, say, working
+from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.robots import read_told
 from modeler.core.errors import DataError
 from modeler.derivation import Derivation, derive
@@ -36,7 +36,7 @@ def run_physical(args: argparse.Namespace) -> Json:
         subject = physical(thing, args.of)
     system = subject.system
     for line in () if model is None else model.warning:
-        complain(line)
+        note(line)
     result: dict[str, Json] = {"robot": system.robot, "from": system.source}
     if args.known is not None:
         result |= _known(args, subject)

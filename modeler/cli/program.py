@@ -2,8 +2,12 @@
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING
 
 from modeler.cli.interrupt import INTERRUPTED, ending, loading
+
+if TYPE_CHECKING:
+    import argparse
 
 Phase = Callable[[], AbstractContextManager[None]]
 
@@ -47,16 +51,35 @@ def _run(words: Sequence[str], phase: Phase) -> int:
 
 def _answer(words: Sequence[str], phase: Phase) -> None:
     with phase():
-        from modeler.cli.console import run_command
-        from modeler.cli.parsers import parser
+        from modeler.cli.loudness import Loudness, tell_error, tell_start, told
+        from modeler.cli.parsers import parsed
+        from modeler.core.errors import ModelerError
+
+        args, wanted = parsed(words)
+    with told(wanted):
+        try:
+            tell_start(words)
+            _carried_out(args, phase, wanted is Loudness.VERBOSE)
+        except ModelerError:
+            tell_error()
+            raise
+
+
+def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
+    with phase():
+        from modeler.cli.console import note, run_command
+        from modeler.cli.loudness import clock, step
         from modeler.cli.places import check_places
 
-        args = parser().parse_args(list(words))
+    if args.read_as:
+        note(args.read_as)
     check_places(args)
-    with phase():
+    with phase(), step("loading"), clock("loading"):
         import logging
 
         # Where it may keep no list of fonts it says so in lines of its own; pictures are the same.
-        logging.getLogger("matplotlib").setLevel(logging.ERROR)
+        if not every_line:
+            logging.getLogger("matplotlib").setLevel(logging.ERROR)
         run = args.load()
-    run_command(args, run)
+    with step(args.command):
+        run_command(args, run)

@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Sequence
 
-from modeler.cli.console import Json, complain, say, working
+from modeler.cli.console import Json, note, say, working
 from modeler.cli.signature import signature_lines
 from modeler.core.errors import RobotError
 from modeler.effects import CATALOGUE, Effect, effect_named
@@ -54,8 +54,8 @@ def robot_with_effects(args: argparse.Namespace) -> Robot:
 def read_told(name: str) -> Robot:
     """The robot of that name or file; what a conversion decided or left out, on stderr."""
     robot = read_robot(name)
-    for note in conversion_notes(name):
-        complain(f"{name}: {note}")
+    for line in conversion_notes(name):
+        note(f"{name}: {line}")
     return robot
 
 

@@ -1,20 +1,23 @@
 """The error of each log by itself, when several are compared."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.compare.prediction import Prediction, residual
+from modeler.compare.prediction import Prediction, residual, unit_errors
+from modeler.core.brief import Brief
 
 
 @dataclass(frozen=True)
-class LogError:
+class LogError(Brief):
     """||measured - predicted|| / ||measured|| over the rows of one log that count."""
 
     log: str
     samples: int  # rows that count for at least one joint
     relative_error: float  # all joints; NaN without torque
     joints: tuple[tuple[str, float], ...]  # by joint name; NaN where nothing counts
+    by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
 
 
 def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
@@ -33,6 +36,7 @@ def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
                     (info.name, _relative(e[rows, j], measured[rows, j]))
                     for j, info in enumerate(prediction.joints)
                 ),
+                by_unit=unit_errors(prediction, rows),
             )
         )
     return tuple(found)

@@ -1,6 +1,6 @@
 """All pictures of a comparison, and as files."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.compare.comparison import Comparison, JointComparison
@@ -39,8 +39,16 @@ def write_pictures(
     Raises:
         ModelerError: the folder cannot be written.
     """
+    return write_each(folder, all_pictures(comparison), progress)
+
+
+def write_each(
+    folder: Path,
+    pictures: Sequence[Picture],
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Path, ...]:
+    """Write these pictures as PNG, SVG and CSV; as `write_pictures`."""
     written = []
-    pictures = all_pictures(comparison)
     for number, picture in enumerate(pictures, start=1):
         files = {**images(picture), "csv": picture_csv(picture).encode()}
         for kind, content in files.items():

@@ -22,15 +22,34 @@ from modeler.pages.evidence import evidence_picture
 from modeler.pages.shown import shown
 from modeler.pictures.draw_matplotlib import Drawing
 from modeler.pictures.picture import Picture
+from modeler.scoring.contest import Contest
+from modeler.scoring.contest_text import contest_lines
 
 
 def present_judgements() -> None:
-    """Comparison, Diagnosis."""
+    """Comparison, Contest, Diagnosis."""
+    present(Contest, Presentation("a contest of models", _contest_summary, _contest_tables))
     present(Comparison, Presentation("a comparison", _comparison_summary, _comparison_tables,
                                      _comparison_figures))  # fmt: skip
     present(Diagnosis, Presentation("a diagnosis", lambda d: "\n".join(lines(d)),
                                     _diagnosis_tables, _diagnosis_figures,
                                     ("effects", "joints")))  # fmt: skip
+
+
+def _contest_summary(found: Contest) -> str:
+    first = f"{found.predictions[0].robot}: {len(found.names)} models on {found.samples} samples"
+    return "\n".join([first, *contest_lines(found)])
+
+
+def _contest_tables(found: Contest) -> Tables:
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (item.joint.name, *(100.0 * error for error in item.errors),
+         None if item.best is None else found.names[item.best], item.chance)
+        for item in found.joints
+    )  # fmt: skip
+    columns = (("joint", ""), *((name, "%") for name in found.names), ("best beyond doubt", ""),
+               ("chance", ""))  # fmt: skip
+    return {"errors": lambda: Table("relative error of each model", columns, rows)}
 
 
 def _comparison_summary(comparison: Comparison) -> str:

@@ -53,9 +53,26 @@ const places = (picture, width) => {
   return { found, height: picture.height, apart: false };
 };
 
+// The outline of what lies between two curves, one closed piece for each run without a gap.
+const outline = (x, low, high) => {
+  const found = { x: [], y: [] };
+  for (let start = 0, k = 0; k <= x.length; k++) {
+    if (k < x.length && Number.isFinite(low[k]) && Number.isFinite(high[k])) continue;
+    for (let i = start; i < k; i++) { found.x.push(x[i]); found.y.push(high[i]); }
+    for (let i = k - 1; i >= start; i--) { found.x.push(x[i]); found.y.push(low[i]); }
+    if (k > start) { found.x.push(null); found.y.push(null); }
+    start = k + 1;
+  }
+  return found;
+};
+
 const trace = (series, numbers, axis) => {
   const common = { name: plain(series.label), showlegend: false, legendgroup: series.label,
     xaxis: `x${axis}`, yaxis: `y${axis}`, opacity: series.opacity };
+  if (series.kind === "band")
+    return { ...common, ...outline(numbers[series.x], numbers[series.low], numbers[series.high]),
+      type: "scatter", mode: "lines", line: { width: 0 }, fill: "toself", hoverinfo: "skip",
+      fillcolor: series.color };
   const y = numbers[series.y], line = { color: series.color, width: series.width };
   if (series.kind === "bars") {
     const base = series.base === null ? undefined : numbers[series.base];
@@ -78,9 +95,12 @@ const shapes = (panel, n) => {
   const found = [];
   if (panel.zero) found.push({ type: "line", xref: `x${n} domain`, yref: `y${n}`, x0: 0, x1: 1,
     y0: 0, y1: 0, layer: "below", line: { color: "#666", width: 0.8 } });
+  for (const [color, ends] of panel.spans) for (const [start, end] of ends)
+    found.push({ type: "rect", xref: `x${n}`, yref: `y${n} domain`, x0: start, x1: end, y0: 0,
+      y1: 1, layer: "below", fillcolor: color, line: { width: 0 } });
   for (const [start, end] of panel.shade ? [panel.shade] : [])
     found.push({ type: "rect", xref: `x${n}`, yref: `y${n} domain`, x0: start, x1: end, y0: 0,
-      y1: 1, layer: "below", fillcolor: "#d0d0d0", line: { width: 0 } });
+      y1: 1, layer: "below", fillcolor: "#D0D0D0", line: { width: 0 } });
   for (const [at] of panel.marks) found.push({ type: "line", xref: `x${n}`, yref: `y${n} domain`,
     x0: at, x1: at, y0: 0, y1: 1, line: { color: "#888", width: 0.8, dash: "dot" } });
   return found;
@@ -143,6 +163,14 @@ const csv = (picture, numbers) => {
   for (const panel of picture.rows.flat()) for (const series of panel.series) {
     const y = numbers[series.y], error = numbers[series.error], x = numbers[series.x];
     const head = `${name(panel.title)},${name(series.label)}`;
+    if (series.kind === "band") {
+      const low = numbers[series.low], high = numbers[series.high];
+      const middle = low.map((value, k) => 0.5 * (value + high[k]));
+      const half = low.map((value, k) => 0.5 * (high[k] - value));
+      x.forEach((_, k) => Number.isFinite(middle[k]) &&
+        lines.push(`${head},${digits(x, k)},${digits(middle, k)},${digits(half, k)}`));
+      continue;
+    }
     y.forEach((value, k) => {
       const at = x ? digits(x, k) : name(series.names[k]);
       if (Number.isFinite(value)) lines.push(`${head},${at},${digits(y, k)},${digits(error, k)}`);

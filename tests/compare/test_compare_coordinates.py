@@ -13,7 +13,7 @@ from modeler.compare.prediction import FullRate, Motor
 from modeler.compare.verdict import best_pattern, kind_of_residual
 from modeler.core.errors import ShapeError
 from modeler.observation.travel import travel_since_reversal
-from modeler.pages import report_html
+from modeler.pages.comparison import report_html
 from modeler.pictures.picture import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.residuals.orders import order_spectrum
 

@@ -21,7 +21,7 @@ from modeler.compare import Comparison, compare, write_pictures
 from modeler.compare.pictures import all_pictures
 from modeler.compare.residual_picture import binned_means
 from modeler.core.errors import ModelerError
-from modeler.pages import report_html, write_report
+from modeler.pages.comparison import report_html, write_report
 from modeler.pictures.draw_matplotlib import images
 from modeler.pictures.numbers import Numbers
 from modeler.pictures.picture import Bars, Curve, Heat, Panel, Picture, picture_csv

@@ -9,6 +9,7 @@ from modeler.api import (
     auto,
     compare,
     compile_model,
+    contest,
     derive,
     diagnose,
     effects,
@@ -59,6 +60,7 @@ def session() -> dict[str, Any]:
         "comparison": compare(model, other),
         "better comparison": compare(better, other),
         "diagnosis": diagnose(model, train, other),
+        "contest": contest({"first": model, "better": better}, other),
         "estimators": side_by_side(compiled, train, other, ["weighted", "ridge"]),
         "modes": home(load("five-bar")),
         "motion": excite(load("two-link"), duration=4.0, harmonics=3, starts=1),
@@ -70,7 +72,7 @@ def session() -> dict[str, Any]:
 
 
 def reached(things: dict[str, Any]) -> Iterator[tuple[str, Any]]:
-    """All objects of our classes that one gets to by attributes, entries and items, with the way."""
+    """All objects of our classes that attributes, entries and items lead to, with the way."""
     waiting = collections.deque(things.items())
     seen: dict[int, Any] = {}
     while waiting:

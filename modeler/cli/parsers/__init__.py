@@ -5,10 +5,13 @@ usage, come at once.
 """
 
 import argparse
+from collections.abc import Sequence
 
 from modeler import __version__
 from modeler.cli.console import write_stdout
+from modeler.cli.loudness import Loudness
 from modeler.cli.parsers.add import add_add
+from modeler.cli.parsers.completion import add_completion
 from modeler.cli.parsers.convert import add_convert
 from modeler.cli.parsers.demo import add_demo
 from modeler.cli.parsers.derive import add_derive, add_generate
@@ -22,16 +25,57 @@ from modeler.cli.parsers.physical import add_physical
 from modeler.cli.parsers.reproduce import add_reproduce
 from modeler.cli.parsers.show import add_show
 from modeler.cli.parsers.simulate import add_simulate
+from modeler.cli.parsers.usage import usage_of
+from modeler.cli.parsers.words import arguments_of, sorted_words
 
 _COMMANDS = (
     add_derive, add_show, add_home, add_generate, add_fit, add_compare, add_diagnose, add_add,
     add_physical, add_simulate, add_excite, add_convert, add_robots, add_effects, add_estimators,
-    add_reproduce, add_demo,
+    add_reproduce, add_demo, add_completion,
 )  # fmt: skip
 
 
+_EPILOG = """\
+example: modeler derive wrist
+
+exit status:
+  0    done
+  1    the input is at fault: one line says where, what it got, what it expects, what to do
+  2    wrong usage: no such command or option, or an argument is missing
+  130  interrupted (Ctrl-C)
+
+results go to stdout; errors, notes and progress to stderr"""
+
+
 class _Parser(argparse.ArgumentParser):
-    """Help that cannot be written is told, as any result; argparse would drop it unsaid."""
+    """One command, or all of them.
+
+    Help that cannot be written is told, as any result; argparse would drop it unsaid.
+    """
+
+    _stated: str | None = None
+
+    @property
+    def usage(self) -> str | None:
+        """Of a command; argparse writes that of all commands itself."""
+        return self._stated if self._subparsers is not None else usage_of(self)
+
+    @usage.setter
+    def usage(self, text: str | None) -> None:
+        self._stated = text
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
+        if self._subparsers is not None:
+            return super().parse_known_args(args, namespace)
+        if any(action.nargs == argparse.REMAINDER for action in self._actions):
+            found, rest = super().parse_known_args(args, namespace)
+            found.read_as = ""
+            return found, rest
+        read = sorted_words(self, args)
+        words = read.words if arguments_of(self) else [w for w in read.words if w != "--"]
+        found, rest = super().parse_known_args(words, namespace)
+        found.read_as = read.told
+        return found, rest
 
     def print_help(self, file=None) -> None:  # type: ignore[no-untyped-def]
         if file is None:
@@ -54,10 +98,38 @@ def parser() -> argparse.ArgumentParser:
         prog="modeler",
         description="From the MDH table of a robot to exact base parameters, C, a fit and a "
         "comparison with measurements.",
-        epilog="example: modeler derive wrist",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action=_Version, nargs=0, help="print it and stop")
-    commands = top.add_subparsers(metavar="COMMAND", required=True)
+    commands = top.add_subparsers(metavar="COMMAND", required=True, dest="command")
     for add in _COMMANDS:
         add(commands)
+    for each in (top, *commands.choices.values()):
+        _add_loudness(each)
     return top
+
+
+def _add_loudness(parser: argparse.ArgumentParser) -> None:
+    """Before the command or after it; a command that is not told keeps what was said before."""
+    group = parser.add_argument_group("what is told")
+    for loudness, short, text in (
+        (Loudness.QUIET, "-q", "results and errors only: no notes, no progress"),
+        (Loudness.VERBOSE, "-v", "every step with its seconds, versions, where an error came from"),
+    ):
+        group.add_argument(
+            short, f"--{loudness.value}", action="store_true", default=argparse.SUPPRESS, help=text
+        )
+
+
+def parsed(words: Sequence[str]) -> tuple[argparse.Namespace, Loudness]:
+    """The arguments of a command, and how much it tells.
+
+    Wrong usage ends the program with status 2.
+    """
+    top = parser()
+    args = top.parse_args(list(words))
+    wanted = [loudness for loudness in Loudness if vars(args).pop(loudness.value, False)]
+    if len(wanted) > 1:
+        top.error("got --quiet and --verbose; expected one of them")
+    return args, wanted[0] if wanted else Loudness.USUAL

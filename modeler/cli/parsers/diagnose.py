@@ -1,6 +1,13 @@
 """`modeler diagnose MODEL LOG...`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_page
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_page,
+    add_several,
+)
 from modeler.cli.places import LogFile, ModelFile, Word
 
 
@@ -21,14 +28,18 @@ def add_diagnose(commands: Commands) -> None:
         "logs", metavar="LOG", nargs="+", type=LogFile,
         help="logs to explain; FILE@START:END takes the rows between these seconds",
     )  # fmt: skip
-    parser.add_argument(
-        "--holdout", metavar="LOG", nargs="+", default=[], type=LogFile,
-        help="logs of other motion: errors come from them, nothing is fitted to them",
-    )  # fmt: skip
+    add_several(
+        parser,
+        "--holdout",
+        "LOG",
+        LogFile,
+        "logs of other motion: errors come from them, nothing is fitted to them",
+    )
     parser.add_argument(
         "--without", metavar="EFFECT[@J]", action="append", default=[], type=Word,
         help="an effect that this robot does not have, on one joint or at all",
     )  # fmt: skip
+    add_map(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_diagnose)

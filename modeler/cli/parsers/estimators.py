@@ -1,6 +1,13 @@
 """`modeler estimators [ROBOT LOG...]`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_page
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_page,
+    add_several,
+)
 from modeler.cli.places import LogFile, RobotFile, Word
 
 
@@ -26,14 +33,14 @@ def add_estimators(commands: Commands) -> None:
         "--effects", metavar="LIST", type=Word,
         help='effects instead of those of the file, for all joints: "viscous,coulomb"',
     )  # fmt: skip
-    parser.add_argument(
-        "--holdout", metavar="LOG", nargs="+", default=[], type=LogFile,
-        help="logs of other motion, not fitted: their error",
-    )  # fmt: skip
+    add_several(
+        parser, "--holdout", "LOG", LogFile, "logs of other motion, not fitted: their error"
+    )
     parser.add_argument(
         "--methods", metavar="LIST", type=Word,
         help="some of them, with commas between; default: all",
     )  # fmt: skip
+    add_map(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_estimators)

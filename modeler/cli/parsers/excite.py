@@ -2,7 +2,7 @@
 
 import argparse
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_number
+from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_several
 from modeler.cli.places import MotionFile, NewLog, Output, RobotOrModel, Word
 
 
@@ -76,10 +76,7 @@ def _add_limits(parser: argparse.ArgumentParser) -> None:
 
 def _add_choice(parser: argparse.ArgumentParser) -> None:
     add_number(parser, "--choose", "N", int, "take N of the motions of --from; takes no --out")
-    parser.add_argument(
-        "--from", metavar="LOG", nargs="+", default=[], type=MotionFile, dest="candidates",
-        help="logs or motions to choose from",
-    )  # fmt: skip
+    add_several(parser, "--from", "LOG", MotionFile, "logs or motions to choose from", "candidates")
 
 
 def _excite() -> Run:

@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from modeler.cli.places import JsonFile, Output, RobotFile, Word
+from modeler.cli.places import JsonFile, MapWord, Output, RobotFile, Word
 
 if TYPE_CHECKING:
     Commands = argparse._SubParsersAction[argparse.ArgumentParser]
@@ -28,12 +28,33 @@ def add_number(
     parser.add_argument(option, metavar=metavar, type=kind, default=default, help=told)
 
 
+def add_several(
+    parser: argparse._ActionsContainer,
+    option: str,
+    metavar: str,
+    kind: type[str],
+    text: str,
+    dest: str | None = None,
+) -> None:
+    """An option that takes several words, and may be repeated; see `words` on where it ends."""
+    parser.add_argument(
+        option, metavar=metavar, nargs="+", action="extend", default=[], type=kind,
+        dest=dest or option.lstrip("-").replace("-", "_"),
+        help=f"{text}; all words up to the next option or --; may be repeated",
+    )  # fmt: skip
+
+
 def add_robot(parser: argparse.ArgumentParser) -> None:
     """The ROBOT argument and what changes it."""
     parser.add_argument(
         "robot", metavar="ROBOT", type=RobotFile,
         help="a robot file, or the name of a built-in robot",
     )  # fmt: skip
+    add_effects(parser)
+
+
+def add_effects(parser: argparse.ArgumentParser) -> None:
+    """`--effects LIST`, which changes ROBOT."""
     parser.add_argument(
         "--effects",
         metavar="LIST",
@@ -45,6 +66,15 @@ def add_robot(parser: argparse.ArgumentParser) -> None:
 def add_json(parser: argparse.ArgumentParser, text: str) -> None:
     """`--json FILE`, which every command has."""
     parser.add_argument("--json", metavar="FILE", type=JsonFile, help=f"{text}; - for stdout")
+
+
+def add_map(parser: argparse._ActionsContainer) -> None:
+    """`--map`, which every command has that takes logs."""
+    parser.add_argument(
+        "--map", metavar="NAME=COLUMN[:UNIT]", action="append", default=[], type=MapWord,
+        help="which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such "
+        "lines; may be given several times; over [log] of the robot file",
+    )  # fmt: skip
 
 
 def add_page(parser: argparse.ArgumentParser, kind: type[Output] = Output) -> None:

@@ -4,7 +4,7 @@ import argparse
 from typing import Literal, get_args
 
 from modeler.cli.parsers.options import Commands, Run, add_json
-from modeler.cli.places import RobotFile, Word
+from modeler.cli.places import RobotOrModel, Word
 
 SolutionForm = Literal["text", "latex", "python"]
 Source = Literal["base", "coefficients"]
@@ -25,7 +25,7 @@ def add_physical(commands: Commands) -> None:
         epilog="example: modeler physical wrist --known am,bm,bl1,bt2,ct1,bJ33,cJ33,cm",
     )
     parser.add_argument(
-        "source", metavar="ROBOT|MODEL", type=RobotFile,
+        "source", metavar="ROBOT|MODEL", type=RobotOrModel,
         help="a robot file, the name of a built-in robot, or a model file of `modeler fit`",
     )  # fmt: skip
     _add_options(parser)

@@ -1,9 +1,5 @@
-"""The page: one HTML file with the robot in it, that needs no network and no other file."""
+"""What the scripts of a robot's page work on, as plain data."""
 
-import html
-import json
-from pathlib import Path
-from string import Template
 from typing import Any
 
 import numpy as np
@@ -11,31 +7,9 @@ import numpy as np
 from modeler.show.closing import Posture
 from modeler.show.scene import Face, Line, Point, Scene, scene_of
 from modeler.show.skeleton import Row, Skeleton, kind_word
-from modeler.show.table import gravity_text, relations_text, table_html
 from modeler.show.view import good_view
 
-_HERE = Path(__file__).parent
-_SCRIPTS = ("kinematics.js", "closing.js", "view.js", "panel.js")
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
-
-
-def page_html(skeleton: Skeleton, posture: Posture) -> str:
-    """The page as text; its security policy forbids any network access."""
-    robot = skeleton.robot
-    content = json.dumps(page_content(skeleton, posture), allow_nan=False, separators=(",", ":"))
-    scripts = [(_HERE / name).read_text(encoding="utf-8") for name in _SCRIPTS]
-    return Template((_HERE / "page.html").read_text(encoding="utf-8")).substitute(
-        name=html.escape(robot.name),
-        title=html.escape(robot.title),
-        notes=html.escape(" ".join(robot.notes.split())),
-        posture=html.escape(posture.note),
-        gravity=html.escape(gravity_text(skeleton)),
-        table=table_html(robot),
-        relations=html.escape(relations_text(robot)),
-        style=(_HERE / "page.css").read_text(encoding="utf-8"),
-        content=content.replace("<", "\\u003c"),
-        script="\n".join(scripts),
-    )
 
 
 def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:

@@ -1,0 +1,207 @@
+"""`modeler completion SHELL`: the scripts, and what they ask for."""
+
+import argparse
+import os
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+from modeler.cli.console import Json, say
+from modeler.cli.parsers.words import arguments_of, options_of, sorted_words
+from modeler.cli.places import (
+    Input,
+    LogFile,
+    ModelFile,
+    MotionFile,
+    MotionOrKind,
+    Output,
+    OutputFolder,
+    RobotFile,
+    RobotOrModel,
+    log_endings,
+)
+from modeler.core.estimators import ABOUT
+from modeler.effects import CATALOGUE as EFFECTS
+from modeler.papers.paper import paper_names
+from modeler.robot.builtin import builtin_names
+from modeler.robot.converted import OTHER_PROGRAMS
+from modeler.simulate.settings import MOTIONS
+
+_BASH = """\
+_modeler() {
+    local IFS=$'\\n'
+    COMPREPLY=($(modeler completion bash --words "${COMP_WORDS[@]:0:COMP_CWORD+1}" 2>/dev/null))
+    if [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == */ ]]; then
+        compopt -o nospace
+    fi
+}
+complete -F _modeler modeler
+"""
+
+_ZSH = """\
+#compdef modeler
+_modeler() {
+    local -a found
+    found=("${(@f)$(modeler completion zsh --words "${(@Q)words[1,CURRENT]}" 2>/dev/null)}")
+    compadd -S '' -- ${(M)found:#*/}
+    compadd -- ${found:#*/}
+}
+if [[ $funcstack[1] == _modeler ]]; then
+    _modeler "$@"
+else
+    compdef _modeler modeler
+fi
+"""
+
+_FISH = """\
+complete -c modeler -f -a \
+'(modeler completion fish --words (commandline -opc) (commandline -ct) 2>/dev/null)'
+"""
+
+SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
+
+
+def run_completion(args: argparse.Namespace) -> Json:
+    """Prints the script, or what the last word may become."""
+    if args.words is None:
+        say(SCRIPTS[args.shell].rstrip())
+        return {"shell": args.shell, "script": SCRIPTS[args.shell]}
+    found = candidates(args.words[1:])
+    for each in found:
+        say(each)
+    return found
+
+
+def candidates(words: Sequence[str]) -> list[str]:
+    """What the last of the words may become, the others standing before it.
+
+    Args:
+        words: after the name of the program; bash cuts `--out=x` into three of them.
+    """
+    from modeler.cli.parsers import parser
+
+    words, before = _joined(words)
+    top = parser()
+    (commands,) = (a for a in top._actions if isinstance(a, argparse._SubParsersAction))
+    names: dict[str, argparse.ArgumentParser] = dict(commands.choices)
+    *typed, last = words or [""]
+    command = next((word for word in typed if not word.startswith("-")), None)
+    if command is None:
+        return _beginning(last, [*names, *options_of(top)] if last[:1] == "-" else names)
+    if command not in names:
+        return []
+    found = _of_command(names[command], typed[typed.index(command) + 1 :], last)
+    return [before + each for each in found]
+
+
+def _joined(words: Sequence[str]) -> tuple[list[str], str]:
+    """Words with `--option=value` as two, and what stands before the value in the last word."""
+    found: list[str] = []
+    cut = False
+    for word in words:
+        if word == "=" and found and found[-1].startswith("--"):
+            cut = True
+            continue
+        found.append(word)
+    if cut and words[-1] == "=":
+        found.append("")
+    if not found:
+        return [], ""
+    name, equals, value = found[-1].partition("=")
+    if equals and name.startswith("--"):
+        return [*found[:-1], name, value], f"{name}="
+    return found, ""
+
+
+def _of_command(parser: argparse.ArgumentParser, typed: Sequence[str], last: str) -> list[str]:
+    read = sorted_words(parser, typed)
+    if last.startswith("-") and "--" not in typed:
+        shown = options_of(parser).items()
+        return _beginning(last, [name for name, a in shown if a.help != argparse.SUPPRESS])
+    if read.open is not None:
+        found = _values(parser, read.open, last)
+        if read.open.nargs not in ("+", "?"):
+            return found
+        return sorted({*found, *_argument(parser, len(read.arguments), last)})
+    return _argument(parser, len(read.arguments), last)
+
+
+def _argument(parser: argparse.ArgumentParser, count: int, last: str) -> list[str]:
+    """Values of the argument after so many."""
+    arguments = arguments_of(parser)
+    if count >= len(arguments):
+        if not arguments or arguments[-1].nargs not in ("+", "*"):
+            return []
+        count = len(arguments) - 1
+    return _values(parser, arguments[count], last)
+
+
+def _values(parser: argparse.ArgumentParser, action: argparse.Action, last: str) -> list[str]:
+    if action.choices is not None:
+        return _beginning(last, map(str, action.choices))
+    listed = _LISTED.get(action.dest)
+    if listed is not None:
+        earlier, comma, current = last.rpartition(",")
+        return [earlier + comma + each for each in _beginning(current, listed())]
+    return _places(action.type, last)
+
+
+def _places(kind: object, last: str) -> list[str]:
+    """Names and files that an argument of that type takes."""
+    if not isinstance(kind, type) or not issubclass(kind, Input | Output | OutputFolder):
+        return []
+    if issubclass(kind, OutputFolder):
+        return _files(last, ())
+    if issubclass(kind, Output):
+        return _files(last, ("",))
+    names: Sequence[str] = ()
+    endings: tuple[str, ...] = log_endings()
+    if issubclass(kind, RobotFile):
+        names, endings = builtin_names(), (".toml", *OTHER_PROGRAMS)
+        if issubclass(kind, RobotOrModel):
+            endings = (*endings, ".json")
+    elif issubclass(kind, ModelFile):
+        endings = (".json",)
+    elif issubclass(kind, MotionOrKind):
+        names = MOTIONS
+    elif not issubclass(kind, LogFile | MotionFile):
+        endings = ("",)
+    return [*_beginning(last, names), *_files(last, endings)]
+
+
+def _files(last: str, endings: tuple[str, ...]) -> list[str]:
+    """Folders, with / at the end, and files that end so."""
+    folder, name = os.path.split(last)
+    found = []
+    try:
+        with os.scandir(Path(folder).expanduser() if folder else ".") as entries:
+            for entry in entries:
+                if not entry.name.startswith(name) or (entry.name[0] == "." and name[:1] != "."):
+                    continue
+                place = os.path.join(folder, entry.name)  # noqa: PTH118  keeps ./ and ~ as typed
+                if entry.is_dir():
+                    found.append(f"{place}/")
+                elif entry.name.lower().endswith(endings):
+                    found.append(place)
+    except OSError:
+        return []
+    return sorted(found)
+
+
+def _beginning(start: str, names: Iterable[str]) -> list[str]:
+    return [name for name in names if name.startswith(start)]
+
+
+def _effects() -> list[str]:
+    return [effect.id for effect in EFFECTS]
+
+
+_LISTED: dict[str, Callable[[], Iterable[str]]] = {
+    "effect": _effects,
+    "effects": _effects,
+    "without": _effects,
+    "between": _effects,
+    "hide": _effects,
+    "methods": lambda: ABOUT,
+    "paper": paper_names,
+}
+"""Words that are names, by what the argument is called in the code."""

@@ -1,0 +1,75 @@
+"""Every exit status that the help and docs/commands.md name, provoked."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTED = {0, 1, 2, 130}
+
+
+def run(*words: str, **options) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "modeler.cli", *words]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
+
+
+def test_help_and_docs_name_the_same(capsys) -> None:
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    told = capsys.readouterr().out.partition("exit status:")[2]
+    assert {int(n) for n in re.findall(r"^  (\d+)  ", told, re.MULTILINE)} == DOCUMENTED
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert {int(n) for n in re.findall(r"^\| (\d+) \|", text, re.MULTILINE)} == DOCUMENTED
+
+
+@pytest.mark.parametrize(
+    ("words", "status"),
+    [("robots", 0), ("--help", 0), ("derive no-such-robot", 1), 
+     ("", 2), ("dance", 2), ("derive", 2), ("derive wrist --no-such-option", 2)],
+)  # fmt: skip
+def test_done_at_fault_wrong_usage(words: str, status: int) -> None:
+    done = run(*words.split())
+    assert done.returncode == status
+    assert bool(done.stdout) == (status == 0)
+    if status == 1:
+        assert done.stderr.startswith("modeler: ") and done.stderr.count("\n") == 1
+    if status == 2:
+        assert done.stderr.startswith("usage: modeler")
+
+
+def test_interrupted(tmp_path: Path) -> None:
+    """In the midst of the work, which `--verbose` tells."""
+    words = ("-v", "simulate", "panda", "--duration", "60", "--out", str(tmp_path / "x.parquet"))
+    running = subprocess.Popen(
+        [sys.executable, "-m", "modeler.cli", *words], stderr=subprocess.PIPE, text=True,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"},
+    )  # fmt: skip
+    assert running.stderr is not None
+    for line in running.stderr:
+        if line == "modeler: simulating panda ...\n":
+            break
+    time.sleep(0.1)
+    running.send_signal(signal.SIGINT)
+    with running.stderr:
+        *_, last = running.stderr.read().splitlines()
+    assert running.wait(timeout=60) == 130 and last == "modeler: interrupted"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_line_that_differs_is_status_1(monkeypatch, capsys) -> None:
+    """`modeler reproduce` judges what it has printed."""
+    import modeler.cli.reproduce as command
+
+    monkeypatch.setattr(command, "_lines", lambda paper: [])
+    monkeypatch.setattr(command, "_methods", lambda paper: [])
+    monkeypatch.setattr(command, "_failed", lambda tables: ["table 3: q1"])
+    assert main(["reproduce", "guegan-2003"]) == 1
+    assert "1 line is different: table 3: q1" in capsys.readouterr().err

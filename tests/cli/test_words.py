@@ -1,0 +1,143 @@
+"""Options with several values, before and after the arguments that they stand beside."""
+
+import argparse
+import json
+import re
+import shlex
+
+import pytest
+
+from modeler.cli import main, parser
+from modeler.cli.parsers import parsed
+from modeler.cli.parsers.words import arguments_of, options_of
+
+# What each argument of a command takes here; no file has to be there.
+WORDS = {
+    "model": ["m.json"], "logs": ["a.parquet", "b.csv"], "robot": ["wrist"], "effect": ["coulomb"],
+    "source": ["wrist"], "file": ["x.par"], "paper": ["guegan-2003"], "shell": ["bash"],
+}  # fmt: skip
+VALUES = {"sets": ["3"], "cad": ["cad.toml"]}
+
+
+def commands() -> dict[str, argparse.ArgumentParser]:
+    (sub,) = (a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
+    return dict(sub.choices)
+
+
+def required(own: argparse.ArgumentParser) -> list[str]:
+    found = []
+    for action in own._actions:
+        if action.option_strings and action.required:
+            found += [action.option_strings[-1], "out.toml" if "TOML" in str(action) else "out"]
+    return found
+
+
+SEVERAL = [
+    (name, option)
+    for name, own in commands().items()
+    for option, action in options_of(own).items()
+    if action.nargs in ("+", "*", "?")
+]
+
+
+def read(words: list[str]) -> dict[str, object]:
+    found = vars(parsed(words)[0])
+    return {name: value for name, value in found.items() if name not in ("read_as", "load")}
+
+
+def test_all_options_with_several_values_are_found() -> None:
+    assert {
+        ("diagnose", "--holdout"), ("add", "--holdout"), ("estimators", "--holdout"),
+        ("excite", "--from"), ("physical", "--sets"), ("physical", "--cad"),
+    } <= set(SEVERAL)  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "option"), SEVERAL)
+def test_the_order_does_not_matter(name: str, option: str) -> None:
+    """After the arguments, before them, in their midst, repeated: the same is read."""
+    own = commands()[name]
+    action = options_of(own)[option]
+    values = VALUES.get(action.dest, ["c.parquet", "d.parquet"])
+    arguments = [WORDS[argument.dest][0] for argument in arguments_of(own)]
+    rest = required(own)
+    after = read([name, *arguments, *rest, option, *values])
+    assert after[action.dest] in (values, values[0], 3)
+    orders = [
+        [*rest, option, *values, *arguments],
+        [option, *values, *rest, *arguments],
+        [*rest, *arguments[:1], option, *values, *arguments[1:]],
+        [option, *values, *rest, "--", *arguments],
+    ]
+    if action.nargs == "+":
+        orders.append([option, values[0], *rest, option, values[1], *arguments])
+    for words in orders:
+        assert read([name, *words]) == after, words
+
+
+@pytest.mark.parametrize(("name", "option"), SEVERAL)
+def test_an_option_that_may_stand_alone_leaves_the_arguments(name: str, option: str) -> None:
+    own = commands()[name]
+    action = options_of(own)[option]
+    if action.nargs != "?":
+        pytest.skip("this option takes a value at least")
+    arguments = [WORDS[argument.dest][0] for argument in arguments_of(own)]
+    assert read([name, option, *arguments]) == read([name, *arguments, option])
+
+
+def test_what_was_given_back_is_told() -> None:
+    found, _ = parsed(shlex.split("diagnose m.json --holdout b a"))
+    assert (found.model, found.logs, found.holdout) == ("m.json", ["a"], ["b"])
+    assert found.read_as.startswith("read as MODEL LOG = m.json a and --holdout b; for another")
+    for words in ("diagnose m.json a --holdout b", "diagnose --holdout b c -- m.json a e"):
+        assert parsed(shlex.split(words))[0].read_as == ""
+    assert parsed(shlex.split("diagnose --holdout b c -- m.json a e"))[0].logs == ["a", "e"]
+
+
+def test_a_doubtful_line_runs_and_is_told(capsys, tmp_path) -> None:
+    (tmp_path / "m.json").write_text("{}")
+    words = ["diagnose", str(tmp_path / "m.json"), "--holdout", "b.csv", "a.csv"]
+    for quiet in (False, True):
+        assert main([*words, "--quiet"] if quiet else words) == 1  # no model, but so far it came
+        told = capsys.readouterr().err.splitlines()
+        assert "m.json" in told[-1] and len(told) == (1 if quiet else 2)
+        assert told[0].startswith("modeler: read as MODEL LOG = ") != quiet
+
+
+@pytest.mark.parametrize(
+    ("words", "missing"),
+    [("diagnose m.json --holdout b", "LOG"), ("add m.json --out x --holdout b", "EFFECT, LOG"),
+     ("diagnose --holdout b", "MODEL, LOG"), ("physical --cad", "ROBOT|MODEL"),
+     ("excite --from a", "ROBOT"), ("fit emps --payload-log a --out m", "LOG")],
+)  # fmt: skip
+def test_what_is_missing_is_still_missed(capsys, words: str, missing: str) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(words.split())
+    assert stop.value.code == 2
+    assert f"the following arguments are required: {missing}\n" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", commands())
+def test_the_usage_tells_an_order_that_works(name: str) -> None:
+    """Arguments stand first in it; all options are in it; it fits a line of 100 letters."""
+    own = commands()[name]
+    usage = own.format_usage()
+    assert all(len(line) <= 100 or line.count(" [") == 1 for line in usage.splitlines())
+    flat = " ".join(usage.split())
+    first = next(re.finditer(r"[ \[]-", flat)).start()
+    for action in arguments_of(own):
+        assert 0 < flat.find(str(action.metavar)) < first
+    for option in options_of(own):
+        if option.startswith("--") and options_of(own)[option].help != argparse.SUPPRESS:
+            assert option in flat or option in ("--help", "--quiet", "--verbose"), option
+
+
+def test_numbers_below_zero_are_values(capsys, tmp_path) -> None:
+    words = ["simulate", "two-link", "--duration", "-1", "--out", str(tmp_path / "x.csv")]
+    assert main(words) == 1
+    assert "-1" in capsys.readouterr().err
+
+
+def test_a_name_may_be_cut_short(capsys, tmp_path) -> None:
+    assert main(["derive", "--form", "markdown", "two-link", "--json", str(tmp_path / "j")]) == 0
+    assert "| --- |" in capsys.readouterr().out
+    assert json.loads((tmp_path / "j").read_text())["robot"] == "two-link"
