@@ -45,12 +45,12 @@ from modeler.api.files import open_model as open_model
 from modeler.api.files import save as save
 from modeler.api.gains import Load as Load
 from modeler.api.gains import fit_gains as fit_gains
-from modeler.api.home import at_home as at_home
-from modeler.api.home import home as home
 from modeler.api.improving import add as add
 from modeler.api.improving import auto as auto
 from modeler.api.improving import undo as undo
-from modeler.api.physical import physical as physical
+from modeler.api.letters import physical as physical
+from modeler.api.postures import at_home as at_home
+from modeler.api.postures import home as home
 from modeler.api.reports import write_report as write_report
 from modeler.api.simulating import simulate as simulate
 from modeler.api.trials import side_by_side as side_by_side

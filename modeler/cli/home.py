@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api.home import chosen_mode
-from modeler.api.home import home as home_modes
+from modeler.api.postures import chosen_mode
+from modeler.api.postures import home as home_modes
 from modeler.cli.console import Json, say, working
 from modeler.cli.mode_pictures import MODE_PICTURES, modes_file
 from modeler.cli.robots import read_told

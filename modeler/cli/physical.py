@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from modeler.api.physical import UNITS, Physical, PhysicalValues, physical
+from modeler.api.letters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.robots import read_told
 from modeler.core.errors import DataError

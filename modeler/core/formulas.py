@@ -25,4 +25,10 @@ class Formulas(Brief):
         return self.text
 
     def _repr_latex_(self) -> str:
-        return self.latex
+        lines = self.latex.splitlines()
+        return "\n".join(_heading(line) if line.startswith("% ") else line for line in lines)
+
+
+def _heading(comment: str) -> str:
+    r"""A comment of LaTeX as words between the formulas: MathJax knows `\text`."""
+    return rf"$\text{{{comment[2:]}}}$"
