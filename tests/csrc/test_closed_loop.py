@@ -36,7 +36,7 @@ def run(*command: object, where: Path, **more: str) -> str:
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory) -> tuple[Path, Path]:
     """The controller, found by CMake and by pkg-config."""
-    for name in ("make", "cmake", "pkg-config", "g++"):
+    for name in ("make", "cmake", "pkg-config", "g++", "ldd"):
         compiler(name)
     place = tmp_path_factory.mktemp("controller")
     fitted_folder(read_robot("ur10e"), place / "ur10e_c")

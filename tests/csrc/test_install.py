@@ -70,7 +70,7 @@ def run(*command: object, where: Path, fails: bool = False, **more: str) -> str:
 
 @pytest.fixture
 def folder(tmp_path) -> Path:
-    compiler("make"), compiler("g++")
+    compiler("make"), compiler("g++"), compiler("ldd")
     write_emitted(module("emps").emitted, tmp_path / "emps_c")
     (tmp_path / "consumer").mkdir()
     (tmp_path / "consumer" / "consumer.cpp").write_text(PROGRAM)
