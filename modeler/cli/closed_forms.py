@@ -46,9 +46,10 @@ _CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
     "latex": closed_form_latex,
     "markdown": closed_form_markdown,
 }
-_SHEETS: dict[Form, Callable[[Sheet], str]] = {
-    "text": lambda sheet: "\n".join(sheet_lines(sheet)),
-    "markdown": sheet_markdown,
+_SHEETS: dict[Form, Callable[[Sheet, Words], str]] = {
+    "text": lambda sheet, _: "\n".join(sheet_lines(sheet)),
+    "latex": lambda sheet, words: sheet_latex(sheet, words.heading),
+    "markdown": lambda sheet, _: sheet_markdown(sheet),
 }
 _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "text": coefficients_text,
@@ -56,7 +57,7 @@ _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "markdown": coefficients_markdown,
 }
 _WIDTH = 96
-_MARK: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
+_COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 
 
 def check_request(args: argparse.Namespace) -> None:
@@ -140,15 +141,12 @@ def _say_regressor(words: Words, model: SymbolicModel, base: BaseParameters) -> 
 
 def _say_sheet(words: Words, lines: Sequence[str], sheet: Sheet) -> Json:
     words.say()
-    mark = _MARK[words.form]
+    mark = _COMMENT[words.form]
     for line in lines:
         indent = mark + "  " if mark != "* " else "  "
         words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
     words.say()
-    if words.form == "latex":
-        words.formulas(sheet_latex(sheet, words.heading))
-    else:
-        words.formulas(_SHEETS[words.form](sheet))
+    words.formulas(_SHEETS[words.form](sheet, words))
     return {"equation": list(lines), **sheet_json(sheet)}
 
 

@@ -17,6 +17,7 @@ from modeler.improve import Logs, add_findings
 from modeler.pages.additions import write_additions
 from modeler.pages.comparison import write_report
 from modeler.pages.following import after_add, after_compare, after_diagnosis
+from modeler.pages.index import write_index
 from modeler.pages.report import write_diagnosis
 from modeler.pages.sheet import Origin
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
@@ -43,7 +44,10 @@ _STORIES = (
 def run_demo(args: argparse.Namespace) -> Json:
     """Runs both stories."""
     check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
-    return {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
+    told = {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
+    if (index := write_index(Path(args.out), "modeler demo")) is not None:
+        say(f"all pages: {index}")
+    return told
 
 
 def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:

@@ -215,7 +215,11 @@ def test_page_without_a_judged_joint() -> None:
 def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
     assert write_report(tmp_path / "page.html", small) == tmp_path / "page.html"
     assert write_report(tmp_path / "folder", small) == tmp_path / "folder" / "compare.html"
-    assert sorted(path.name for path in tmp_path.rglob("*.html")) == ["compare.html", "page.html"]
+    assert sorted(path.name for path in tmp_path.rglob("*.html")) == [
+        "compare.html",
+        "index.html",
+        "page.html",
+    ]
     (tmp_path / "plain").write_text("a file")
     with pytest.raises(ModelerError, match="cannot be written"):
         write_report(tmp_path / "plain", small)
