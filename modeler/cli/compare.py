@@ -6,6 +6,7 @@ from pathlib import Path
 
 from modeler.api import Mapped, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.contest import models_of, run_contest
 from modeler.cli.given import check_logs, given
 from modeler.compare import Comparison, compare, verdict, write_pictures
 from modeler.compare.predict import predict
@@ -17,12 +18,16 @@ from modeler.observation import Log
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
 from modeler.pages.comparison import write_report
+from modeler.pages.following import after_compare
+from modeler.pages.sheet import Origin
 
 _TRAINING = "training only: "
 
 
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
+    if len(models_of(args)) > 1:
+        return run_contest(args)
     model = load_model(args.model)
     if args.essential:
         model = with_essential_only(model, args.model)
@@ -40,13 +45,23 @@ def run_compare(args: argparse.Namespace) -> Json:
         say(fault.line)
     if args.report is not None:
         with working("drawing the page"):
-            place = write_report(Path(args.report), comparison, lines)
+            place = _page(args, model, comparison, lines)
         say(f"written: {place}")
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
             written = write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
     return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
+
+
+def _page(
+    args: argparse.Namespace, model: IdentifiedModel, comparison: Comparison, lines: list[str]
+) -> Path:
+    held = not any(line.startswith(_TRAINING) for line in lines)
+    fitted = [log.name for log in model.logs]
+    following = after_compare(args.model, fitted, args.logs, held)
+    origin = Origin(args.model, comparison.prediction.logs, held)
+    return write_report(Path(args.report), comparison, lines, origin, [following])
 
 
 def judged(
@@ -61,7 +76,7 @@ def judged(
     lines = [
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
-        f"{100 * model.fit.relative_error:.2f} %"
+        f"{model.fit.error_told('{:.2f} %')}"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

@@ -81,6 +81,21 @@ class LogFile(Input):
         return Path(file_and_window(self)[0])
 
 
+def model_or_log(text: str) -> Input:
+    """A model, by its ending or because it begins as JSON does; else a log."""
+    path = Path(text)
+    if path.suffix.lower() in _LOGS:
+        return LogFile(text)
+    if path.suffix.lower() == ".json":
+        return ModelFile(text)
+    try:
+        with path.open("rb") as file:
+            begins = file.read(64).lstrip()[:1] == b"{"
+    except OSError:
+        return LogFile(text)  # which says what is wrong with it
+    return ModelFile(text) if begins else LogFile(text)
+
+
 class MotionFile(Input):
     """A table of a motion: a whole log, or what `modeler excite` writes."""
 
@@ -138,7 +153,10 @@ class OutputFolder(str):
 class ModuleFolder(OutputFolder):
     """Of an emitted module."""
 
-    writes = ("*.c", "*.h", "*.md", "*.sha256", "manifest.json", "Makefile", "CMakeLists.txt")
+    writes = (
+        "*.c", "*.h", "*.md", "*.sha256", "*.pc.in", "*.cmake", "manifest.json", "Makefile",
+        "CMakeLists.txt",
+    )  # fmt: skip
 
 
 class PictureFolder(OutputFolder):

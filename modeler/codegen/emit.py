@@ -25,6 +25,7 @@ from modeler.codegen.names import (
     symbol_constants,
     symbol_macros,
 )
+from modeler.codegen.package import package_files
 from modeler.codegen.render import render
 from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.core.contract import (
@@ -87,14 +88,12 @@ def emit(model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None =
     code = _code(spec, values)
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
-        values |= {"spec": spec, "sources": _sources(spec)}
+        values |= {"spec": spec}
         code |= unit
     files = {
         **code,
-        "Makefile": render("Makefile", **values),
-        "CMakeLists.txt": render("CMakeLists.txt", **values),
+        **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
-        "README.md": render("README.md", **values),
         MANIFEST: spec.to_json(),
     }
     return Emitted(spec, files)
@@ -147,17 +146,18 @@ def _fitted_unit(
     check_values(base, fitted)
     functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
-    turning = {width.speed: width.constant for width in found}
+    turning = {speed: width.constant for speed, width in found.items()}
+    every = tuple(dict.fromkeys(found.values()))
     blocks = [(f, _block(f, module.places, turning)) for f in functions]
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
-        widths=tuple(width.macro for width in found),
+        widths=tuple(width.macro for width in every),
         functions=function_specs(prefix, blocks, module.blocks),
         code="",
         signature="",
     )
-    values = values | fitted_texts(module.spec, fitted, found)
+    values = values | fitted_texts(module.spec, fitted, every)
     values |= {
         "functions": written,
         "inner": [f for f in written if f.internal],
@@ -294,12 +294,7 @@ def _values(
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
-        "sources": _sources(spec),
     }
-
-
-def _sources(spec: ModuleSpec) -> list[str]:
-    return [name for name in spec.sources if name.endswith(".c")]
 
 
 def _unit(unit: str, values: dict[str, Any]) -> str:

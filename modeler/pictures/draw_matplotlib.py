@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 
 from modeler.pictures.picture import (
     BLUE,
+    SHADE,
+    Band,
     Bars,
     Curve,
     Heat,
@@ -21,6 +23,7 @@ from modeler.pictures.picture import (
     Series,
 )
 
+_BESIDE = 4  # entries of a legend that leave room for the title
 _SETTINGS: Any = {
     "font.size": 9,
     "axes.titlesize": 9.5,
@@ -73,7 +76,7 @@ def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
     handles: dict[str, Any] = {}
     for row, panels in enumerate(picture.panels):
         for column, panel in enumerate(panels):
-            if len(panel.series) > 1:
+            if len(panel.series) > 1 or panel.spans:
                 drawn, labels = axes[row, column].get_legend_handles_labels()
                 handles |= dict(zip(labels, drawn, strict=True))
     if handles:
@@ -81,7 +84,7 @@ def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
             list(handles.values()),
             list(handles),
             loc="outside upper right",
-            ncols=len(handles),
+            ncols=len(handles) if len(handles) <= _BESIDE else -(-len(handles) // 2),
             frameon=False,
         )
 
@@ -97,8 +100,12 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
     ):
         axes.set_xscale("log")
         axes.set_yscale("log")
+    for span in panel.spans:
+        for k, (start, end) in enumerate(span.ends):
+            label = "_nolegend_" if k else span.label
+            axes.axvspan(start, end, color=span.color, lw=0, zorder=-1, label=label)
     if panel.shade is not None:
-        axes.axvspan(*panel.shade, color="0.85", lw=0, zorder=0)
+        axes.axvspan(*panel.shade, color=SHADE, lw=0, zorder=0)
     if panel.zero:
         axes.axhline(0.0, color="0.4", lw=0.7, zorder=1)
     for place, text in panel.marks:
@@ -119,6 +126,12 @@ def _draw(axes: Any, series: Series) -> None:
         _draw_heat(axes, series)
     elif isinstance(series, Bars):
         _draw_bars(axes, series)
+    elif isinstance(series, Band):
+        style = series.style
+        axes.fill_between(
+            series.x, series.low, series.high, color=style.color, alpha=style.opacity, lw=0,
+            label=series.label,
+        )  # fmt: skip
     elif isinstance(series, Means):
         axes.errorbar(
             series.x,

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from modeler.pictures.numbers import Numbers
-from modeler.pictures.picture import Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.pictures.picture import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 
 
 def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
@@ -53,8 +53,10 @@ def keys(picture: Picture) -> list[tuple[str, str, str]]:
     for panel in (panel for row in plotted(picture)[0] for panel in row):
         for series in panel.series if len(panel.series) > 1 else ():
             if not isinstance(series, Heat):
-                mark = (series.label, series.style.color, _mark(series))
+                mark = (series.label, _shade(series), _mark(series))
                 found.setdefault(series.label, mark)
+        for span in panel.spans:
+            found.setdefault(span.label, (span.label, span.color, "span"))
     return list(found.values())
 
 
@@ -66,10 +68,19 @@ def _cells(panel: Panel) -> bool:
     return any(isinstance(series, Heat) for series in panel.series)
 
 
+def _shade(series: Curve | Points | Means | Band | Bars) -> str:
+    """The colour; of a band, whose ground shines through, mixed with white."""
+    style = series.style
+    if not isinstance(series, Band):
+        return style.color
+    parts = (int(style.color[k : k + 2], 16) for k in (1, 3, 5))
+    return "#" + "".join(f"{round(255 - style.opacity * (255 - part)):02x}" for part in parts)
+
+
 def _mark(series: Series) -> str:
     if isinstance(series, Curve):
         return "dashes" if series.style.dash else "line"
-    return "bar" if isinstance(series, Bars) else "dots"
+    return "bar" if isinstance(series, Bars | Band) else "dots"
 
 
 def _panel(panel: Panel, numbers: Numbers) -> dict[str, Any]:
@@ -81,6 +92,7 @@ def _panel(panel: Panel, numbers: Numbers) -> dict[str, Any]:
         "zero": panel.zero,
         "marks": [[float(place), text] for place, text in panel.marks],
         "shade": _ends(panel.shade),
+        "spans": [[span.color, span.ends.round(4).tolist()] for span in panel.spans],
         "xrange": _ends(panel.x_range),
         "yrange": _ends(panel.y_range),
         "series": [
@@ -95,7 +107,9 @@ def _ends(ends: tuple[float, float] | None) -> list[float] | None:
     return None if ends is None else [float(ends[0]), float(ends[1])]
 
 
-def _series(series: Curve | Points | Means | Bars, numbers: Numbers, log: bool) -> dict[str, Any]:
+def _series(
+    series: Curve | Points | Means | Band | Bars, numbers: Numbers, log: bool
+) -> dict[str, Any]:
     style = series.style
     found: dict[str, Any] = {
         "label": series.label,
@@ -112,6 +126,9 @@ def _series(series: Curve | Points | Means | Bars, numbers: Numbers, log: bool) 
             "y": numbers.exact(series.values),
             "base": base,
         }
+    if isinstance(series, Band):
+        places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
+        return found | {"kind": "band", "x": numbers.exact(series.x)} | places
     along = numbers.exact if log else numbers.seen
     across = along if isinstance(series, Points) else numbers.exact
     found |= {"x": across(series.x), "y": along(series.y)}

@@ -9,12 +9,19 @@ import numpy as np
 BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
 GREEN, PINK, SKY = "#009E73", "#CC79A7", "#56B4E9"
 GREY, SLATE = "#9A9A9A", "#6F6F6F"
+PALE_BLUE, PALE_ORANGE, PALE_GREEN = "#CFE4F3", "#FBE3B0", "#C3EADD"
+PALE_PINK, PALE_YELLOW, PALE_BROWN = "#F3D9E7", "#F7F3B5", "#E6D5C3"
+SHADE = "#D0D0D0"
+"""Of the interval that a panel points out."""
 COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, SKY, BLACK)
 """Seven that colour-blind people tell apart (Okabe and Ito), for curves of many joints."""
 
 COLOR_NAMES = {
     BLACK: "black", ORANGE: "orange", BLUE: "blue", VERMILLION: "dark orange", GREEN: "green",
     PINK: "pink", SKY: "light blue", GREY: "grey", SLATE: "dark grey",
+    PALE_BLUE: "pale blue", PALE_ORANGE: "pale orange", PALE_GREEN: "pale green",
+    PALE_PINK: "pale pink", PALE_YELLOW: "pale yellow", PALE_BROWN: "pale brown",
+    SHADE: "light grey",
 }  # fmt: skip
 """How captions call the colours."""
 
@@ -66,6 +73,17 @@ class Means:
 
 
 @dataclass(frozen=True, eq=False)
+class Band:
+    """What lies between two curves over the same x, filled; NaN breaks it."""
+
+    label: str
+    x: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    style: Style
+
+
+@dataclass(frozen=True, eq=False)
 class Bars:
     """One bar for each name, its number printed at its end; inside it where bars are stacked."""
 
@@ -89,7 +107,16 @@ class Heat:
     top: float
 
 
-Series = Curve | Points | Means | Bars | Heat
+Series = Curve | Points | Means | Band | Bars | Heat
+
+
+@dataclass(frozen=True, eq=False)
+class Span:
+    """Intervals of x that are shaded over the whole height, with an entry in the legend."""
+
+    label: str
+    ends: np.ndarray  # (k, 2)
+    color: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +133,7 @@ class Panel:
     zero: bool = False  # a thin line at y = 0
     x_range: tuple[float, float] | None = None  # of the axis; None: all that is drawn
     y_range: tuple[float, float] | None = None
+    spans: tuple[Span, ...] = ()  # below all else
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +174,10 @@ def _rows(series: Series) -> list[str]:
     if isinstance(series, Means):
         triples = zip(series.x, series.y, series.error, strict=True)
         return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
+    if isinstance(series, Band):
+        middle, half = 0.5 * (series.low + series.high), 0.5 * (series.high - series.low)
+        triples = zip(series.x, middle, half, strict=True)
+        return [f"{x:.7g},{y:.5g},{error:.5g}" for x, y, error in triples if np.isfinite(y)]
     both = zip(series.x, series.y, strict=True)
     return [f"{x:.7g},{y:.5g}," for x, y in both if np.isfinite(y)]
 

@@ -2,7 +2,7 @@
 // `width` the pixels that there are. Panels stand on the grid that the picture states; below one
 // another where that leaves them too narrow.
 const NARROW = 280, GRID = "#e4e4e4", TEXT = "#222";
-const LEFT = 62, RIGHT = 14, TOP = 34, BOTTOM = 46, BETWEEN = 74, BESIDE = 72, SHARED = 34;
+const LEFT = 62, RIGHT = 14, TOP = 34, BAR = 18, BOTTOM = 46, BETWEEN = 74, BESIDE = 72, SHARED = 34;
 
 // Names of joints and effects are text: nothing in them is a tag.
 const plain = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/\n/g, "<br>");
@@ -19,6 +19,8 @@ const wrapped = (text, width) => {
 
 // Where each panel stands: [panel, left, right, top, bottom], pixels; and the height of it all.
 const places = (picture, width) => {
+  const names = picture.rows.flat().flatMap((panel) => panel.series.flatMap((s) => s.names || []));
+  const extra = 15 * (Math.max(1, ...names.map((name) => name.split("\n").length)) - 1);
   const columns = picture.rows[0].length, room = width - RIGHT;
   const whole = picture.widths.reduce((a, b) => a + b), gaps = LEFT + (columns - 1) * BESIDE;
   const wide = picture.widths.map((share) => (room - gaps) * share / whole);
@@ -33,14 +35,14 @@ const places = (picture, width) => {
       const lines = wrapped(panel.title, room - LEFT).split("\n").length;
       top += 16 * (lines - 1);
       found.push([panel, LEFT, room, top, top + tall]);
-      top += tall + BETWEEN;
+      top += tall + BETWEEN + extra;
     }
     return { found, height: top - BETWEEN + BOTTOM, apart: true };
   }
-  const between = picture.shared ? SHARED : BETWEEN;
-  const inner = picture.height - TOP - BOTTOM - (picture.rows.length - 1) * between;
+  const between = picture.shared ? SHARED : BETWEEN + extra, rows = picture.rows.length;
+  const inner = picture.height - TOP - BAR - BOTTOM - extra - (rows - 1) * between;
   const sum = picture.heights.reduce((a, b) => a + b);
-  let top = TOP;
+  let top = TOP + BAR; // the buttons of plotly.js stand above the titles
   picture.rows.forEach((row, i) => {
     const tall = inner * picture.heights[i] / sum;
     let left = LEFT;
@@ -53,9 +55,26 @@ const places = (picture, width) => {
   return { found, height: picture.height, apart: false };
 };
 
+// The outline of what lies between two curves, one closed piece for each run without a gap.
+const outline = (x, low, high) => {
+  const found = { x: [], y: [] };
+  for (let start = 0, k = 0; k <= x.length; k++) {
+    if (k < x.length && Number.isFinite(low[k]) && Number.isFinite(high[k])) continue;
+    for (let i = start; i < k; i++) { found.x.push(x[i]); found.y.push(high[i]); }
+    for (let i = k - 1; i >= start; i--) { found.x.push(x[i]); found.y.push(low[i]); }
+    if (k > start) { found.x.push(null); found.y.push(null); }
+    start = k + 1;
+  }
+  return found;
+};
+
 const trace = (series, numbers, axis) => {
   const common = { name: plain(series.label), showlegend: false, legendgroup: series.label,
     xaxis: `x${axis}`, yaxis: `y${axis}`, opacity: series.opacity };
+  if (series.kind === "band")
+    return { ...common, ...outline(numbers[series.x], numbers[series.low], numbers[series.high]),
+      type: "scatter", mode: "lines", line: { width: 0 }, fill: "toself", hoverinfo: "skip",
+      fillcolor: series.color };
   const y = numbers[series.y], line = { color: series.color, width: series.width };
   if (series.kind === "bars") {
     const base = series.base === null ? undefined : numbers[series.base];
@@ -78,9 +97,12 @@ const shapes = (panel, n) => {
   const found = [];
   if (panel.zero) found.push({ type: "line", xref: `x${n} domain`, yref: `y${n}`, x0: 0, x1: 1,
     y0: 0, y1: 0, layer: "below", line: { color: "#666", width: 0.8 } });
+  for (const [color, ends] of panel.spans) for (const [start, end] of ends)
+    found.push({ type: "rect", xref: `x${n}`, yref: `y${n} domain`, x0: start, x1: end, y0: 0,
+      y1: 1, layer: "below", fillcolor: color, line: { width: 0 } });
   for (const [start, end] of panel.shade ? [panel.shade] : [])
     found.push({ type: "rect", xref: `x${n}`, yref: `y${n} domain`, x0: start, x1: end, y0: 0,
-      y1: 1, layer: "below", fillcolor: "#d0d0d0", line: { width: 0 } });
+      y1: 1, layer: "below", fillcolor: "#D0D0D0", line: { width: 0 } });
   for (const [at] of panel.marks) found.push({ type: "line", xref: `x${n}`, yref: `y${n} domain`,
     x0: at, x1: at, y0: 0, y1: 1, line: { color: "#888", width: 0.8, dash: "dot" } });
   return found;
@@ -143,6 +165,14 @@ const csv = (picture, numbers) => {
   for (const panel of picture.rows.flat()) for (const series of panel.series) {
     const y = numbers[series.y], error = numbers[series.error], x = numbers[series.x];
     const head = `${name(panel.title)},${name(series.label)}`;
+    if (series.kind === "band") {
+      const low = numbers[series.low], high = numbers[series.high];
+      const middle = low.map((value, k) => 0.5 * (value + high[k]));
+      const half = low.map((value, k) => 0.5 * (high[k] - value));
+      x.forEach((_, k) => Number.isFinite(middle[k]) &&
+        lines.push(`${head},${digits(x, k)},${digits(middle, k)},${digits(half, k)}`));
+      continue;
+    }
     y.forEach((value, k) => {
       const at = x ? digits(x, k) : name(series.names[k]);
       if (Number.isFinite(value)) lines.push(`${head},${at},${digits(y, k)},${digits(error, k)}`);

@@ -20,6 +20,7 @@ from modeler.pages.report import write_diagnosis
 from modeler.pages.shown import figures, shown
 from modeler.pictures.picture import COLOR_NAMES, Curve, Means, Panel, Picture
 from modeler.robot import robot_from_text
+from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
 
@@ -114,15 +115,8 @@ def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
 @pytest.mark.parametrize("effect", ["stribeck", "motor_ripple"])
 def test_captions_name_the_colours_that_are_drawn(case: Case, effect: str) -> None:
     search = found(case, HIDDEN[effect][0]).search
-    assert_named(evidence_picture(shown(search, search.steps[0])))
-    assert_named(play_picture(search.end, 0))
-
-
-def assert_named(picture: Picture) -> None:
-    drawn = {s.style.color for row in picture.panels for panel in row for s in panel.series}
-    names = sorted(COLOR_NAMES.values(), key=len, reverse=True)
-    said = set(re.findall(rf"\b({'|'.join(names)}|red|yellow)\b", picture.caption.lower()))
-    assert said == {COLOR_NAMES[color] for color in drawn}
+    assert_all_named(evidence_picture(shown(search, search.steps[0])))
+    assert_all_named(play_picture(search.end, 0))
 
 
 def test_the_colours_have_different_names() -> None:

@@ -77,7 +77,7 @@ def test_a_planted_tag_is_found(text: str) -> None:
 
 def test_only_what_we_made_is_printed_as_it_is() -> None:
     """`| safe` in templates: assets, packed scripts and numbers, JSON, and our own drawing."""
-    own = {"asset(", "content", "drawings.block()", "drawings.content(", "plotly()", "svg"}
+    own = {"asset(", "json(", "content", "drawings.block()", "drawings.content(", "plotly()", "svg"}
     for path in (ROOT / "templates" / "pages").glob("*.jinja"):
         text = path.read_text(encoding="utf-8")
         for expression in re.findall(r"\{\{-?\s*([^{}]*?)\s*\|\s*safe", text):

@@ -12,7 +12,15 @@ from modeler.cli.parsers.options import (
     add_page,
     add_robot,
 )
-from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
+from modeler.cli.places import (
+    LogFile,
+    ModelFile,
+    Output,
+    PageOrFolder,
+    PictureFolder,
+    Word,
+    model_or_log,
+)
 from modeler.core.choices import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
 from modeler.core.estimators import ABOUT, APART
 
@@ -142,13 +150,18 @@ def add_compare(commands: Commands) -> None:
         "compare",
         help="measured against predicted torque: how good, where it fails",
         description="Predicts the torques of the logs with MODEL and shows per joint how good it "
-        "is, where it fails, and whether the rest still has structure.",
-        epilog="example: modeler compare ur10e.model.json held_out.parquet --report page.html",
+        "is, where it fails, and whether the rest still has structure. Of several models: whose "
+        "error is smaller on which joint, and where that is beyond doubt.",
+        epilog="example: modeler compare ur10e.model.json held_out.parquet --report page.html; "
+        "modeler compare ur10e.model.json better.model.json held_out.parquet",
     )
     parser.add_argument(
         "model", metavar="MODEL", type=ModelFile, help="a model file of `modeler fit`"
     )
-    parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    parser.add_argument(
+        "logs", metavar="LOG", nargs="+", type=model_or_log,
+        help=f"{_LOGS}; before them perhaps further models, which are set beside the first",
+    )  # fmt: skip
     add_map(parser)
     add_page(parser, PageOrFolder)
     parser.add_argument(
