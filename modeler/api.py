@@ -261,10 +261,12 @@ def _uncoded(spec: ModuleSpec) -> ModuleSpec:
     return dataclasses.replace(spec, code="")
 
 
-def compare(model: IdentifiedModel, logs: Sequence[str | Path | Log]) -> Comparison:
+def compare(
+    model: IdentifiedModel, logs: Sequence[str | Path | Log], mapping: Mapped = ()
+) -> Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
     compiled = recompile(model)
-    prediction, _ = predict(model, read_logs(compiled, logs), compiled)
+    prediction, _ = predict(model, read_logs(compiled, logs, mapping), compiled)
     return compare_prediction(prediction)
 
 
@@ -273,11 +275,12 @@ def diagnose(
     logs: Sequence[str | Path | Log],
     holdout: Sequence[str | Path | Log] = (),
     without: Sequence[str] = (),
+    mapping: Mapped = (),
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled = recompile(model)
     robot = robot_from_text(model.robot_text, "robot of the model")
     known = Known(robot.catalogue, robot.coupling)
-    given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
     check_apart(given, kept)
     return find_missing(model, compiled, given, kept, without, known=known)

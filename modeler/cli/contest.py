@@ -37,7 +37,7 @@ def run_contest(args: argparse.Namespace) -> Json:
         for k, model in enumerate(models):
             compiled.append(model.compile() if args.run_embedded_c else recompile(model))
             bar((k + 1) / (len(models) + 1))
-        read = [read_logs(own, logs) for own in compiled]
+        read = [read_logs(own, logs, args.map) for own in compiled]
         check_logs(given(logs, read[0]), [])
         predictions, _ = predict_together(models, compiled, read, names)
         found = contest(names, predictions)
