@@ -125,7 +125,10 @@ def test_values_that_belong_to_another_robot_are_refused(fitted):
 def test_what_is_no_model_is_refused_in_one_line(place, capsys, tmp_path):
     (tmp_path / "log.json").write_text("{}")
     for words, told in (
-        ((place, "--effects", "viscous"), "modeler: --effects: of a robot file only; a model has"),
+        (
+            (place, "--effects", "viscous"),
+            "a model, which has the effects that it was fitted with; leave --ef",
+        ),
         ((tmp_path / "log.json",), "JSON, but not a model file; expected the output of"),
         ((tmp_path / "none.json",), "cannot be read (No such file or directory); check the path"),
     ):
