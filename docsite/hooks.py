@@ -1,5 +1,6 @@
 """What mkdocs calls: pages that are made, not written, and where they stand in the list."""
 
+import re
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig
@@ -22,13 +23,18 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     made = {
         "gallery/index.md": [f"gallery/{name}.md" for name in builtin_names()],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
-        "python/index.md": list(interface_pages())[1:],
+        "python/index.md": [*notebook_pages(), *list(interface_pages())[1:]],
     }
     for section in config.nav or []:
         for pages in section.values():
             if isinstance(pages, list) and isinstance(pages[0], str):
                 pages += made.get(pages[0], [])
     return config
+
+
+def on_page_markdown(markdown: str, **_: object) -> str:
+    """Notebooks are pages here: links to their files lead to these."""
+    return re.sub(r"\]\(([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
