@@ -5,7 +5,8 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import compile_model, derive, file_and_span, generate, log_map, observe
+from modeler.api import compile_model, derive, generate, observe
+from modeler.api.chain import file_and_span, log_map
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.robots import read_told
 from modeler.compiled import CompiledModel
