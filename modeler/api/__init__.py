@@ -27,10 +27,12 @@ from modeler.api.chain import compare as compare
 from modeler.api.chain import compile_model as compile_model
 from modeler.api.chain import derive as derive
 from modeler.api.chain import diagnose as diagnose
+from modeler.api.chain import file_and_span as file_and_span
 from modeler.api.chain import fit as fit
 from modeler.api.chain import generate as generate
 from modeler.api.chain import identified as identified
 from modeler.api.chain import load as load
+from modeler.api.chain import log_map as log_map
 from modeler.api.chain import observe as observe
 from modeler.api.chain import own_effect as own_effect
 from modeler.api.chain import read_currents as read_currents

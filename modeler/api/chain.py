@@ -147,9 +147,22 @@ def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
 
 
 def _read(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
+    path, span = file_and_span(place)
+    log = read_log(path, spec, names)
+    return log if span is None else window(log, *span)
+
+
+def file_and_span(
+    place: str | Path,
+) -> tuple[str | Path, tuple[float | None, float | None] | None]:
+    """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
+
+    Raises:
+        DataError: something else stands after the @.
+    """
     path, times = file_and_window(str(place))
     if times is None:
-        return read_log(place, spec, names)
+        return place, None
     start, colon, end = times.partition(":")
     try:
         span = tuple(float(side) if side else None for side in (start, end))
@@ -160,7 +173,7 @@ def _read(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
             f"{place}: got @{times} after the file; expected @START:END in seconds, as in "
             f"{path}@0:10, {path}@5: or {path}@:5"
         )
-    return window(read_log(path, spec, names), *span)
+    return path, (span[0], span[1])
 
 
 def observe(

@@ -43,7 +43,7 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         return write_estimators(place, thing.robot, thing.tried, [*thing.data, *notes])
     if isinstance(thing, IdentifiedModel):
         if thing.history:
-            return write_additions(place, thing.spec.robot, thing.history, notes)
+            return write_additions(place, thing, notes)
         return write_fit(place, thing, notes)
     if isinstance(thing, Comparison):
         return write_comparison(place, thing, notes)

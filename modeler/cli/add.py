@@ -14,6 +14,8 @@ from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, added, notes, undone
 from modeler.observation.apart import check_apart
 from modeler.pages.additions import write_additions
+from modeler.pages.following import after_add
+from modeler.pages.sheet import Origin
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -57,7 +59,10 @@ def _written(
         write_atomically(Path(args.robot), better.robot_text)
         places.append(args.robot)
     if args.report is not None and better.history:
-        write_additions(Path(args.report), better.spec.robot, better.history, left_out)
+        held = better.history[-1].held_out
+        origin = Origin(args.out, held or args.logs, bool(held))
+        following = after_add(args.out, args.holdout)
+        write_additions(Path(args.report), better, left_out, origin, following)
         places.append(args.report)
     return places
 

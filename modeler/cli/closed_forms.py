@@ -43,9 +43,10 @@ _CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
     "latex": closed_form_latex,
     "markdown": closed_form_markdown,
 }
-_SHEETS: dict[Form, Callable[[Sheet], str]] = {
-    "text": lambda sheet: "\n".join(sheet_lines(sheet)),
-    "markdown": sheet_markdown,
+_SHEETS: dict[Form, Callable[[Sheet, Words], str]] = {
+    "text": lambda sheet, _: "\n".join(sheet_lines(sheet)),
+    "latex": lambda sheet, words: sheet_latex(sheet, words.heading),
+    "markdown": lambda sheet, _: sheet_markdown(sheet),
 }
 _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "text": coefficients_text,
@@ -53,7 +54,7 @@ _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "markdown": coefficients_markdown,
 }
 _WIDTH = 96
-_MARK: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
+_COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 
 
 def check_request(args: argparse.Namespace) -> None:
@@ -116,15 +117,12 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
 
 def _say_equation(words: Words, equation: Equation) -> Json:
     words.say()
-    mark, lines, sheet = _MARK[words.form], equation.words, equation.sheet
+    mark, lines, sheet = _COMMENT[words.form], equation.words, equation.sheet
     for line in lines:
         indent = mark + "  " if mark != "* " else "  "
         words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
     words.say()
-    if words.form == "latex":
-        words.formulas(sheet_latex(sheet, words.heading))
-    else:
-        words.formulas(_SHEETS[words.form](sheet))
+    words.formulas(_SHEETS[words.form](sheet, words))
     return {"equation": list(lines), **sheet_json(sheet)}
 
 

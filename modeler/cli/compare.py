@@ -18,6 +18,8 @@ from modeler.observation import Log
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
 from modeler.pages.comparison import write_report
+from modeler.pages.following import after_compare
+from modeler.pages.sheet import Origin
 
 _TRAINING = "training only: "
 
@@ -43,13 +45,23 @@ def run_compare(args: argparse.Namespace) -> Json:
         say(fault.line)
     if args.report is not None:
         with working("drawing the page"):
-            place = write_report(Path(args.report), comparison, lines)
+            place = _page(args, model, comparison, lines)
         say(f"written: {place}")
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
             written = write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
     return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
+
+
+def _page(
+    args: argparse.Namespace, model: IdentifiedModel, comparison: Comparison, lines: list[str]
+) -> Path:
+    held = not any(line.startswith(_TRAINING) for line in lines)
+    fitted = [log.name for log in model.logs]
+    following = after_compare(args.model, fitted, args.logs, held)
+    origin = Origin(args.model, comparison.prediction.logs, held)
+    return write_report(Path(args.report), comparison, lines, origin, [following])
 
 
 def judged(

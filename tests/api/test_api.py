@@ -39,7 +39,7 @@ def chain(logs: tuple[str, str]) -> tuple[Any, Any, Any]:
 
 
 def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, logs) -> None:
-    options = "--duration 8 --seed 1 --hide spring@1".split()
+    options = ["--duration", "8", "--seed", "1", "--hide", "spring@1"]
     assert main(["simulate", "two-link", "--out", str(tmp_path / "c.parquet"), *options]) == 0
     compiled = session()["compiled"]
     assert (tmp_path / "c.parquet").read_bytes() == Path(logs[0]).read_bytes()
@@ -49,7 +49,9 @@ def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, l
     np.testing.assert_array_equal(log.tau, run.tau)
 
 
-@pytest.mark.parametrize("options", ["", "--method robust", "--method consistent", "--model energy"])
+@pytest.mark.parametrize(
+    "options", ["", "--method robust", "--method consistent", "--model energy"]
+)
 def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options: str) -> None:
     words = options.split()
     method = words[1] if words[:1] == ["--method"] else "weighted"
