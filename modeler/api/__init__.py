@@ -51,6 +51,7 @@ from modeler.api.improving import add as add
 from modeler.api.improving import auto as auto
 from modeler.api.improving import undo as undo
 from modeler.api.letters import physical as physical
+from modeler.api.looking import look_at as look_at
 from modeler.api.postures import at_home as at_home
 from modeler.api.postures import home as home
 from modeler.api.reports import write_report as write_report
