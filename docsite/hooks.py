@@ -33,11 +33,6 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     return config
 
 
-def on_page_markdown(markdown: str, **_: object) -> str:
-    """Notebooks are pages here: links to their files lead to these."""
-    return re.sub(r"\]\(([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
-
-
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Adds the home page, the reference, the gallery and the notebooks."""
     made: dict[str, str | bytes] = {**home_pages(), **command_pages(), **interface_pages()}
