@@ -7,8 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "compiled", "observation", "estimate", "fit", "residuals", "compare", "hypotheses", "scoring",
-    "diagnose", "pages", "excite",
+    "compiled", "observation", "estimate", "fit", "residuals", "compare", "freerun", "hypotheses",
+    "scoring", "diagnose", "pages", "excite",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -61,6 +61,7 @@ PACKAGES: dict[str, set[str]] = {
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy", "matplotlib", "plotly"},
+    "freerun": {"numpy", "scipy"},
     "hypotheses": {"numpy", "scipy"},
     "scoring": {"numpy", "scipy"},
     "diagnose": {"numpy", "threadpoolctl"},
