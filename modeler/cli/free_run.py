@@ -59,7 +59,8 @@ def _gains(text: str | None) -> Gains | None:
     if not 2 <= len(values) <= 4 or not all(math.isfinite(v) and v >= 0.0 for v in values):
         raise DataError(
             f"--controller {text}: expected two to four numbers that are not negative, as in "
-            "20,0.25 or 20,0.25,1,1: speed loop in Hz, ratio of the position loop, integral, feedforward"
+            "20,0.25 or 20,0.25,1,1: speed loop in Hz, ratio of the position loop, integral, "
+            "feedforward"
         )
     if values[0] == 0.0 or values[1] == 0.0:
         raise DataError(

@@ -106,7 +106,8 @@ class FreeRun:
         longest: s that a start was followed for the horizon.
         joints: in the order of the manifest.
         stability: whether errors grow whatever the model.
-        numerical: largest change of a position by halving the step, as a share of the range.
+        numerical: largest change of a position by halving the step, as a share of its range, while
+            its error is within the bound.
         controlled: under a controller, where commands were logged.
         paths: of the windows.
         doubts: one sentence each.
@@ -136,7 +137,7 @@ class FreeRun:
             f"{self.robot}: free run under the logged torques on {', '.join(self.logs)}: "
             f"{self.windows} windows of {self.window:g} s, each from the measured state",
             f"{'joint':<8}{'fit':>10}{'constant speed':>16}{'largest error':>18}"
-            f"{f'within {100 * self.bound:g} % for':>22}{'whole run':>12}",
+            f"{f'within {100 * self.bound:g} % for':>22}{'whole run':>14}",
         ]
         for joint in self.joints:
             horizon = "" if joint.horizon is None else f"{joint.horizon:.2g} s"
@@ -144,7 +145,7 @@ class FreeRun:
                 horizon = f"over {self.longest:.2g} s"
             lines.append(
                 f"{joint.name:<8}{_percent(joint.fit):>10}{_percent(joint.constant_speed):>16}"
-                f"{f'{joint.largest:.2g} {joint.unit}':>18}{horizon:>22}{_percent(joint.whole):>12}"
+                f"{f'{joint.largest:.2g} {joint.unit}':>18}{horizon:>22}{_percent(joint.whole):>14}"
             )
         lines += ["", self.stability.sentence()]
         if self.controlled is not None:

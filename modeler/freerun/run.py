@@ -100,7 +100,7 @@ def _run(
 ) -> FreeRun:
     tell = progress or (lambda share: None)
     tell(0.1)
-    runs, numerical = _windows(field, starts, asked.window, tell)
+    runs, numerical = _windows(field, starts, asked, tell)
     whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
     tell(0.8)
     under, doubt = controlled(compiled, model.beta, observation, asked.gains)
@@ -253,18 +253,17 @@ class _Windows:
 
 
 def _windows(
-    field: _Field, starts: Sequence[_Start], window: float, tell: Callable[[float], None]
+    field: _Field, starts: Sequence[_Start], asked: Asked, tell: Callable[[float], None]
 ) -> tuple[_Windows, float]:
+    window, bound = asked.window, asked.bound
     simulated, measured = field.run(
         starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
     )
     tell(0.5)
     few = [starts[i] for i in np.unique(np.linspace(0, len(starts) - 1, _HALVED).astype(int))]
-    coarse, _ = field.run(few, window)
+    coarse, aside = field.run(few, window)
     fine, _ = field.run(few, window, halved=True)
-    change = np.concatenate([np.abs(a - b) for a, b in zip(coarse, fine, strict=True)])
-    share = change / (field.far / _LOST)
-    numerical = float(np.nanmax(share)) if np.isfinite(share).any() else 0.0
+    numerical = _changed(coarse, fine, aside, bound * field.ranges, field.ranges)
     paths, straight = [], []
     for start, ours, theirs in zip(starts, simulated, measured, strict=True):
         segment = field.segments[start.segment]
@@ -279,6 +278,22 @@ def _windows(
         tuple(a - b for a, b in zip(simulated, measured, strict=True)),
         tuple(field.segments[start.segment].step for start in starts),
     ), numerical
+
+
+def _changed(
+    coarse: Sequence[np.ndarray],
+    fine: Sequence[np.ndarray],
+    measured: Sequence[np.ndarray],
+    bound: np.ndarray,
+    ranges: np.ndarray,
+) -> float:
+    """Largest change of a position by halving the step, in ranges, while its error is in bounds."""
+    largest = 0.0
+    for ours, halved, theirs in zip(coarse, fine, measured, strict=True):
+        near = np.logical_and.accumulate(np.abs(halved - theirs) <= bound)
+        change = np.abs(ours - halved)[near] / np.broadcast_to(ranges, near.shape)[near]
+        largest = max(largest, float(change[np.isfinite(change)].max(initial=0.0)))
+    return largest
 
 
 def _whole(field: _Field, tell: Callable[[float], None]) -> tuple[np.ndarray, np.ndarray]:

@@ -77,9 +77,9 @@ class Stability:
         if self.unstable:
             return (
                 "unstable by nature: along this motion any error doubles every "
-                f"{self.doubling:.2g} s, {_times(self.rate * self.seconds)} in {self.seconds:.3g} s, "
-                f"whatever the model; steepest at {self.at:.4g} s of {self.log}. A long free run says nothing "
-                "here: judge by the windows"
+                f"{self.doubling:.2g} s, {_times(self.rate * self.seconds)} in "
+                f"{self.seconds:.3g} s, whatever the model; steepest at {self.at:.4g} s of "
+                f"{self.log}. A long free run says nothing here: judge by the windows"
             )
         if self.rate * self.seconds < -_GROWN:
             return (

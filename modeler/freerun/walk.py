@@ -74,7 +74,7 @@ def walk(
             live, dry = live[sound], None if dry is None else dry[sound]
             if not len(live):
                 return path
-            share = (m + 0.5) / inner
+            share = m / inner  # the rule looks half a step ahead by itself
             tau = (1.0 - share) * lanes.tau[k, live] + share * lanes.tau[k + 1, live]
             dry = state.step(plant, live, tau, lanes.step / inner, dry)
     return path

@@ -30,9 +30,9 @@ from modeler.cli.parsers.usage import usage_of
 from modeler.cli.parsers.words import arguments_of, sorted_words
 
 _COMMANDS = (
-    add_derive, add_show, add_home, add_generate, add_fit, add_compare, add_free_run, add_diagnose, add_add,
-    add_physical, add_simulate, add_excite, add_convert, add_robots, add_effects, add_estimators,
-    add_reproduce, add_demo, add_completion,
+    add_derive, add_show, add_home, add_generate, add_fit, add_compare, add_free_run, add_diagnose,
+    add_add, add_physical, add_simulate, add_excite, add_convert, add_robots, add_effects,
+    add_estimators, add_reproduce, add_demo, add_completion,
 )  # fmt: skip
 
 
