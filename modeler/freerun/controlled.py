@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.compiled import CompiledModel
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, LoopError
 from modeler.estimate.direct import DirectModel, Loop
 from modeler.freerun.measure import fit_percentage
 from modeler.freerun.result import Controlled
@@ -11,6 +11,9 @@ from modeler.observation import Observation
 
 Gains = tuple[float, float, float, float]
 """Speed loop, Hz; ratio of the position loop; integral action; feedforward."""
+
+_NONE_NEARER = "no controller that was tried brings the robot nearer to the log than the command is"
+_LOST = "no controller that was tried holds the robot with the fitted values all along the log"
 
 
 def controlled(
@@ -33,22 +36,20 @@ def controlled(
         return None, ""
     if gains is None and not all(joint.actuated for joint in model.spec.joints):
         return None, "a joint has no motor, so no controller is looked for"
-    loop = robot.chosen(beta) if gains is None else Loop(2 * np.pi * gains[0], *gains[1:])
-    if np.isinf(loop.speed):
-        return None, (
-            "no controller that was tried brings the robot nearer to the log than the command is"
-        )
     try:
+        loop = robot.chosen(beta) if gains is None else Loop(2 * np.pi * gains[0], *gains[1:])
+        if np.isinf(loop.speed):
+            return None, _NONE_NEARER
         motions = robot.followed(beta, loop)
-    except DataError:
+        return _measured(observation, robot, loop, motions, beta, gains is not None), ""
+    except (DataError, LoopError):
         if gains is not None:
             raise DataError(
                 f"--controller: with these gains {model.spec.robot} is lost; expected those of a "
                 "controller that holds it, as the speed loop in Hz and the ratio of the position "
                 "loop; try slower loops, or leave --controller out"
             ) from None
-        return None, "the controller nearest to the log loses the robot elsewhere in it"
-    return _measured(observation, robot, loop, motions, beta, gains is not None), ""
+        return None, _LOST
 
 
 def _check_commanded(observation: Observation, gains: Gains | None) -> None:

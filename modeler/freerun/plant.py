@@ -88,7 +88,7 @@ class Plant:
             light = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
-                f"positive definite in {100 * float(np.mean(bad)):.2g} % of the postures, most at "
+                f"positive definite in {100 * float(np.mean(bad)):.3g} % of the postures, most at "
                 f"joint {self.model.spec.joints[light].name}, so no motion follows from a torque; "
                 "expected the inertia of a body; fit with `--method consistent`, or record more "
                 "motion of that joint"

@@ -21,6 +21,7 @@ from modeler.freerun.plant import Plant
 
 _STEP = 1e-5  # of a difference quotient, rad or m, and rad/s or m/s
 _GROWN = np.log(10.0)  # an error that becomes tenfold in the run is told
+_FADED = np.log(2.0)  # and one that becomes half
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +71,7 @@ class Stability:
     @property
     def unstable(self) -> bool:
         """True if an error becomes tenfold and more in that run."""
-        return self.rate * self.seconds > _GROWN
+        return bool(self.rate * self.seconds > _GROWN)
 
     def sentence(self) -> str:
         """In words."""
@@ -81,7 +82,7 @@ class Stability:
                 f"{self.seconds:.3g} s, whatever the model; steepest at {self.at:.4g} s of "
                 f"{self.log}. A long free run says nothing here: judge by the windows"
             )
-        if self.rate * self.seconds < -_GROWN:
+        if self.rate * self.seconds < -_FADED:
             return (
                 "stable by nature: along this motion errors of the start fade, to a half in "
                 f"{np.log(2.0) / -self.rate:.2g} s"
@@ -146,7 +147,7 @@ def _growth(A: np.ndarray, step: float) -> float:
         size = float(np.abs(product).max())
         product, log = product / size, log + np.log(size)
     radius = float(np.abs(np.linalg.eigvals(product)).max())
-    return log + float(np.log(max(radius, 1e-300)))
+    return float(log) + float(np.log(max(radius, 1e-300)))
 
 
 def _times(growth: float) -> str:
