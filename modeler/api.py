@@ -15,7 +15,7 @@ draws the robot that was loaded.
 """
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ from modeler.core.errors import DataError, ManifestError
 from modeler.core.window import file_and_window
 from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
-from modeler.derivation import generate as generate
+from modeler.derivation import generate as generate_robot
 from modeler.derivation import load as load
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
@@ -38,11 +38,13 @@ from modeler.fit import (
     FitResult,
     IdentifiedModel,
     check_currents,
+    fitted_spec,
     identify,
     in_drive_units,
     provenance,
     with_verdict,
 )
+from modeler.logs import LogMap, map_from_table, map_from_words
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart
@@ -51,6 +53,9 @@ from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
 from modeler.showing import show as show
+
+Mapped = Mapping[str, Any] | Sequence[str]
+"""Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
 
 
 def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
@@ -72,32 +77,77 @@ def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     return robot_from_text(with_own_effect(robot.text, name, definition), robot.name)
 
 
+def generate(
+    source: Derivation | IdentifiedModel,
+    folder: str | Path | None = None,
+    force: bool = False,
+) -> Emitted:
+    """The C module of a robot; of a model, with functions that have its fitted values.
+
+    Args:
+        source: what was derived, or a fitted model.
+        folder: the module is written there if it is given.
+        force: write also over files that no earlier run wrote, or that were edited since.
+
+    Raises:
+        ManifestError: this version derives another manifest than the one that the values of the
+            model belong to.
+        ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
+    """
+    if isinstance(source, Derivation):
+        return generate_robot(source, folder, force)
+    derivation, _ = _emitted_anew(source)
+    return generate_robot(derivation, folder, force, fitted_spec(source))
+
+
 def compile_model(emitted: Emitted) -> CompiledModel:
     """The C module made callable; compiled once for the same content."""
-    return load_compiled(emitted.spec, emitted.files)
+    return load_compiled(emitted.spec, emitted.files, emitted.log)
 
 
-def read_logs(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list[Log]:
-    """Logs by path, `path@start:end` for a piece of it in seconds, or as they are."""
-    return [log if isinstance(log, Log) else _read(log, compiled.spec) for log in logs]
+def read_logs(
+    compiled: CompiledModel, logs: Sequence[str | Path | Log], mapping: Mapped = ()
+) -> list[Log]:
+    """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
+
+    Args:
+        compiled: the robot; its file's [log] says which columns are which.
+        logs: of any format of `modeler.logs`.
+        mapping: over [log]: a table like it, or texts as `--map` takes them.
+    """
+    names = log_map(compiled, mapping)
+    return [log if isinstance(log, Log) else _read(log, compiled.spec, names) for log in logs]
 
 
-def read_currents(compiled: CompiledModel, logs: Sequence[str | Path | Log]) -> list[Log]:
+def read_currents(
+    compiled: CompiledModel, logs: Sequence[str | Path | Log], mapping: Mapped = ()
+) -> list[Log]:
     """Logs of currents; where the robot file states no drive gain, torques are in drive units.
 
     Raises:
         DataError: a log gives a torque instead.
     """
-    spec = in_drive_units(compiled.spec)
-    read = [log if isinstance(log, Log) else _read(log, spec) for log in logs]
+    spec, names = in_drive_units(compiled.spec), log_map(compiled, mapping)
+    read = [log if isinstance(log, Log) else _read(log, spec, names) for log in logs]
     check_currents(read, spec.joints)
     return read
 
 
-def _read(place: str | Path, spec: ModuleSpec) -> Log:
+def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
+    """Which columns of logs are ours: [log] of the robot file, and `mapping` over it."""
+    stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
+    given = (
+        map_from_table(mapping, "mapping", strict=True)
+        if isinstance(mapping, Mapping)
+        else map_from_words(mapping)
+    )
+    return given.over(stated)
+
+
+def _read(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
     path, times = file_and_window(str(place))
     if times is None:
-        return read_log(place, spec)
+        return read_log(place, spec, names)
     start, colon, end = times.partition(":")
     try:
         span = tuple(float(side) if side else None for side in (start, end))
@@ -108,16 +158,17 @@ def _read(place: str | Path, spec: ModuleSpec) -> Log:
             f"{place}: got @{times} after the file; expected @START:END in seconds, as in "
             f"{path}@0:10, {path}@5: or {path}@:5"
         )
-    return window(read_log(path, spec), *span)
+    return window(read_log(path, spec, names), *span)
 
 
 def observe(
     compiled: CompiledModel,
     logs: Sequence[str | Path | Log],
     processing: Processing | None = None,
+    mapping: Mapped = (),
 ) -> Observation:
     """The rows y = W beta of logs."""
-    given = read_logs(compiled, logs)
+    given = read_logs(compiled, logs, mapping)
     check_apart(given)
     return observe_logs(compiled, given, processing)
 
@@ -174,16 +225,23 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
     Raises:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
+    otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
+    return compile_model(_emitted_anew(model, otherwise)[1])
+
+
+def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
+    """What the robot text of a model gives, if that is what its values belong to."""
     robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
-    emitted = generate(derive(robot))
+    derivation = derive(robot)
+    emitted = generate_robot(derivation)
     if emitted.spec.signature() != model.spec.signature():
         what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
         raise ManifestError(
             f"model of {model.spec.robot}: its robot text gives another {what} than its values "
-            "belong to: made by another version of modeler, or changed since; fit it again, or use "
-            "--run-embedded-c to run the C in the file if you trust its source"
+            "belong to: made by another version of modeler, or changed since; fit it again"
+            f"{otherwise}"
         )
-    return compile_model(emitted)
+    return derivation, emitted
 
 
 def _uncoded(spec: ModuleSpec) -> ModuleSpec:

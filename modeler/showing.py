@@ -6,13 +6,13 @@ from pathlib import Path
 
 from modeler.core.errors import DataError, DerivationError, LoopError
 from modeler.core.files import write_atomically
+from modeler.pages.robot import robot_html
 from modeler.robot import Robot
 from modeler.show import (
     PICTURE_KINDS,
     Posture,
     Skeleton,
     home_posture,
-    page_html,
     picture_bytes,
     skeleton_of,
 )
@@ -46,7 +46,7 @@ def show(robot: Robot, page: str | Path | None = None, picture: str | Path | Non
     found = _shown(robot)
     contents: list[tuple[str | Path, str | bytes]] = []
     if page is not None:
-        contents.append((page, page_html(found.skeleton, found.posture)))
+        contents.append((page, robot_html(found.skeleton, found.posture)))
     if picture is not None:
         contents.append((picture, picture_bytes(found.skeleton, found.posture, kind)))
     for place, content in contents:

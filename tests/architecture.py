@@ -7,8 +7,8 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
-    "compiled", "observation", "estimate", "fit", "residuals", "compare", "freerun", "hypotheses",
-    "scoring", "diagnose", "pages", "excite",
+    "pictures", "compiled", "logs", "observation", "estimate", "fit", "residuals", "compare",
+    "freerun", "hypotheses", "scoring", "diagnose", "excite", "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -22,12 +22,13 @@ STAGES: dict[str, set[str]] = {
     "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
-    "pages": {"core", "effects", *SOUTH[: SOUTH.index("pages")]},
-    "excite": {"core", "effects", "compiled", "observation", "hypotheses"},
+    "logs": {"core"},
+    "excite": {"core", "effects", "pictures", "compiled", "observation", "hypotheses"},
+    "pages": {"core", "effects", "robot", "show", *SOUTH[: SOUTH.index("pages")]},
     "simulate": {"core", "robot"},
     "show": {"core", "robot"},
     "derivation": {"core", *NORTH},
-    "showing": {"core", *NORTH, "show"},
+    "showing": {"core", *NORTH, "show", "pages"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
     "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
     "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
@@ -55,17 +56,19 @@ PACKAGES: dict[str, set[str]] = {
     "terms": {"numpy", "sympy"},
     "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
+    "pictures": {"numpy", "matplotlib"},
     "compiled": {"numpy", "cffi"},
-    "observation": {"numpy", "scipy", "pyarrow"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "observation": {"numpy", "scipy"},
     "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
-    "compare": {"numpy", "scipy", "matplotlib", "plotly"},
+    "compare": {"numpy", "scipy"},
     "freerun": {"numpy", "scipy"},
     "hypotheses": {"numpy", "scipy"},
     "scoring": {"numpy", "scipy"},
     "diagnose": {"numpy", "threadpoolctl"},
-    "pages": {"numpy", "scipy"},
+    "pages": {"numpy", "scipy", "jinja2"},
     "simulate": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "excite": {"numpy", "matplotlib", "pyarrow"},
     "show": {"numpy", "matplotlib"},
@@ -79,12 +82,14 @@ PACKAGES: dict[str, set[str]] = {
 
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
-    "jinja2": ("codegen/render.py",),
+    "jinja2": ("codegen/render.py", "pages/render.py"),
     "cffi": ("compiled/bind.py",),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
     "flint": ("symbolic/balls.py",),
+    "h5py": ("logs/hdf5.py",),
+    "rosbags": ("logs/bags.py",),
 }
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

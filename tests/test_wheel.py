@@ -42,9 +42,10 @@ def test_the_wheel_holds_the_package_its_data_and_nothing_else(built: tuple[Path
         "modeler/_templates/module.c.jinja",
         "modeler/_csrc/include/modeler_runtime.h",
         "modeler/robot/library/wrist.toml",
-        *(f"modeler/compare/report.{ending}" for ending in ("html", "css", "js")),
-        *(f"modeler/show/{name}" for name in ("page.html", "page.css", "view.js", "panel.js")),
-        *(f"modeler/show/{name}.js" for name in ("kinematics", "closing")),
+        "modeler/_templates/plotly/plotly-basic.min.js",
+        "modeler/_templates/plotly/LICENSE",
+        "modeler/_templates/pages/page.css",
+        *(f"modeler/_templates/pages/robot_{name}.js" for name in ("view", "panel", "closing")),
     } <= names
 
 

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "evra_tree.h"
 
@@ -77,7 +78,7 @@ static const double evra_geo_phi6 = EVRA_GEO_phi6;
 /* Joint torques, by the Newton-Euler recursion.
  * 519 additions, 687 multiplications. */
 void evra_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                const double *beta, double *restrict tau)
+                                const double *beta, double *MODELER_RESTRICT tau)
 {
     const double k1 = cos(evra_geo_beta1);
     const double k2 = sin(evra_geo_beta1);
@@ -456,7 +457,7 @@ void evra_tree_inverse_dynamics(const double *q, const double *qd, const double 
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 124 additions, 188 multiplications. */
-void evra_tree_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void evra_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     for (int i = 0; i < 676; i++)
         M[i] = 0.0;
@@ -733,7 +734,7 @@ void evra_tree_inertia_matrix(const double *q, const double *beta, double *restr
 
 /* Torques that hold the robot still, without friction.
  * 72 additions, 139 multiplications. */
-void evra_tree_gravity(const double *q, const double *beta, double *restrict tau)
+void evra_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -845,7 +846,7 @@ void evra_tree_gravity(const double *q, const double *beta, double *restrict tau
 /* Torques without gravity and friction.
  * 519 additions, 692 multiplications. */
 void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, const double *beta,
-                        double *restrict tau)
+                        double *MODELER_RESTRICT tau)
 {
     const double k1 = cos(evra_geo_beta1);
     const double k2 = sin(evra_geo_beta1);
@@ -1231,7 +1232,7 @@ void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, co
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void evra_tree_friction(const double *qd, const double *beta, double *restrict tau)
+void evra_tree_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
 {
     (void)qd;
     (void)beta;
@@ -1241,7 +1242,7 @@ void evra_tree_friction(const double *qd, const double *beta, double *restrict t
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 52 additions, 116 multiplications. */
-void evra_tree_forward_kinematics(const double *q, double *restrict T)
+void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     for (int i = 0; i < 312; i++)
         T[i] = 0.0;
@@ -1635,7 +1636,7 @@ void evra_tree_forward_kinematics(const double *q, double *restrict T)
 
 /* Closure equations f(u) and their derivatives by u.
  * 154 additions, 284 multiplications. */
-void evra_tree_closure(const double *q, double *restrict values)
+void evra_tree_closure(const double *q, double *MODELER_RESTRICT values)
 {
     for (int i = 0; i < 486; i++)
         values[i] = 0.0;
@@ -1932,7 +1933,7 @@ void evra_tree_closure(const double *q, double *restrict values)
 
 /* All equations of all loops, then cosines that are positive.
  * 94 additions, 108 multiplications. */
-void evra_tree_residual(const double *q, double *restrict values)
+void evra_tree_residual(const double *q, double *MODELER_RESTRICT values)
 {
     const double k1 = cos(evra_geo_beta1);
     const double k2 = sin(evra_geo_beta1);
@@ -2032,7 +2033,7 @@ void evra_tree_residual(const double *q, double *restrict values)
 
 /* d/dt(df/du) ud.
  * 282 additions, 572 multiplications. */
-void evra_tree_drift(const double *q, const double *qd, double *restrict values)
+void evra_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
 {
     const double k1 = cos(evra_geo_beta1);
     const double k2 = sin(evra_geo_beta1);
@@ -2261,7 +2262,7 @@ void evra_tree_drift(const double *q, const double *qd, double *restrict values)
 
 /* Base parameters from standard ones: the grouping relations.
  * 114 additions, 36 multiplications. */
-void evra_base_parameters(const double *chi, double *restrict beta)
+void evra_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = cos(evra_geo_phi1);
     const double k2 = sin(evra_geo_phi1);

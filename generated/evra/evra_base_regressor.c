@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "evra_tree.h"
 
@@ -69,7 +70,7 @@ static const double evra_geo_beta6 = EVRA_GEO_beta6;
 /* Regressor of the base parameters.
  * 366 additions, 602 multiplications. */
 void evra_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                              double *restrict phi)
+                              double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 2340; i++)
         phi[i] = 0.0;

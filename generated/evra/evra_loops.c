@@ -34,12 +34,12 @@ static const double standing[8] = {0.0};
 
 const char *evra_signature(void)
 {
-    return "f66b584d612bef3b";
+    return "262ab979b1ddc56c";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
 void evra_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                      double *restrict W, int *status)
+                      double *MODELER_RESTRICT W, int *status)
 {
     double u[26], ud[26], udd[26];
     double G[208], rows[26 * EVRA_BASE_PARAMETERS];
@@ -67,7 +67,8 @@ void evra_observation(size_t samples, const double *q, const double *qd, const d
 }
 
 /* Regressor of the standard parameters. */
-int evra_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+int evra_regressor(const double *q, const double *qd, const double *qdd,
+                   double *MODELER_RESTRICT phi)
 {
     double u[26], G[208], ud[26], udd[26], rows[5460], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -84,7 +85,8 @@ int evra_regressor(const double *q, const double *qd, const double *qdd, double 
 }
 
 /* Regressor of the base parameters. */
-int evra_base_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+int evra_base_regressor(const double *q, const double *qd, const double *qdd,
+                        double *MODELER_RESTRICT phi)
 {
     double u[26], G[208], ud[26], udd[26], rows[2340], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -102,7 +104,7 @@ int evra_base_regressor(const double *q, const double *qd, const double *qdd, do
 
 /* Torques that move the closed robot so. */
 int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, const double *beta,
-                          double *restrict tau)
+                          double *MODELER_RESTRICT tau)
 {
     double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -119,7 +121,7 @@ int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, 
 }
 
 /* Torques that hold the robot still, without friction. */
-int evra_gravity(const double *q, const double *beta, double *restrict tau)
+int evra_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[26], G[208], rows[26], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -136,7 +138,8 @@ int evra_gravity(const double *q, const double *beta, double *restrict tau)
 }
 
 /* Coriolis and centripetal torques. */
-int evra_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+int evra_coriolis(const double *q, const double *qd, const double *beta,
+                  double *MODELER_RESTRICT tau)
 {
     double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -153,7 +156,8 @@ int evra_coriolis(const double *q, const double *qd, const double *beta, double 
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
-int evra_friction(const double *q, const double *qd, const double *beta, double *restrict tau)
+int evra_friction(const double *q, const double *qd, const double *beta,
+                  double *MODELER_RESTRICT tau)
 {
     double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -170,7 +174,7 @@ int evra_friction(const double *q, const double *qd, const double *beta, double 
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
-int evra_inertia_matrix(const double *q, const double *beta, double *restrict M)
+int evra_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     double u[26], G[208], rows[676], half[208], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -191,7 +195,7 @@ int evra_inertia_matrix(const double *q, const double *beta, double *restrict M)
 }
 
 /* Pose of the frame of every moving row of the table. */
-int evra_forward_kinematics(const double *q, double *restrict T)
+int evra_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     double u[26], work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
@@ -204,7 +208,7 @@ int evra_forward_kinematics(const double *q, double *restrict T)
 }
 
 /* Closed posture, on a straight way from home. */
-int evra_close(const double *q, double *restrict u)
+int evra_close(const double *q, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
@@ -215,7 +219,7 @@ int evra_close(const double *q, double *restrict u)
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int evra_close_from(const double *q, const double *start, double *restrict u)
+int evra_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&loops, q, start, u, work);
@@ -226,7 +230,7 @@ int evra_close_from(const double *q, const double *start, double *restrict u)
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int evra_coupling(const double *q, double *restrict G)
+int evra_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[26], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -240,7 +244,7 @@ int evra_coupling(const double *q, double *restrict G)
 
 /* Regressor of the base parameters. */
 int evra_platform_base_regressor(const double *x, const double *xd, const double *xdd,
-                                 double *restrict phi)
+                                 double *MODELER_RESTRICT phi)
 {
     double u[26], G[208], ud[26], udd[26], rows[2340], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
@@ -258,7 +262,7 @@ int evra_platform_base_regressor(const double *x, const double *xd, const double
 
 /* Torques that move the closed robot so. */
 int evra_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                   const double *beta, double *restrict f)
+                                   const double *beta, double *MODELER_RESTRICT f)
 {
     double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
@@ -275,7 +279,7 @@ int evra_platform_inverse_dynamics(const double *x, const double *xd, const doub
 }
 
 /* Closed posture, on a straight way from home. */
-int evra_platform_close(const double *x, double *restrict u)
+int evra_platform_close(const double *x, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&platform_loops, x, home, u, work);
@@ -286,7 +290,7 @@ int evra_platform_close(const double *x, double *restrict u)
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int evra_platform_close_from(const double *x, const double *start, double *restrict u)
+int evra_platform_close_from(const double *x, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&platform_loops, x, start, u, work);
@@ -297,7 +301,7 @@ int evra_platform_close_from(const double *x, const double *start, double *restr
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int evra_platform_coupling(const double *x, double *restrict G)
+int evra_platform_coupling(const double *x, double *MODELER_RESTRICT G)
 {
     double u[26], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "evra_tree.h"
 
@@ -68,7 +69,8 @@ static const double evra_geo_beta6 = EVRA_GEO_beta6;
 
 /* Regressor of the standard parameters.
  * 396 additions, 656 multiplications. */
-void evra_tree_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+void evra_tree_regressor(const double *q, const double *qd, const double *qdd,
+                         double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 5460; i++)
         phi[i] = 0.0;

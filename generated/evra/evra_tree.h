@@ -7,6 +7,10 @@
 #ifndef EVRA_TREE_H
 #define EVRA_TREE_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 void evra_tree_regressor(const double *q, const double *qd, const double *qdd, double *phi);
 void evra_tree_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
 void evra_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
@@ -20,5 +24,9 @@ void evra_tree_forward_kinematics(const double *q, double *T);
 void evra_tree_closure(const double *q, double *values);
 void evra_tree_residual(const double *q, double *values);
 void evra_tree_drift(const double *q, const double *qd, double *values);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

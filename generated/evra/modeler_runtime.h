@@ -8,6 +8,15 @@
 
 #include <stddef.h>
 
+/* `restrict`, which C++ spells otherwise or has not. */
+#if !defined(__cplusplus)
+#define MODELER_RESTRICT restrict
+#elif defined(__GNUC__) || defined(_MSC_VER)
+#define MODELER_RESTRICT __restrict
+#else
+#define MODELER_RESTRICT
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "five_bar_tree.h"
 
@@ -41,7 +42,7 @@ static const double five_bar_geo_L4 = FIVE_BAR_GEO_L4;
 /* Joint torques, by the Newton-Euler recursion.
  * 26 additions, 41 multiplications. */
 void five_bar_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                    const double *beta, double *restrict tau)
+                                    const double *beta, double *MODELER_RESTRICT tau)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -76,7 +77,7 @@ void five_bar_tree_inverse_dynamics(const double *q, const double *qd, const dou
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 7 additions, 7 multiplications. */
-void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     M[2] = 0.0;
     M[3] = 0.0;
@@ -111,7 +112,7 @@ void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *r
 
 /* Torques that hold the robot still, without friction.
  * 8 additions, 17 multiplications. */
-void five_bar_tree_gravity(const double *q, const double *beta, double *restrict tau)
+void five_bar_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -137,7 +138,7 @@ void five_bar_tree_gravity(const double *q, const double *beta, double *restrict
 /* Torques without gravity and friction.
  * 18 additions, 33 multiplications. */
 void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *restrict tau)
+                            const double *beta, double *MODELER_RESTRICT tau)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -164,7 +165,7 @@ void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void five_bar_tree_friction(const double *qd, const double *beta, double *restrict tau)
+void five_bar_tree_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
 {
     (void)qd;
     (void)beta;
@@ -176,7 +177,7 @@ void five_bar_tree_friction(const double *qd, const double *beta, double *restri
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 5 additions, 12 multiplications. */
-void five_bar_tree_forward_kinematics(const double *q, double *restrict T)
+void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     for (int i = 0; i < 48; i++)
         T[i] = 0.0;
@@ -223,7 +224,7 @@ void five_bar_tree_forward_kinematics(const double *q, double *restrict T)
 
 /* Closure equations f(u) and their derivatives by u.
  * 12 additions, 16 multiplications. */
-void five_bar_tree_closure(const double *q, double *restrict values)
+void five_bar_tree_closure(const double *q, double *MODELER_RESTRICT values)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -256,7 +257,7 @@ void five_bar_tree_closure(const double *q, double *restrict values)
 
 /* All equations of all loops, then cosines that are positive.
  * 11 additions, 16 multiplications. */
-void five_bar_tree_residual(const double *q, double *restrict values)
+void five_bar_tree_residual(const double *q, double *MODELER_RESTRICT values)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -276,7 +277,7 @@ void five_bar_tree_residual(const double *q, double *restrict values)
 
 /* d/dt(df/du) ud.
  * 26 additions, 50 multiplications. */
-void five_bar_tree_drift(const double *q, const double *qd, double *restrict values)
+void five_bar_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -309,7 +310,7 @@ void five_bar_tree_drift(const double *q, const double *qd, double *restrict val
 
 /* Base parameters from standard ones: the grouping relations.
  * 11 additions, 11 multiplications. */
-void five_bar_base_parameters(const double *chi, double *restrict beta)
+void five_bar_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = five_bar_geo_L1*five_bar_geo_L1;
     const double k2 = 1.0/five_bar_geo_L4;

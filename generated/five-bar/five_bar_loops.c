@@ -28,12 +28,12 @@ static const double standing[2] = {0.0};
 
 const char *five_bar_signature(void)
 {
-    return "c6be4e80c85b698a";
+    return "785fb9b7cf2728a8";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
 void five_bar_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                          double *restrict W, int *status)
+                          double *MODELER_RESTRICT W, int *status)
 {
     double u[4], ud[4], udd[4];
     double G[8], rows[4 * FIVE_BAR_BASE_PARAMETERS];
@@ -61,7 +61,8 @@ void five_bar_observation(size_t samples, const double *q, const double *qd, con
 }
 
 /* Regressor of the standard parameters. */
-int five_bar_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+int five_bar_regressor(const double *q, const double *qd, const double *qdd,
+                       double *MODELER_RESTRICT phi)
 {
     double u[4], G[8], ud[4], udd[4], rows[160], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -79,7 +80,7 @@ int five_bar_regressor(const double *q, const double *qd, const double *qdd, dou
 
 /* Regressor of the base parameters. */
 int five_bar_base_regressor(const double *q, const double *qd, const double *qdd,
-                            double *restrict phi)
+                            double *MODELER_RESTRICT phi)
 {
     double u[4], G[8], ud[4], udd[4], rows[44], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -97,7 +98,7 @@ int five_bar_base_regressor(const double *q, const double *qd, const double *qdd
 
 /* Torques that move the closed robot so. */
 int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                              const double *beta, double *restrict tau)
+                              const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -114,7 +115,7 @@ int five_bar_inverse_dynamics(const double *q, const double *qd, const double *q
 }
 
 /* Torques that hold the robot still, without friction. */
-int five_bar_gravity(const double *q, const double *beta, double *restrict tau)
+int five_bar_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -131,7 +132,8 @@ int five_bar_gravity(const double *q, const double *beta, double *restrict tau)
 }
 
 /* Coriolis and centripetal torques. */
-int five_bar_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+int five_bar_coriolis(const double *q, const double *qd, const double *beta,
+                      double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -148,7 +150,8 @@ int five_bar_coriolis(const double *q, const double *qd, const double *beta, dou
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
-int five_bar_friction(const double *q, const double *qd, const double *beta, double *restrict tau)
+int five_bar_friction(const double *q, const double *qd, const double *beta,
+                      double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -165,7 +168,7 @@ int five_bar_friction(const double *q, const double *qd, const double *beta, dou
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
-int five_bar_inertia_matrix(const double *q, const double *beta, double *restrict M)
+int five_bar_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     double u[4], G[8], rows[16], half[8], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -186,7 +189,7 @@ int five_bar_inertia_matrix(const double *q, const double *beta, double *restric
 }
 
 /* Pose of the frame of every moving row of the table. */
-int five_bar_forward_kinematics(const double *q, double *restrict T)
+int five_bar_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     double u[4], work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
@@ -199,7 +202,7 @@ int five_bar_forward_kinematics(const double *q, double *restrict T)
 }
 
 /* Closed posture, on a straight way from home. */
-int five_bar_close(const double *q, double *restrict u)
+int five_bar_close(const double *q, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
@@ -210,7 +213,7 @@ int five_bar_close(const double *q, double *restrict u)
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int five_bar_close_from(const double *q, const double *start, double *restrict u)
+int five_bar_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&loops, q, start, u, work);
@@ -221,7 +224,7 @@ int five_bar_close_from(const double *q, const double *start, double *restrict u
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int five_bar_coupling(const double *q, double *restrict G)
+int five_bar_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[4], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);

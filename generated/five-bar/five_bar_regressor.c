@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "five_bar_tree.h"
 
@@ -38,7 +39,7 @@ static const double five_bar_geo_L3 = FIVE_BAR_GEO_L3;
 /* Regressor of the standard parameters.
  * 22 additions, 36 multiplications. */
 void five_bar_tree_regressor(const double *q, const double *qd, const double *qdd,
-                             double *restrict phi)
+                             double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 160; i++)
         phi[i] = 0.0;

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "orthoglide_2003_tree.h"
 
@@ -49,7 +50,7 @@ static const double orthoglide_2003_geo_d6 = ORTHOGLIDE_2003_GEO_d6;
 /* Joint torques, by the Newton-Euler recursion.
  * 165 additions, 226 multiplications. */
 void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                           const double *beta, double *restrict tau)
+                                           const double *beta, double *MODELER_RESTRICT tau)
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -173,7 +174,8 @@ void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, co
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 33 additions, 57 multiplications. */
-void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta,
+                                         double *MODELER_RESTRICT M)
 {
     for (int i = 0; i < 144; i++)
         M[i] = 0.0;
@@ -250,7 +252,7 @@ void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta, do
 
 /* Torques that hold the robot still, without friction.
  * 8 additions, 27 multiplications. */
-void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *restrict tau)
+void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[2] = 0.0;
@@ -287,7 +289,7 @@ void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *r
 /* Torques without gravity and friction.
  * 152 additions, 220 multiplications. */
 void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                                   const double *beta, double *restrict tau)
+                                   const double *beta, double *MODELER_RESTRICT tau)
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -404,7 +406,8 @@ void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const doub
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 6 additions, 6 multiplications. */
-void orthoglide_2003_tree_friction(const double *qd, const double *beta, double *restrict tau)
+void orthoglide_2003_tree_friction(const double *qd, const double *beta,
+                                   double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -424,7 +427,7 @@ void orthoglide_2003_tree_friction(const double *qd, const double *beta, double 
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 9 additions, 21 multiplications. */
-void orthoglide_2003_tree_forward_kinematics(const double *q, double *restrict T)
+void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     for (int i = 0; i < 252; i++)
         T[i] = 0.0;
@@ -624,7 +627,7 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *restrict T
 
 /* Closure equations f(u) and their derivatives by u.
  * 20 additions, 30 multiplications. */
-void orthoglide_2003_tree_closure(const double *q, double *restrict values)
+void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT values)
 {
     for (int i = 0; i < 117; i++)
         values[i] = 0.0;
@@ -690,7 +693,7 @@ void orthoglide_2003_tree_closure(const double *q, double *restrict values)
 
 /* All equations of all loops, then cosines that are positive.
  * 20 additions, 15 multiplications. */
-void orthoglide_2003_tree_residual(const double *q, double *restrict values)
+void orthoglide_2003_tree_residual(const double *q, double *MODELER_RESTRICT values)
 {
     const double k1 = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
 
@@ -722,7 +725,7 @@ void orthoglide_2003_tree_residual(const double *q, double *restrict values)
 
 /* d/dt(df/du) ud.
  * 18 additions, 66 multiplications. */
-void orthoglide_2003_tree_drift(const double *q, const double *qd, double *restrict values)
+void orthoglide_2003_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -768,7 +771,7 @@ void orthoglide_2003_tree_drift(const double *q, const double *qd, double *restr
 
 /* Base parameters from standard ones: the grouping relations.
  * 96 additions, 21 multiplications. */
-void orthoglide_2003_base_parameters(const double *chi, double *restrict beta)
+void orthoglide_2003_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = 1.0/orthoglide_2003_geo_D41;
     const double k2 = 1.0/orthoglide_2003_geo_D42;

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "orthoglide_2003_tree.h"
 
@@ -45,7 +46,7 @@ static const double orthoglide_2003_geo_D43 = ORTHOGLIDE_2003_GEO_D43;
 /* Regressor of the standard parameters.
  * 99 additions, 172 multiplications. */
 void orthoglide_2003_tree_regressor(const double *q, const double *qd, const double *qdd,
-                                    double *restrict phi)
+                                    double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 1956; i++)
         phi[i] = 0.0;

@@ -7,6 +7,10 @@
 #ifndef ORTHOGLIDE_2003_TREE_H
 #define ORTHOGLIDE_2003_TREE_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 void orthoglide_2003_tree_regressor(const double *q, const double *qd, const double *qdd,
                                     double *phi);
 void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, const double *qdd,
@@ -22,5 +26,9 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *T);
 void orthoglide_2003_tree_closure(const double *q, double *values);
 void orthoglide_2003_tree_residual(const double *q, double *values);
 void orthoglide_2003_tree_drift(const double *q, const double *qd, double *values);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

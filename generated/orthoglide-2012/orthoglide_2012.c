@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "orthoglide_2012_tree.h"
 
@@ -33,7 +34,7 @@ static const double orthoglide_2012_geo_d6 = ORTHOGLIDE_2012_GEO_d6;
 /* Joint torques, by the Newton-Euler recursion.
  * 179 additions, 241 multiplications. */
 void orthoglide_2012_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                           const double *beta, double *restrict tau)
+                                           const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -170,7 +171,8 @@ void orthoglide_2012_tree_inverse_dynamics(const double *q, const double *qd, co
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 35 additions, 57 multiplications. */
-void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta,
+                                         double *MODELER_RESTRICT M)
 {
     for (int i = 0; i < 144; i++)
         M[i] = 0.0;
@@ -243,7 +245,7 @@ void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta, do
 
 /* Torques that hold the robot still, without friction.
  * 9 additions, 29 multiplications. */
-void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *restrict tau)
+void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -280,7 +282,7 @@ void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *r
 /* Torques without gravity and friction.
  * 158 additions, 223 multiplications. */
 void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                                   const double *beta, double *restrict tau)
+                                   const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -406,7 +408,8 @@ void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const doub
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 9 additions, 18 multiplications. */
-void orthoglide_2012_tree_friction(const double *qd, const double *beta, double *restrict tau)
+void orthoglide_2012_tree_friction(const double *qd, const double *beta,
+                                   double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -425,7 +428,7 @@ void orthoglide_2012_tree_friction(const double *qd, const double *beta, double 
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 7 additions, 21 multiplications. */
-void orthoglide_2012_tree_forward_kinematics(const double *q, double *restrict T)
+void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     for (int i = 0; i < 216; i++)
         T[i] = 0.0;
@@ -584,7 +587,7 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *restrict T
 
 /* Closure equations f(u) and their derivatives by u.
  * 19 additions, 30 multiplications. */
-void orthoglide_2012_tree_closure(const double *q, double *restrict values)
+void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT values)
 {
     for (int i = 0; i < 117; i++)
         values[i] = 0.0;
@@ -648,7 +651,7 @@ void orthoglide_2012_tree_closure(const double *q, double *restrict values)
 
 /* All equations of all loops, then cosines that are positive.
  * 19 additions, 15 multiplications. */
-void orthoglide_2012_tree_residual(const double *q, double *restrict values)
+void orthoglide_2012_tree_residual(const double *q, double *MODELER_RESTRICT values)
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -678,7 +681,7 @@ void orthoglide_2012_tree_residual(const double *q, double *restrict values)
 
 /* d/dt(df/du) ud.
  * 18 additions, 66 multiplications. */
-void orthoglide_2012_tree_drift(const double *q, const double *qd, double *restrict values)
+void orthoglide_2012_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -724,7 +727,7 @@ void orthoglide_2012_tree_drift(const double *q, const double *qd, double *restr
 
 /* Base parameters from standard ones: the grouping relations.
  * 103 additions, 21 multiplications. */
-void orthoglide_2012_base_parameters(const double *chi, double *restrict beta)
+void orthoglide_2012_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = 1.0/orthoglide_2012_geo_d4;
     const double k2 = orthoglide_2012_geo_d4*orthoglide_2012_geo_d4;

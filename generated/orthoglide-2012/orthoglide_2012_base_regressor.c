@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 #include "orthoglide_2012_tree.h"
 
@@ -31,7 +32,7 @@ static const double orthoglide_2012_geo_d4 = ORTHOGLIDE_2012_GEO_d4;
 /* Regressor of the base parameters.
  * 70 additions, 120 multiplications. */
 void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                         double *restrict phi)
+                                         double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 636; i++)
         phi[i] = 0.0;

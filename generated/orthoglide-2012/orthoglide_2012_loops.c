@@ -34,12 +34,12 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2012_signature(void)
 {
-    return "5c772ac83c9310af";
+    return "12a73eaa74ae35f6";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
 void orthoglide_2012_observation(size_t samples, const double *q, const double *qd,
-                                 const double *qdd, double *restrict W, int *status)
+                                 const double *qdd, double *MODELER_RESTRICT W, int *status)
 {
     double u[12], ud[12], udd[12];
     double G[36], rows[12 * ORTHOGLIDE_2012_BASE_PARAMETERS];
@@ -68,7 +68,7 @@ void orthoglide_2012_observation(size_t samples, const double *q, const double *
 
 /* Regressor of the standard parameters. */
 int orthoglide_2012_regressor(const double *q, const double *qd, const double *qdd,
-                              double *restrict phi)
+                              double *MODELER_RESTRICT phi)
 {
     double u[12], G[36], ud[12], udd[12], rows[2352], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -86,7 +86,7 @@ int orthoglide_2012_regressor(const double *q, const double *qd, const double *q
 
 /* Regressor of the base parameters. */
 int orthoglide_2012_base_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *restrict phi)
+                                   double *MODELER_RESTRICT phi)
 {
     double u[12], G[36], ud[12], udd[12], rows[636], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -104,7 +104,7 @@ int orthoglide_2012_base_regressor(const double *q, const double *qd, const doub
 
 /* Torques that move the closed robot so. */
 int orthoglide_2012_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                     const double *beta, double *restrict tau)
+                                     const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -121,7 +121,7 @@ int orthoglide_2012_inverse_dynamics(const double *q, const double *qd, const do
 }
 
 /* Torques that hold the robot still, without friction. */
-int orthoglide_2012_gravity(const double *q, const double *beta, double *restrict tau)
+int orthoglide_2012_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -139,7 +139,7 @@ int orthoglide_2012_gravity(const double *q, const double *beta, double *restric
 
 /* Coriolis and centripetal torques. */
 int orthoglide_2012_coriolis(const double *q, const double *qd, const double *beta,
-                             double *restrict tau)
+                             double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -157,7 +157,7 @@ int orthoglide_2012_coriolis(const double *q, const double *qd, const double *be
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
 int orthoglide_2012_friction(const double *q, const double *qd, const double *beta,
-                             double *restrict tau)
+                             double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -174,7 +174,7 @@ int orthoglide_2012_friction(const double *q, const double *qd, const double *be
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
-int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *restrict M)
+int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     double u[12], G[36], rows[144], half[36], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -195,7 +195,7 @@ int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *
 }
 
 /* Pose of the frame of every moving row of the table. */
-int orthoglide_2012_forward_kinematics(const double *q, double *restrict T)
+int orthoglide_2012_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     double u[12], work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
@@ -208,7 +208,7 @@ int orthoglide_2012_forward_kinematics(const double *q, double *restrict T)
 }
 
 /* Closed posture, on a straight way from home. */
-int orthoglide_2012_close(const double *q, double *restrict u)
+int orthoglide_2012_close(const double *q, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&loops, q, home, u, work);
@@ -219,7 +219,7 @@ int orthoglide_2012_close(const double *q, double *restrict u)
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int orthoglide_2012_close_from(const double *q, const double *start, double *restrict u)
+int orthoglide_2012_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&loops, q, start, u, work);
@@ -230,7 +230,7 @@ int orthoglide_2012_close_from(const double *q, const double *start, double *res
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int orthoglide_2012_coupling(const double *q, double *restrict G)
+int orthoglide_2012_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[12], work[WORK];
     int status = modeler_close(&loops, q, home, u, work);
@@ -244,7 +244,7 @@ int orthoglide_2012_coupling(const double *q, double *restrict G)
 
 /* Regressor of the base parameters. */
 int orthoglide_2012_platform_base_regressor(const double *x, const double *xd, const double *xdd,
-                                            double *restrict phi)
+                                            double *MODELER_RESTRICT phi)
 {
     double u[12], G[36], ud[12], udd[12], rows[636], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
@@ -262,7 +262,7 @@ int orthoglide_2012_platform_base_regressor(const double *x, const double *xd, c
 
 /* Torques that move the closed robot so. */
 int orthoglide_2012_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                              const double *beta, double *restrict f)
+                                              const double *beta, double *MODELER_RESTRICT f)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);
@@ -279,7 +279,7 @@ int orthoglide_2012_platform_inverse_dynamics(const double *x, const double *xd,
 }
 
 /* Closed posture, on a straight way from home. */
-int orthoglide_2012_platform_close(const double *x, double *restrict u)
+int orthoglide_2012_platform_close(const double *x, double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&platform_loops, x, home, u, work);
@@ -290,7 +290,8 @@ int orthoglide_2012_platform_close(const double *x, double *restrict u)
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int orthoglide_2012_platform_close_from(const double *x, const double *start, double *restrict u)
+int orthoglide_2012_platform_close_from(const double *x, const double *start,
+                                        double *MODELER_RESTRICT u)
 {
     double work[WORK];
     const int status = modeler_close(&platform_loops, x, start, u, work);
@@ -301,7 +302,7 @@ int orthoglide_2012_platform_close_from(const double *x, const double *start, do
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int orthoglide_2012_platform_coupling(const double *x, double *restrict G)
+int orthoglide_2012_platform_coupling(const double *x, double *MODELER_RESTRICT G)
 {
     double u[12], work[WORK];
     int status = modeler_close(&platform_loops, x, home, u, work);

@@ -45,11 +45,11 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "cd9dcae69b9ca77d";
+    return "9a52678b6db87a5b";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
-                                     const double *qdd, double *restrict W)
+                                     const double *qdd, double *MODELER_RESTRICT W)
 {
     const modeler_input inputs[3] = {
         {q, ORTHOGLIDE_LEG_TREE_JOINTS},
@@ -64,7 +64,7 @@ void orthoglide_leg_tree_observation(size_t samples, const double *q, const doub
 /* Joint torques, by the Newton-Euler recursion.
  * 185 additions, 238 multiplications. */
 void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                          const double *beta, double *restrict tau)
+                                          const double *beta, double *MODELER_RESTRICT tau)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -178,7 +178,8 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 64 additions, 84 multiplications. */
-void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta,
+                                        double *MODELER_RESTRICT M)
 {
     M[17] = 0.0;
     M[23] = 0.0;
@@ -277,7 +278,7 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
 
 /* Torques that hold the robot still, without friction.
  * 9 additions, 22 multiplications. */
-void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *restrict tau)
+void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -306,7 +307,7 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *re
 /* Coriolis and centripetal torques.
  * 131 additions, 199 multiplications. */
 void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const double *beta,
-                                  double *restrict tau)
+                                  double *MODELER_RESTRICT tau)
 {
     const double k1 = orthoglide_leg_tree_geo_D4*2.0;
 
@@ -403,7 +404,8 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *restrict tau)
+void orthoglide_leg_tree_friction(const double *qd, const double *beta,
+                                  double *MODELER_RESTRICT tau)
 {
     (void)qd;
     (void)beta;
@@ -417,7 +419,7 @@ void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *
 
 /* Base parameters from standard ones: the grouping relations.
  * 27 additions, 5 multiplications. */
-void orthoglide_leg_tree_base_parameters(const double *chi, double *restrict beta)
+void orthoglide_leg_tree_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = orthoglide_leg_tree_geo_D4*orthoglide_leg_tree_geo_D4;
 
@@ -460,7 +462,7 @@ void orthoglide_leg_tree_base_parameters(const double *chi, double *restrict bet
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 12 additions, 33 multiplications. */
-void orthoglide_leg_tree_forward_kinematics(const double *q, double *restrict T)
+void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     for (int i = 0; i < 72; i++)
         T[i] = 0.0;

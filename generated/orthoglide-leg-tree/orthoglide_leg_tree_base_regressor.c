@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81
@@ -30,7 +31,7 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 /* Regressor of the base parameters.
  * 140 additions, 202 multiplications. */
 void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                        double *restrict phi)
+                                        double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 192; i++)
         phi[i] = 0.0;
@@ -250,7 +251,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
 /* The entries of the base regressor that are not always 0.
  * 140 additions, 202 multiplications. */
 void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *qd,
-                                                 const double *qdd, double *restrict values)
+                                                 const double *qdd, double *MODELER_RESTRICT values)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);

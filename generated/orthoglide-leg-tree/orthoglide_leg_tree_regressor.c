@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DORTHOGLIDE_LEG_TREE_GEO_g=9.81
@@ -30,7 +31,7 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 /* Regressor of the standard parameters.
  * 152 additions, 218 multiplications. */
 void orthoglide_leg_tree_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *restrict phi)
+                                   double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 360; i++)
         phi[i] = 0.0;

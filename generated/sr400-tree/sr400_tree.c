@@ -59,11 +59,11 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "b9a07ef3c959c2d9";
+    return "6c0e57e378c2f7fa";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                            double *restrict W)
+                            double *MODELER_RESTRICT W)
 {
     const modeler_input inputs[3] = {
         {q, SR400_TREE_JOINTS},
@@ -78,7 +78,7 @@ void sr400_tree_observation(size_t samples, const double *q, const double *qd, c
 /* Joint torques, by the Newton-Euler recursion.
  * 323 additions, 408 multiplications. */
 void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                 const double *beta, double *restrict tau)
+                                 const double *beta, double *MODELER_RESTRICT tau)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -265,7 +265,7 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 157 additions, 190 multiplications. */
-void sr400_tree_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     for (int i = 0; i < 64; i++)
         M[i] = 0.0;
@@ -447,7 +447,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *rest
 
 /* Torques that hold the robot still, without friction.
  * 29 additions, 52 multiplications. */
-void sr400_tree_gravity(const double *q, const double *beta, double *restrict tau)
+void sr400_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
 
@@ -497,7 +497,7 @@ void sr400_tree_gravity(const double *q, const double *beta, double *restrict ta
 /* Coriolis and centripetal torques.
  * 267 additions, 376 multiplications. */
 void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
-                         double *restrict tau)
+                         double *MODELER_RESTRICT tau)
 {
     const double k1 = sr400_tree_geo_D8*2.0;
     const double k2 = sr400_tree_geo_D4*2.0;
@@ -669,7 +669,7 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void sr400_tree_friction(const double *qd, const double *beta, double *restrict tau)
+void sr400_tree_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
 {
     (void)qd;
     (void)beta;
@@ -685,7 +685,7 @@ void sr400_tree_friction(const double *qd, const double *beta, double *restrict 
 
 /* Base parameters from standard ones: the grouping relations.
  * 62 additions, 36 multiplications. */
-void sr400_tree_base_parameters(const double *chi, double *restrict beta)
+void sr400_tree_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = sr400_tree_geo_D2*sr400_tree_geo_D2;
     const double k2 = sr400_tree_geo_D8*sr400_tree_geo_D8;
@@ -765,7 +765,7 @@ void sr400_tree_base_parameters(const double *chi, double *restrict beta)
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 38 additions, 80 multiplications. */
-void sr400_tree_forward_kinematics(const double *q, double *restrict T)
+void sr400_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     T[2] = 0.0;
     T[3] = 0.0;

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DSR400_TREE_GEO_g=9.81
@@ -40,7 +41,7 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 /* Regressor of the base parameters.
  * 340 additions, 454 multiplications. */
 void sr400_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                               double *restrict phi)
+                               double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 400; i++)
         phi[i] = 0.0;
@@ -467,7 +468,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
 /* The entries of the base regressor that are not always 0.
  * 340 additions, 454 multiplications. */
 void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                        double *restrict values)
+                                        double *MODELER_RESTRICT values)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);

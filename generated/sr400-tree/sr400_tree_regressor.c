@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DSR400_TREE_GEO_g=9.81
@@ -40,7 +41,7 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 /* Regressor of the standard parameters.
  * 380 additions, 500 multiplications. */
 void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
-                          double *restrict phi)
+                          double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 640; i++)
         phi[i] = 0.0;

@@ -56,11 +56,11 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "3c6f8c3555111d17";
+    return "8c169658c2f949a1";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                       double *restrict W)
+                       double *MODELER_RESTRICT W)
 {
     const modeler_input inputs[3] = {
         {q, SR400_JOINTS},
@@ -75,7 +75,7 @@ void sr400_observation(size_t samples, const double *q, const double *qd, const 
 /* Joint torques, by the Newton-Euler recursion.
  * 264 additions, 331 multiplications. */
 void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *restrict tau)
+                            const double *beta, double *MODELER_RESTRICT tau)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -229,7 +229,7 @@ void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 133 additions, 169 multiplications. */
-void sr400_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void sr400_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     const double k1 = sr400_geo_D8*2.0;
     const double k2 = sr400_geo_D2*2.0;
@@ -387,7 +387,7 @@ void sr400_inertia_matrix(const double *q, const double *beta, double *restrict 
 
 /* Torques that hold the robot still, without friction.
  * 26 additions, 43 multiplications. */
-void sr400_gravity(const double *q, const double *beta, double *restrict tau)
+void sr400_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     tau[0] = 0.0;
 
@@ -426,7 +426,8 @@ void sr400_gravity(const double *q, const double *beta, double *restrict tau)
 
 /* Coriolis and centripetal torques.
  * 227 additions, 309 multiplications. */
-void sr400_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+void sr400_coriolis(const double *q, const double *qd, const double *beta,
+                    double *MODELER_RESTRICT tau)
 {
     const double k1 = sr400_geo_D8*2.0;
     const double k2 = sr400_geo_D4*2.0;
@@ -571,7 +572,7 @@ void sr400_coriolis(const double *q, const double *qd, const double *beta, doubl
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void sr400_friction(const double *qd, const double *beta, double *restrict tau)
+void sr400_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
 {
     (void)qd;
     (void)beta;
@@ -585,7 +586,7 @@ void sr400_friction(const double *qd, const double *beta, double *restrict tau)
 
 /* Base parameters from standard ones: the grouping relations.
  * 75 additions, 37 multiplications. */
-void sr400_base_parameters(const double *chi, double *restrict beta)
+void sr400_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = sr400_geo_D2*sr400_geo_D2;
     const double k2 = sr400_geo_D8*sr400_geo_D8;
@@ -657,7 +658,7 @@ void sr400_base_parameters(const double *chi, double *restrict beta)
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 34 additions, 60 multiplications. */
-void sr400_forward_kinematics(const double *q, double *restrict T)
+void sr400_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     T[2] = 0.0;
     T[3] = 0.0;

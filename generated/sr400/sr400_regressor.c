@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DSR400_GEO_g=9.81
@@ -39,7 +40,8 @@ static const double sr400_geo_D8 = SR400_GEO_D8;
 
 /* Regressor of the standard parameters.
  * 329 additions, 445 multiplications. */
-void sr400_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+void sr400_regressor(const double *q, const double *qd, const double *qdd,
+                     double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 480; i++)
         phi[i] = 0.0;

@@ -38,11 +38,11 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "67dd2eeef1bde526";
+    return "83814f5c5bb73a3d";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                       double *restrict W)
+                       double *MODELER_RESTRICT W)
 {
     const modeler_input inputs[3] = {
         {q, WRIST_JOINTS},
@@ -57,7 +57,7 @@ void wrist_observation(size_t samples, const double *q, const double *qd, const 
 /* Joint torques, by the Newton-Euler recursion.
  * 77 additions, 105 multiplications. */
 void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *restrict tau)
+                            const double *beta, double *MODELER_RESTRICT tau)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -111,7 +111,7 @@ void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 24 additions, 28 multiplications. */
-void wrist_inertia_matrix(const double *q, const double *beta, double *restrict M)
+void wrist_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -143,7 +143,7 @@ void wrist_inertia_matrix(const double *q, const double *beta, double *restrict 
 
 /* Torques that hold the robot still, without friction.
  * 12 additions, 24 multiplications. */
-void wrist_gravity(const double *q, const double *beta, double *restrict tau)
+void wrist_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -167,7 +167,8 @@ void wrist_gravity(const double *q, const double *beta, double *restrict tau)
 
 /* Coriolis and centripetal torques.
  * 57 additions, 87 multiplications. */
-void wrist_coriolis(const double *q, const double *qd, const double *beta, double *restrict tau)
+void wrist_coriolis(const double *q, const double *qd, const double *beta,
+                    double *MODELER_RESTRICT tau)
 {
     const double k1 = wrist_geo_bl1*2.0;
 
@@ -212,7 +213,7 @@ void wrist_coriolis(const double *q, const double *qd, const double *beta, doubl
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void wrist_friction(const double *qd, const double *beta, double *restrict tau)
+void wrist_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
 {
     (void)qd;
     (void)beta;
@@ -223,7 +224,7 @@ void wrist_friction(const double *qd, const double *beta, double *restrict tau)
 
 /* Base parameters from standard ones: the grouping relations.
  * 12 additions, 3 multiplications. */
-void wrist_base_parameters(const double *chi, double *restrict beta)
+void wrist_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = wrist_geo_bl1*wrist_geo_bl1;
     const double k2 = wrist_geo_bl1*2.0;
@@ -251,7 +252,7 @@ void wrist_base_parameters(const double *chi, double *restrict beta)
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 5 additions, 17 multiplications. */
-void wrist_forward_kinematics(const double *q, double *restrict T)
+void wrist_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     T[2] = 0.0;
     T[3] = 0.0;

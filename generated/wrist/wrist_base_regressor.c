@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81
@@ -27,7 +28,7 @@ static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 /* Regressor of the base parameters.
  * 64 additions, 92 multiplications. */
 void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
-                          double *restrict phi)
+                          double *MODELER_RESTRICT phi)
 {
     phi[7] = 0.0;
     phi[17] = 0.0;
@@ -147,7 +148,7 @@ void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
 /* The entries of the base regressor that are not always 0.
  * 64 additions, 92 multiplications. */
 void wrist_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                   double *restrict values)
+                                   double *MODELER_RESTRICT values)
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);

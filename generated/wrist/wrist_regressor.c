@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modeler_runtime.h"
 #include "modeler_sincos.h"
 
 /* Geometry. To use another value, compile with e.g. -DWRIST_GEO_g=9.81
@@ -26,7 +27,8 @@ static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 
 /* Regressor of the standard parameters.
  * 74 additions, 103 multiplications. */
-void wrist_regressor(const double *q, const double *qd, const double *qdd, double *restrict phi)
+void wrist_regressor(const double *q, const double *qd, const double *qdd,
+                     double *MODELER_RESTRICT phi)
 {
     for (int i = 0; i < 90; i++)
         phi[i] = 0.0;

@@ -14,6 +14,7 @@ from modeler.base.result import (
     SampledRank,
     Sampling,
 )
+from modeler.core.latex_lines import Equation, display
 
 _WIDTH = 96
 
@@ -35,9 +36,9 @@ def as_markdown(base: BaseParameters) -> str:
 
 
 def as_latex(base: BaseParameters) -> str:
-    """The relations as an align environment."""
-    lines = [relation_latex(p).replace(" = ", " &= ", 1) for p in base.parameters]
-    return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
+    """The relations as an align environment, in lines that fit the page."""
+    sides = [relation_latex(p).split(" = ", 1) for p in base.parameters]
+    return display([Equation(left, (right,)) for left, right in sides], numbered=True)
 
 
 def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from modeler.diagnose import Known, diagnose
 from modeler.fit import IdentifiedModel, load_model, save_model
 from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
 from modeler.observation.apart import check_apart
-from modeler.pages import write_additions
+from modeler.pages.additions import write_additions
 from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
@@ -25,7 +25,7 @@ def run_add(args: argparse.Namespace) -> Json:
     model = load_model(args.model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = Logs(read_logs(compiled, args.logs), read_logs(compiled, args.holdout))
+        logs = Logs(*(read_logs(compiled, p, args.map) for p in (args.logs, args.holdout)))
     check_apart(logs.fitted, logs.held_out)
     better, left_out = _better(model, compiled, args, logs)
     written = _written(args, better, left_out)

@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.base import BaseParameters
-from modeler.cli.console import Json, say
+from modeler.cli.console import Json
 from modeler.cli.parsers.derive import FEW_JOINTS, Form
+from modeler.cli.words import Words
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation
@@ -47,7 +48,6 @@ _CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
 }
 _SHEETS: dict[Form, Callable[[Sheet], str]] = {
     "text": lambda sheet: "\n".join(sheet_lines(sheet)),
-    "latex": sheet_latex,
     "markdown": sheet_markdown,
 }
 _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
@@ -56,7 +56,7 @@ _TABLES: dict[Form, Callable[[CoefficientTable], str]] = {
     "markdown": coefficients_markdown,
 }
 _WIDTH = 96
-_COMMENT: dict[Form, str] = {"text": "# ", "latex": "% ", "markdown": "* "}
+_MARK: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 
 
 def check_request(args: argparse.Namespace) -> None:
@@ -69,9 +69,11 @@ def check_request(args: argparse.Namespace) -> None:
         raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
     if args.expanded and not (args.closed_form or args.terms):
         raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
+    if args.document and args.format != "latex":
+        raise ModelerError("--document is a whole page of LaTeX; add --format latex")
 
 
-def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
+def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Words) -> Json:
     """Prints what was asked for; for few joints the coefficients unasked.
 
     Returns:
@@ -83,19 +85,19 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation) -> Json:
     added: Json = {}
     if args.closed_form:
         if args.expanded:
-            say()
-            say(_CLOSED_FORMS[args.format](closed_form(model, base)))
+            words.say()
+            words.formulas(_CLOSED_FORMS[args.format](closed_form(model, base)))
         else:
-            added["closed_form"] = _say_short_form(args.format, model, base)
+            added["closed_form"] = _say_short_form(words, model, base)
     if args.regressor:
-        added["regressor"] = _say_regressor(args.format, model, base)
+        added["regressor"] = _say_regressor(words, model, base)
     few = model.closure is None and len(model.robot.coordinates) <= FEW_JOINTS
     asked = args.closed_form or args.regressor
     if args.terms or (args.terms is None and few and args.format == "text" and not asked):
-        _say_coefficients(args, derivation)
+        _say_coefficients(args, derivation, words)
     if args.report is not None:
         write_atomically(Path(args.report), terms_report(model, derivation.base))
-        say(f"written: {args.report}")
+        words.say(f"written: {args.report}")
     return added
 
 
@@ -115,53 +117,61 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
         )
 
 
-def _say_short_form(form: Form, model: SymbolicModel, base: BaseParameters) -> Json:
+def _say_short_form(words: Words, model: SymbolicModel, base: BaseParameters) -> Json:
     found = short_form(model, base)
     left = "t_u" if found.loops else "tau_i"
-    words = [
+    lines = [
         f"{left} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + g_i, without friction; "
         "what is not listed is 0"
     ]
     if found.loops:
-        words += found.loops.lines
-    return _say_sheet(form, words, found.sheet)
+        lines += found.loops.lines
+    return _say_sheet(words, lines, found.sheet)
 
 
-def _say_regressor(form: Form, model: SymbolicModel, base: BaseParameters) -> Json:
+def _say_regressor(words: Words, model: SymbolicModel, base: BaseParameters) -> Json:
     found = regressor_form(model, base)
     left = "t" if found.loops else "tau"
-    words = [f"{left} = phi beta, phi<joint>_<parameter>; what is not listed is 0"]
+    lines = [f"{left} = phi beta, phi<joint>_<parameter>; what is not listed is 0"]
     if found.loops:
-        words += found.loops.lines
-    return _say_sheet(form, words, found.sheet)
+        lines += found.loops.lines
+    return _say_sheet(words, lines, found.sheet)
 
 
-def _say_sheet(form: Form, words: Sequence[str], sheet: Sheet) -> Json:
-    say()
-    mark = _COMMENT[form]
-    for line in words:
+def _say_sheet(words: Words, lines: Sequence[str], sheet: Sheet) -> Json:
+    words.say()
+    mark = _MARK[words.form]
+    for line in lines:
         indent = mark + "  " if mark != "* " else "  "
-        for piece in textwrap.wrap(mark + line, _WIDTH, subsequent_indent=indent):
-            say(piece)
-    say()
-    say(_SHEETS[form](sheet))
-    return {"equation": list(words), **sheet_json(sheet)}
+        words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
+    words.say()
+    if words.form == "latex":
+        words.formulas(sheet_latex(sheet, words.heading))
+    else:
+        words.formulas(_SHEETS[words.form](sheet))
+    return {"equation": list(lines), **sheet_json(sheet)}
 
 
-def _say_coefficients(args: argparse.Namespace, derivation: Derivation) -> None:
+def _say_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
     # What was not asked for must not take away what was.
     unasked = args.terms is None and args.report is None
     try:
-        lines = _coefficients(derivation, args.format, args.expanded)
+        shown, lines = _coefficients(derivation, args.expanded)
     except ModelerError as error:
         if not unasked:
             raise
-        lines = ["", f"no coefficients: {error}"]
+        words.say()
+        words.say(f"no coefficients: {error}")
+        return
+    words.say()
+    words.formulas(_TABLES[args.format](shown))
+    words.say()
     for line in lines:
-        say(line)
+        words.say(line)
 
 
-def _coefficients(derivation: Derivation, form: Form, everything: bool) -> list[str]:
+def _coefficients(derivation: Derivation, everything: bool) -> tuple[CoefficientTable, list[str]]:
+    """The coefficients to list, and what there is to say of all of them."""
     table = coefficient_table(derivation.model, derivation.base)
     shown, note = table, []
     if len(table.coefficients) > MANY and not everything:
@@ -170,7 +180,7 @@ def _coefficients(derivation: Derivation, form: Form, everything: bool) -> list[
             f"listed: {len(shown.coefficients)} of {len(table.coefficients)} coefficients, from "
             "which the others follow; --expanded lists all"
         ]
-    return ["", _TABLES[form](shown), "", *note, *_facts(table)]
+    return shown, [*note, *_facts(table)]
 
 
 def _facts(table: CoefficientTable) -> list[str]:

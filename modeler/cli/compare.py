@@ -4,10 +4,11 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import read_logs, recompile
+from modeler.api import Mapped, read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.contest import models_of, run_contest
 from modeler.cli.given import check_logs, given
-from modeler.compare import Comparison, compare, verdict, write_pictures, write_report
+from modeler.compare import Comparison, compare, verdict, write_pictures
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.core.estimators import titled
@@ -16,18 +17,21 @@ from modeler.fit.reduced import with_essential_only
 from modeler.observation import Log
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
+from modeler.pages.comparison import write_report
 
 _TRAINING = "training only: "
 
 
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
+    if len(models_of(args)) > 1:
+        return run_contest(args)
     model = load_model(args.model)
     if args.essential:
         model = with_essential_only(model, args.model)
     with working("predicting"):
         compiled = model.compile() if args.run_embedded_c else recompile(model)
-        comparison, lines, found = judged(model, args.logs, compiled)
+        comparison, lines, found = judged(model, args.logs, compiled, args.map)
     say(comparison.summary())
     say()
     for sentence in (*verdict(comparison), *model.warning):
@@ -49,10 +53,10 @@ def run_compare(args: argparse.Namespace) -> Json:
 
 
 def judged(
-    model: IdentifiedModel, logs: list[str], compiled: CompiledModel
+    model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = ()
 ) -> tuple[Comparison, list[str], tuple[Fault, ...]]:
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
-    read = read_logs(compiled, logs)
+    read = read_logs(compiled, logs, mapping)
     check_logs(given(logs, read), [])
     prediction, observation = predict(model, read, compiled)
     fitted = ", ".join(log.name for log in model.logs)
@@ -60,7 +64,7 @@ def judged(
     lines = [
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
-        f"{100 * model.fit.relative_error:.2f} %"
+        f"{model.fit.error_told('{:.2f} %')}"
     ]
     lines += [*model.warning, *_training(model, read), *observation.report.summary()]
     found = findings_of_prediction(compiled, observation, model.beta)

@@ -9,12 +9,14 @@ from modeler.cli.add import waterfall
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.diagnose import lines
-from modeler.compare import verdict, write_pictures, write_report
+from modeler.compare import verdict, write_pictures
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
-from modeler.pages import write_additions, write_diagnosis
+from modeler.pages.additions import write_additions
+from modeler.pages.comparison import write_report
+from modeler.pages.report import write_diagnosis
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 

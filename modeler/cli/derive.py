@@ -1,4 +1,4 @@
-"""`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
+"""`modeler derive ROBOT`."""
 
 import argparse
 import dataclasses
@@ -11,11 +11,12 @@ from modeler.base import BaseParameters
 from modeler.base.numeric import random_states, regressor_values
 from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
 from modeler.cli.closed_forms import check_loops, check_request, say_closed_forms
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, working
 from modeler.cli.parsers.derive import Form
 from modeler.cli.robots import robot_of, robot_with_effects
+from modeler.cli.words import Words
 from modeler.core.errors import RobotError
-from modeler.derivation import Derivation, derive, generate
+from modeler.derivation import Derivation, derive
 from modeler.robot import Robot
 from modeler.symbolic import LinkColumn, SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
@@ -38,16 +39,19 @@ def run_derive(args: argparse.Namespace) -> Json:
     base = derivation.base
     result = as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
     counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
-    say(f"{robot.name}: {robot.title}")
-    say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
+    words = Words(args.format, args.document)
+    words.title(f"{robot.name}: {robot.title}")
+    words.say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
     for line in _tied_lines(derivation.model):
-        say(line)
-    say()
-    say(_FORMS[args.format](base))
-    say()
-    say(proof_text(base.proof))
-    say(f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque")
-    return result | say_closed_forms(args, derivation)
+        words.say(line)
+    words.say()
+    words.formulas(_FORMS[args.format](base))
+    words.say()
+    words.say(proof_text(base.proof))
+    words.say(f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque")
+    result |= say_closed_forms(args, derivation, words)
+    words.end()
+    return result
 
 
 def _opened(args: argparse.Namespace) -> Robot:
@@ -95,20 +99,3 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     other = lagrange_torque(model, *states, chi)
     largest = float(np.max(np.abs(other)))
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
-
-
-def run_generate(args: argparse.Namespace) -> Json:
-    """Writes the folder and says what is in it."""
-    robot = robot_of(args)
-    with working(f"deriving {robot.name}"):
-        derivation = derive(robot)
-        emitted = generate(derivation, args.out, args.force)
-    say(f"{robot.name}: {derivation.base.rank} base parameters, written to {args.out}:")
-    for name in sorted(emitted.files):
-        say(f"  {name}")
-    for function in emitted.spec.functions:
-        say(
-            f"  {function.name}: {function.equation} ({function.additions} additions, "
-            f"{function.multiplications} multiplications)"
-        )
-    return {"robot": robot.name, "folder": args.out, "files": sorted(emitted.files)}

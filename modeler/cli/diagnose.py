@@ -12,7 +12,7 @@ from modeler.diagnose.sentences import blind_spots
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.observation.apart import check_apart
-from modeler.pages import write_diagnosis
+from modeler.pages.report import write_diagnosis
 from modeler.robot import robot_from_text
 from modeler.robot.place import near
 
@@ -25,8 +25,8 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     _check_joints(args.without, model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = read_logs(compiled, args.logs)
-        holdout = read_logs(compiled, args.holdout)
+        logs = read_logs(compiled, args.logs, args.map)
+        holdout = read_logs(compiled, args.holdout, args.map)
     check_apart(logs, holdout)
     with progress("looking for missing effects") as bar:
         diagnosis = diagnose(

@@ -93,7 +93,7 @@ def check_load(args: argparse.Namespace) -> None:
 def _observed(
     args: argparse.Namespace, compiled: CompiledModel, processing: Processing, check: Checked
 ) -> tuple[Observation, list[Payload]]:
-    logs, loaded = (read_currents(compiled, p) for p in (args.logs, args.payload_log))
+    logs, loaded = (read_currents(compiled, p, args.map) for p in (args.logs, args.payload_log))
     check(args, logs, loaded)
     return observe(compiled, [*logs, *loaded], processing), carried(args, loaded)
 

@@ -50,7 +50,9 @@ def _compared(
     with working(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
     with working("building the observation matrix"):
-        logs, holdout = read_logs(compiled, args.logs), read_logs(compiled, args.holdout)
+        logs, holdout = (
+            read_logs(compiled, places, args.map) for places in (args.logs, args.holdout)
+        )
         check_apart(logs, holdout)
         observation = observe(compiled, logs)
         held = observe(compiled, holdout, observation.report.processing) if holdout else None

@@ -49,8 +49,8 @@ def run_fit(args: argparse.Namespace) -> Json:
         found = fit_with_gains(args, derivation, compiled, processing, _check_given)
         return _written(args, *found)
     with working("building the observation matrix"):
-        logs = read_logs(compiled, args.logs)
-        loaded = read_logs(compiled, args.payload_log)
+        logs = read_logs(compiled, args.logs, args.map)
+        loaded = read_logs(compiled, args.payload_log, args.map)
         _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
     with working("estimating"):

@@ -7,9 +7,8 @@ from pathlib import Path
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.given import check_logs, given
-from modeler.compare.picture import Picture, picture_csv
+from modeler.compare.pictures import write_each
 from modeler.core.errors import DataError
-from modeler.core.files import write_atomically
 from modeler.fit import load_model
 from modeler.freerun import Asked, free_run
 from modeler.freerun.controlled import Gains
@@ -22,30 +21,17 @@ def run_free_run(args: argparse.Namespace) -> Json:
     model = load_model(args.model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
-        logs = read_logs(compiled, args.logs)
+        logs = read_logs(compiled, args.logs, args.map)
     check_logs(given(args.logs, logs), [])
     with progress("simulating") as bar:
         found = free_run(model, logs, compiled, asked, bar)
     for line in (*found.summary().splitlines(), *model.warning):
         say(line)
     if args.pictures is not None:
-        with working("drawing pictures"):
-            count = _written(Path(args.pictures), free_run_pictures(found))
-        say(f"written: {count} files in {args.pictures}")
+        with progress("drawing pictures") as bar:
+            written = write_each(Path(args.pictures), free_run_pictures(found), bar)
+        say(f"written: {len(written)} files in {args.pictures}")
     return found.to_json()
-
-
-def _written(folder: Path, pictures: tuple[Picture, ...]) -> int:
-    """Writes PNG, SVG and CSV of each; their number."""
-    from modeler.compare.draw_matplotlib import images
-
-    count = 0
-    for picture in pictures:
-        files = {**images(picture), "csv": picture_csv(picture).encode()}
-        for kind, content in files.items():
-            write_atomically(folder / f"{picture.name}.{kind}", content)
-            count += 1
-    return count
 
 
 def _gains(text: str | None) -> Gains | None:

@@ -1,7 +1,6 @@
 """A small picture of every assembly mode, beside each other."""
 
-import html
-
+from modeler.pages.robot import modes_html
 from modeler.show import PICTURE_KINDS, Posture, modes_bytes, size_of, skeleton_of
 from modeler.symbolic import HomeModes
 
@@ -18,18 +17,7 @@ def modes_file(found: HomeModes, kind: str) -> bytes:
     if kind in PICTURE_KINDS:
         return _drawn(found, kind)
     robot, svg = found.linkage.robot, _drawn(found, ".svg").decode()
-    name, title = html.escape(robot.name), html.escape(robot.title)
-    return (
-        f'<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><title>{name}: assembly modes'
-        "</title>\n<style>body{font:15px sans-serif;margin:2em}svg{width:100%;height:auto;"
-        f"max-width:{_WIDE * min(4, len(found.modes))}px}}</style>\n<h1>{name}: assembly modes</h1>"
-        f"\n<p>{title}</p>\n<p>All with the actuated joints (orange) at the same place. Write one "
-        "into the robot file with <code>modeler home ROBOT --mode LETTER --write</code>.</p>\n"
-        f"{svg[svg.index('<svg') :]}</html>\n"
-    ).encode()
-
-
-_WIDE = 300  # px, of one picture on the page
+    return modes_html(robot.name, robot.title, len(found.modes), svg).encode()
 
 
 def _drawn(found: HomeModes, kind: str) -> bytes:

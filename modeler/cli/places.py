@@ -21,7 +21,8 @@ from modeler.robot.builtin import builtin_file, builtin_names
 from modeler.robot.converted import OTHER_PROGRAMS
 from modeler.simulate.settings import MOTIONS
 
-_LOGS = (".csv", ".parquet")
+_MOTIONS = (".csv", ".parquet")
+_LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
 
 
 def log_endings() -> tuple[str, ...]:
@@ -31,6 +32,10 @@ def log_endings() -> tuple[str, ...]:
 
 class Word(str):
     """A text that names no file."""
+
+
+class MapWord(Word):
+    """A line of a mapping, or a file of such lines."""
 
 
 class Input(str):
@@ -76,6 +81,21 @@ class LogFile(Input):
         return Path(file_and_window(self)[0])
 
 
+def model_or_log(text: str) -> Input:
+    """A model, by its ending or because it begins as JSON does; else a log."""
+    path = Path(text)
+    if path.suffix.lower() in _LOGS:
+        return LogFile(text)
+    if path.suffix.lower() == ".json":
+        return ModelFile(text)
+    try:
+        with path.open("rb") as file:
+            begins = file.read(64).lstrip()[:1] == b"{"
+    except OSError:
+        return LogFile(text)  # which says what is wrong with it
+    return ModelFile(text) if begins else LogFile(text)
+
+
 class MotionFile(Input):
     """A table of a motion: a whole log, or what `modeler excite` writes."""
 
@@ -87,7 +107,7 @@ class MotionOrKind(MotionFile):
 
     def __new__(cls, text: str) -> "MotionOrKind":
         """Refuses what is neither, as a wrong usage."""
-        if text not in MOTIONS and not text.endswith(_LOGS):
+        if text not in MOTIONS and not text.endswith(_MOTIONS):
             raise argparse.ArgumentTypeError(
                 f"got {text}; expected {', '.join(MOTIONS)}, or a .csv or .parquet file"
             )
@@ -133,7 +153,10 @@ class OutputFolder(str):
 class ModuleFolder(OutputFolder):
     """Of an emitted module."""
 
-    writes = ("*.c", "*.h", "*.md", "*.sha256", "manifest.json", "Makefile", "CMakeLists.txt")
+    writes = (
+        "*.c", "*.h", "*.md", "*.sha256", "*.pc.in", "*.cmake", "manifest.json", "Makefile",
+        "CMakeLists.txt",
+    )  # fmt: skip
 
 
 class PictureFolder(OutputFolder):

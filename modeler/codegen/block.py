@@ -53,12 +53,17 @@ class Block:
     multiplications: int
 
 
-def make_block(outputs: Sequence[tuple[str, Expr]], places: Mapping[str, str]) -> Block:
+def make_block(
+    outputs: Sequence[tuple[str, Expr]],
+    places: Mapping[str, str],
+    widths: Mapping[int, str] | None = None,
+) -> Block:
     """Statements that write every output.
 
     Args:
         outputs: (C place, value), e.g. ("phi[3]", ...); at least one, all of one graph.
         places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_GEO_D4"}.
+        widths: {speed: C text of the width over which its sign turns}; other signs leap.
 
     Raises:
         EmitError: a function or a symbol has no C form.
@@ -67,9 +72,9 @@ def make_block(outputs: Sequence[tuple[str, Expr]], places: Mapping[str, str]) -
     graph = outputs[0][1].graph
     values = [value for _, value in outputs]
     reachable = graph.reachable(values)
-    writer = _Writer(graph, places, _uses(graph, reachable, values), set())
+    writer = _Writer(graph, places, widths or {}, _uses(graph, reachable, values), set())
     writer.forced |= _multiple(graph, reachable, writer.uses, values)
-    hoisted = [i for i in reachable if graph.nodes[i].op in _HOISTED and not graph.nodes[i].static]
+    hoisted = [i for i in reachable if writer.is_call(i) and not graph.nodes[i].static]
     writer.forced |= set(hoisted)
     for index in reachable:
         if graph.nodes[index].static and index in writer.forced:
@@ -121,12 +126,18 @@ class _Writer:
 
     graph: Graph
     places: Mapping[str, str]
+    widths: Mapping[int, str]
     uses: Mapping[int, int]
     forced: set[int]
     texts: dict[int, Text] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
     pairs: dict[int, str] = field(default_factory=dict)
     count: dict[str, int] = field(default_factory=lambda: {"k": 0, "t": 0})
+
+    def is_call(self, index: int) -> bool:
+        """True if C calls a function for it, which stands before the arithmetic."""
+        node = self.graph.nodes[index]
+        return node.op in _HOISTED or (node.op == "sign" and node.args[0] in self.widths)
 
     def take(self) -> tuple[str, ...]:
         """The lines since the last call."""
@@ -227,6 +238,8 @@ class _Writer:
         signed = [a if arg > 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
         if node.op == "pow":
             return power_text(*signed)
+        if node.op == "sign" and node.args[0] in self.widths:
+            return Text(f"smooth_sign({signed[0].text}, {self.widths[node.args[0]]})", ATOM)
         return call_text(node.op, signed[0])
 
     def _place(self, symbol: str) -> str:

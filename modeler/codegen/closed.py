@@ -6,6 +6,7 @@ tau_q = G^T tau_u.
 """
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +17,7 @@ from modeler.codegen.functions import (
     Function,
     arguments_of,
     beta_symbols,
+    dynamics_functions,
     entries_of,
     grouping_function,
     reads_more,
@@ -23,7 +25,7 @@ from modeler.codegen.functions import (
 )
 from modeler.core.contract import ArgumentSpec
 from modeler.core.errors import EmitError
-from modeler.symbolic import Closure, SymbolicModel
+from modeler.symbolic import Closure, Expr, SymbolicModel
 
 
 @dataclass(frozen=True)
@@ -58,10 +60,8 @@ class _Frame:
 
 def closed_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function, ...]:
     """All functions of the module of a robot with loops: internal ones, then the public ones."""
-    closure = model.closure
-    assert closure is not None
-    given = arguments_of(model.robot.coordinates, model, base)
-    frame = _Frame("", given, closure)
+    frames = _frames(model, base)
+    frame = frames[0]
     if model.signals or reads_more(model):
         raise EmitError(
             f"{model.robot.name} has loops, and effects that read more than speeds and "
@@ -70,20 +70,47 @@ def closed_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Functi
     public = [
         *_regressors(frame, model, base), *_dynamics(frame),
         _inertia_matrix(frame), _kinematics(frame, model), *_postures(frame),
-        grouping_function(model, base, given),
+        grouping_function(model, base, frame.given),
     ]  # fmt: skip
-    if closure.platform is not None:
-        free = model.robot.free
-        joints = [free[k] for k in closure.platform]
-        names = ", ".join(joint.name for joint in joints)
-        x = _renamed(arguments_of(joints, model, base), names)
-        platform = _Frame("platform_", x, closure)
+    for platform in frames[1:]:
         public += [
             _regressors(platform, model, base)[1],
             _dynamics(platform)[0],
             *_postures(platform),
         ]
     return (*_internal(model, base), *public)
+
+
+def closed_dynamics(
+    model: SymbolicModel, base: BaseParameters, beta: Mapping[int, Expr]
+) -> tuple[tuple[Function, ...], tuple[Function, ...]]:
+    """Those of the functions that read beta: of the opened tree, and public ones.
+
+    Args:
+        model: as derived.
+        base: its base parameters.
+        beta: {column: the base parameter that stands for it, or its value}.
+    """
+    frames = _frames(model, base)
+    given = arguments_of(model.robot.free, model, base)
+    tree = {f.role: f for f in dynamics_functions(model, beta, given)}
+    tree["coriolis"] = _tree_coriolis(model, beta, given)
+    public = [*_dynamics(frames[0]), _inertia_matrix(frames[0])]
+    public += [_dynamics(platform)[0] for platform in frames[1:]]
+    return tuple(tree.values()), tuple(public)
+
+
+def _frames(model: SymbolicModel, base: BaseParameters) -> list[_Frame]:
+    """The coordinates, then those of the platform if there is one."""
+    closure = model.closure
+    assert closure is not None
+    frames = [_Frame("", arguments_of(model.robot.coordinates, model, base), closure)]
+    if closure.platform is not None:
+        joints = [model.robot.free[k] for k in closure.platform]
+        names = ", ".join(joint.name for joint in joints)
+        x = _renamed(arguments_of(joints, model, base), names)
+        frames.append(_Frame("platform_", x, closure))
+    return frames
 
 
 def _renamed(given: Arguments, names: str) -> Arguments:
@@ -105,16 +132,7 @@ def _internal(model: SymbolicModel, base: BaseParameters) -> list[Function]:
     for role in ("base_regressor_nonzeros", "base_parameters"):
         del found[role]
     given = arguments_of(model.robot.free, model, base)
-    beta = beta_symbols(model, base)
-    rotors = {
-        k: v for k, v in beta.items() if model.columns[k].kind in ("inertial", "rotor_inertia")
-    }
-    # The passive joints accelerate at qdd = 0 too: rotors on them belong to it.
-    found["coriolis"] = Function(
-        "", "coriolis", "Torques without gravity and friction.", "M(u) udd + c(u, ud)",
-        (given.q, given.qd, given.qdd, given.beta), given.tau,
-        entries_of(model.torque(rotors, gravity=False)),
-    )  # fmt: skip
+    found["coriolis"] = _tree_coriolis(model, beta_symbols(model, base), given)
     values = [*closure.equations, *(entry for line in closure.jacobian for entry in line)]
     found["closure"] = Function(
         "", "closure", "Closure equations f(u) and their derivatives by u.", "f(u) = 0",
@@ -133,6 +151,18 @@ def _internal(model: SymbolicModel, base: BaseParameters) -> list[Function]:
         entries_of(closure.drift),
     )  # fmt: skip
     return [dataclasses.replace(f, role=f"tree_{role}", internal=True) for role, f in found.items()]
+
+
+def _tree_coriolis(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> Function:
+    """The passive joints accelerate at qdd = 0 too: rotors on them belong to it."""
+    rotors = {
+        k: v for k, v in beta.items() if model.columns[k].kind in ("inertial", "rotor_inertia")
+    }
+    return Function(
+        "", "coriolis", "Torques without gravity and friction.", "M(u) udd + c(u, ud)",
+        (given.q, given.qd, given.qdd, given.beta), given.tau,
+        entries_of(model.torque(rotors, gravity=False)),
+    )  # fmt: skip
 
 
 def _regressors(

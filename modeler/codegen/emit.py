@@ -1,6 +1,7 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,14 +9,23 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.fitted import (
+    UNIT,
+    check_values,
+    fitted_functions,
+    fitted_texts,
+    widths,
+)
 from modeler.codegen.functions import Closed, Function, tree_functions
-from modeler.codegen.manifest import module_spec
+from modeler.codegen.manifest import function_specs, module_spec
 from modeler.codegen.names import (
+    enumerators,
     graph_places,
     module_prefix,
     symbol_constants,
     symbol_macros,
 )
+from modeler.codegen.package import package_files
 from modeler.codegen.render import render
 from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.core.contract import (
@@ -24,8 +34,10 @@ from modeler.core.contract import (
     RUNTIME,
     ArgumentSpec,
     Emitted,
+    FittedSpec,
     ModuleSpec,
     code_digest,
+    text_digest,
 )
 from modeler.core.errors import EmitError
 from modeler.core.resources import resource_dir
@@ -33,6 +45,8 @@ from modeler.symbolic import SymbolicModel
 
 _CLOSED = 1e-9
 """Residual of a closed loop, relative to the robot's size."""
+
+_RESTRICT = "MODELER_RESTRICT "
 
 
 @dataclass(frozen=True)
@@ -56,18 +70,53 @@ class _Written:
     multiplications: int
 
 
-def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
+def emit(model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None = None) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
     Args:
         model: as derived.
         base: the base parameters of the same model.
+        fitted: their values, of a model; the unit with them is added.
 
     Raises:
-        EmitError: something has no C99 form; says what.
+        EmitError: something has no C99 form, or a value is missing or none; says what.
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
+    module = _module(model, base)
+    spec, values = module.spec, module.values
+    code = _code(spec, values)
+    if fitted is not None:
+        spec, unit = _fitted_unit(model, base, fitted, module)
+        values |= {"spec": spec}
+        code |= unit
+    files = {
+        **code,
+        **package_files(spec, code, values),
+        "base_parameters.md": render("base_parameters.md", **values),
+        MANIFEST: spec.to_json(),
+    }
+    return Emitted(spec, files)
+
+
+@dataclass(frozen=True)
+class _Module:
+    """A module before it is laid out.
+
+    Attributes:
+        spec: its manifest.
+        blocks: functions and their bodies.
+        places: C text of every symbol of the graph.
+        values: what the templates read.
+    """
+
+    spec: ModuleSpec
+    blocks: list[tuple[Function, Block | None]]
+    places: dict[str, str]
+    values: dict[str, Any]
+
+
+def _module(model: SymbolicModel, base: BaseParameters) -> _Module:
     prefix = module_prefix(model.robot.name)
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
@@ -86,15 +135,47 @@ def emit(model: SymbolicModel, base: BaseParameters) -> Emitted:
     values |= {"loops": _loops(model), "names": constants, "signature": ""}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
-    files = {
-        **_code(spec, values),
-        "Makefile": render("Makefile", **values),
-        "CMakeLists.txt": render("CMakeLists.txt", **values),
-        "base_parameters.md": render("base_parameters.md", **values),
-        "README.md": render("README.md", **values),
-        MANIFEST: spec.to_json(),
+    return _Module(spec, blocks, places, values)
+
+
+def _fitted_unit(
+    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, module: _Module
+) -> tuple[ModuleSpec, dict[str, str]]:
+    """The manifest with the values, and the C of the functions that have them."""
+    prefix, values = module.spec.prefix, module.values
+    check_values(base, fitted)
+    functions = fitted_functions(model, base, fitted)
+    found = widths(prefix, model, functions)
+    turning = {width.speed: width.constant for width in found}
+    blocks = [(f, _block(f, module.places, turning)) for f in functions]
+    written = [_written(prefix, f, block) for f, block in blocks]
+    fitted = dataclasses.replace(
+        fitted,
+        widths=tuple(width.macro for width in found),
+        functions=function_specs(prefix, blocks, module.blocks),
+        code="",
+        signature="",
+    )
+    values = values | fitted_texts(module.spec, fitted, found)
+    values |= {
+        "functions": written,
+        "inner": [f for f in written if f.internal],
+        "outer": [f for f in written if not f.internal],
+        "constants": _constants(written, values, values["symbols"].texts),
+        "geometry": list(values["symbols"].macros),
     }
-    return Emitted(spec, files)
+    # The signature stands in the unit, so it comes last: it covers all the rest.
+    fitted = dataclasses.replace(fitted, code=code_digest(_fitted_files(prefix, values, fitted)))
+    spec = dataclasses.replace(module.spec, fitted=fitted)
+    fitted = dataclasses.replace(fitted, signature=text_digest(spec.to_json()))
+    return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
+
+
+def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> dict[str, str]:
+    return {
+        f"{prefix}{UNIT}.{kind}": render(f"fitted.{kind}", **{**values, "fitted": fitted})
+        for kind in ("h", "c")
+    }
 
 
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
@@ -150,16 +231,20 @@ def _loops(model: SymbolicModel) -> dict[str, Any] | None:
     }
 
 
-def _block(function: Function, places: dict[str, str]) -> Block | None:
+def _block(
+    function: Function, places: dict[str, str], turning: Mapping[int, str] | None = None
+) -> Block | None:
     if not function.entries:
         return None
-    name = function.output.name
-    return make_block([(f"{name}[{index}]", value) for index, value in function.entries], places)
+    outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
+    return make_block(outputs, places, turning)
 
 
 def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     name = f"{prefix}_{function.role}"
     returns = "void" if function.closed is None else "int"
+    if function.internal and function.unit == UNIT:
+        returns = "static void"
     return _Written(
         unit=function.unit,
         internal=function.internal,
@@ -168,7 +253,7 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
         equation=function.equation,
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
-        definition=layout.prototype(name, layout.arguments(function, "restrict "), returns),
+        definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
         closed=function.closed,
         output=function.output,
@@ -191,6 +276,10 @@ def _values(
         "symbols": symbols,
         "standard": standard,
         "base": base,
+        "enums": [
+            layout.name_lines(enumerators(spec.prefix, kind, [each.name for each in parameters]))
+            for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
+        ],
         "joints": ", ".join(joint.name for joint in spec.joints),
         "relations": relations,
         "functions": functions,
@@ -199,25 +288,27 @@ def _values(
             layout.observation_prototype(
                 spec.prefix, r, spec.closure is not None, bool(spec.signals)
             )
-            for r in ("", "restrict ")
+            for r in ("", _RESTRICT)
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
-        "sources": [name for name in spec.sources if name.endswith(".c")],
     }
 
 
 def _unit(unit: str, values: dict[str, Any]) -> str:
     functions = [function for function in values["functions"] if function.unit == unit]
-    read = frozenset[str]().union(*(function.symbols for function in functions))
-    constants = [
-        (values["names"][symbol], initial)
-        for symbol, initial in values["symbols"].initial.items()
-        if symbol in read
-    ]
+    constants = _constants(functions, values, values["symbols"].initial)
     more = {"functions": functions, "constants": constants, "main": not unit}
     return render("module.c", **{**values, **more})
+
+
+def _constants(
+    functions: list[_Written], values: dict[str, Any], initial: Mapping[str, str]
+) -> list[tuple[str, str]]:
+    """(name, what it is initialised with) of the geometric constants that the functions read."""
+    read = frozenset[str]().union(*(function.symbols for function in functions))
+    return [(values["names"][symbol], text) for symbol, text in initial.items() if symbol in read]
 
 
 def _runtime(spec: ModuleSpec) -> dict[str, str]:

@@ -1,6 +1,6 @@
 """Which functions a module has: equation, arguments and the expression of every output."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -52,6 +52,7 @@ class Closed:
         role: of the tree's function.
         reads: its further inputs, as C.
         width: columns that are projected.
+        tree: start of the names of the tree's functions.
     """
 
     kind: str
@@ -63,12 +64,13 @@ class Closed:
     role: str = ""
     reads: str = ""
     width: int = 1
+    tree: str = "tree"
 
     @property
     def calls(self) -> tuple[str, ...]:
         """Roles of the tree's functions that it calls."""
         carried = ("tree_drift",) if self.qd else ()
-        return ("tree_closure", "tree_residual", *carried, f"tree_{self.role}")
+        return ("tree_closure", "tree_residual", *carried, f"{self.tree}_{self.role}")
 
 
 @dataclass(frozen=True)
@@ -103,7 +105,7 @@ def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function
     beta = beta_symbols(model, base)
     return (
         *_regressors(model, base, given),
-        *_dynamics(model, beta, given),
+        *dynamics_functions(model, beta, given),
         grouping_function(model, base, given),
         _kinematics(model, given),
         *_advance(model, given),
@@ -171,9 +173,10 @@ def _by_place(item: tuple[tuple[int, int], Expr]) -> tuple[int, int]:
     return item[0]
 
 
-def _dynamics(
-    model: SymbolicModel, beta: dict[int, Expr], given: Arguments
+def dynamics_functions(
+    model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments
 ) -> tuple[Function, ...]:
+    """Torques and their parts, without loops; `beta` gives the parameter of each column."""
     joints = model.geometry.coordinates
     q, qd, b = given.q, given.qd, given.beta
     losing = (*given.motion, b) if reads_more(model) else (qd, b)

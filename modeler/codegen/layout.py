@@ -26,6 +26,11 @@ def comment_text(text: str) -> str:
     return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 
+def comment_lines(sentences: Iterable[str]) -> list[str]:
+    """Sentences as lines for the inside of a C comment."""
+    return [line for each in sentences for line in comment_text(each).split("\n * ")]
+
+
 def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[str], list[str]]:
     """Comment lines that say which column is which parameter: (standard, base).
 
@@ -69,7 +74,7 @@ def argument_lines(function: Function) -> list[str]:
 
 
 def arguments(function: Function, restrict: str) -> list[str]:
-    """C parameters: inputs const; `restrict` is put before the output's name."""
+    """C parameters: inputs const; `restrict`, or nothing, is put before the output's name."""
     return [
         *(f"const double *{argument.name}" for argument in function.inputs),
         f"double *{restrict}{function.output.name}",
@@ -148,4 +153,11 @@ def _unread(function: Function, block: Block | None) -> Iterable[str]:
 
 def number_lines(numbers: Sequence[int]) -> list[str]:
     """The numbers of a C table, in lines of readable length."""
-    return textwrap.wrap(", ".join(str(number) for number in numbers), _WIDTH - 4)
+    return name_lines([str(number) for number in numbers])
+
+
+def name_lines(names: Sequence[str]) -> list[str]:
+    """Words of a C table or enum, in lines of readable length."""
+    return textwrap.wrap(
+        ", ".join(names), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
+    )

@@ -44,7 +44,7 @@ def module_spec(
         standard=tuple(_standard(model, column) for column in model.columns),
         base=_bases(model, base),
         unidentifiable=tuple(base.unidentifiable),
-        functions=_functions(prefix, list(blocks)),
+        functions=function_specs(prefix, list(blocks)),
         closure=_closure(model),
         signals=tuple(_signal(model, signal) for signal in model.signals),
     )
@@ -126,11 +126,19 @@ def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, 
     return float(precise_values(model.graph, [model.algebra.static(coefficient)], values)[0])
 
 
-def _functions(
-    prefix: str, blocks: Sequence[tuple[Function, Block | None]]
+def function_specs(
+    prefix: str,
+    blocks: Sequence[tuple[Function, Block | None]],
+    called: Sequence[tuple[Function, Block | None]] = (),
 ) -> tuple[FunctionSpec, ...]:
-    """The public ones; one that closes loops has the operations of all that it calls, once each."""
-    own = {function.role: _operations(block) for function, block in blocks}
+    """The public ones; one that closes loops has the operations of all that it calls, once each.
+
+    Args:
+        prefix: of the module.
+        blocks: the functions.
+        called: functions of other units that they may call.
+    """
+    own = {function.role: _operations(block) for function, block in (*called, *blocks)}
     found = []
     for function, block in blocks:
         if function.internal:

@@ -48,6 +48,20 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     return macros
 
 
+def enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
+    """C constants of places in a list of parameters: PUMA560_BETA_ZZ1R, spelled as it is printed.
+
+    `BETA` and `CHI` keep them apart from the header's other names, as GEO does symbols. The reader
+    of robot files sees to it that parameters have different names of letters, digits and `_`.
+
+    Args:
+        prefix: of the module.
+        kind: "beta" or "chi".
+        names: of the parameters, in order.
+    """
+    return [f"{prefix}_{kind}_".upper() + name for name in names]
+
+
 def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     """{geometric symbol: C constant that the functions read}: D4 -> puma560_geo_D4.
 

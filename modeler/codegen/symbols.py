@@ -28,12 +28,19 @@ class SymbolLines:
         fixed: macros of those that must stay.
         why: why these must stay, one sentence.
         initial: {symbol: what its constant is initialised with}: the macro, or the value.
+        texts: {symbol: its value}.
     """
 
     free: tuple[tuple[str, str], ...]
     fixed: tuple[str, ...]
     why: str
     initial: Mapping[str, str]
+    texts: Mapping[str, str]
+
+    @property
+    def macros(self) -> tuple[str, ...]:
+        """All of them."""
+        return (*(name for name, _ in self.free), *self.fixed)
 
 
 def symbol_lines(
@@ -60,6 +67,7 @@ def symbol_lines(
         ),
         why=_SOME if exact else _ALL,
         initial={name: text if name in stay else macros[name] for name, text in texts.items()},
+        texts=texts,
     )
 
 

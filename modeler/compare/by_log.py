@@ -1,10 +1,11 @@
 """The error of each log by itself, when several are compared."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.compare.prediction import Prediction, residual
+from modeler.compare.prediction import Prediction, residual, unit_errors
 
 
 @dataclass(frozen=True)
@@ -15,6 +16,7 @@ class LogError:
     samples: int  # rows that count for at least one joint
     relative_error: float  # all joints; NaN without torque
     joints: tuple[tuple[str, float], ...]  # by joint name; NaN where nothing counts
+    by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
 
 
 def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
@@ -33,6 +35,7 @@ def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
                     (info.name, _relative(e[rows, j], measured[rows, j]))
                     for j, info in enumerate(prediction.joints)
                 ),
+                by_unit=unit_errors(prediction, rows),
             )
         )
     return tuple(found)

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +16,7 @@ from modeler.compare.prediction import (
     check_prediction,
     relative_error,
     residual,
+    unit_errors,
 )
 from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
@@ -23,6 +25,7 @@ from modeler.compare.shares import Shares, shares
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
+from modeler.core.by_unit import POOLED
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
 
@@ -56,6 +59,7 @@ class JointComparison:
     shares: Shares | None  # None: too few samples to tell
     scale: Scale | None  # None: too few samples, or a constant
     orders: OrderSpectrum | None  # None: too few samples, or the joint rests
+    predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +73,7 @@ class Comparison:
     unjudged: tuple[tuple[str, str], ...]  # joint name, why
     logs: tuple[LogError, ...]
     repeated: tuple[Repetition, ...]  # empty: no motion was made twice
+    by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
     def as_dict(self) -> dict[str, Any]:
         """The comparison as plain numbers and text; undefined numbers are None."""
@@ -77,6 +82,8 @@ class Comparison:
             "logs": list(self.prediction.logs),
             "samples": self.samples,
             "relative_error": _defined(self.relative_error),
+            "relative_error_pools": POOLED,
+            "by_unit": {unit: _defined(error) for unit, error in self.by_unit.items()},
             "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
             "unjudged": dict(self.unjudged),
             "by_log": [_log_dict(log) for log in self.logs],
@@ -125,6 +132,7 @@ def compare(prediction: Prediction) -> Comparison:
         unjudged=tuple(unjudged),
         logs=errors_by_log(prediction),
         repeated=repeated,
+        by_unit=unit_errors(prediction),
     )
 
 
@@ -158,6 +166,9 @@ def _compare_joint(
         shares=shares(prediction, index, e, repeated, found),
         scale=scale(measured, prediction.predicted[rows, index]),
         orders=ripple(prediction, index),
+        predicted_sigma=None
+        if prediction.sigma is None
+        else float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2))),
     )
 
 
@@ -176,6 +187,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
         "unit": item.joint.effort_unit,
         "samples": item.samples,
         "bias": item.bias,
+        "predicted_sigma": item.predicted_sigma,
         "regions": [dataclasses.asdict(region) for region in item.regions],
         "worst_window": dataclasses.asdict(item.worst),
         "structure": None
@@ -219,5 +231,6 @@ def _log_dict(found: LogError) -> dict[str, Any]:
         "log": found.log,
         "samples": found.samples,
         "relative_error": _defined(found.relative_error),
+        "by_unit": {unit: _defined(error) for unit, error in found.by_unit.items()},
         "joints": {name: _defined(error) for name, error in found.joints},
     }

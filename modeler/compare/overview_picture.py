@@ -4,10 +4,10 @@ import numpy as np
 
 from modeler.compare.comparison import Comparison
 from modeler.compare.coordinates import COORDINATES, coordinates_of
-from modeler.compare.picture import BLUE, Bars, Heat, Panel, Picture, Style
 from modeler.compare.share_picture import share_panels
 from modeler.compare.table import METHODS
 from modeler.compare.where import REGIONS
+from modeler.pictures.picture import BLUE, Bars, Heat, Panel, Picture, Style
 
 
 def overview_picture(comparison: Comparison) -> Picture:

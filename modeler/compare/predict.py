@@ -6,11 +6,13 @@ from typing import Literal, cast
 
 import numpy as np
 
+from modeler.compare.band import sigma_of
 from modeler.compare.prediction import FullRate, JointInfo, Motor, Prediction
 from modeler.compiled import CompiledModel
 from modeler.fit import IdentifiedModel
 from modeler.observation import Log, Observation, observe
 from modeler.observation.dry_friction import shafts
+from modeler.observation.masks import masks_of
 from modeler.observation.row_filter import LEAST_WEIGHT, moving_means
 from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
@@ -39,6 +41,8 @@ def predict(
         temperature=_temperature(observation),
         full=_full_rate(observation, compiled, model.beta),
         motors=_motors(compiled),
+        sigma=sigma_of(observation.columns, model.covariance),
+        masks=masks_of(observation),
     )
     return prediction, observation
 

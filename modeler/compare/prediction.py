@@ -6,9 +6,11 @@ from typing import Literal
 
 import numpy as np
 
+from modeler.core.by_unit import errors_by_unit
 from modeler.core.errors import DataError, ShapeError
 
 _MATRICES = ("q", "qd", "qdd", "measured", "predicted")
+_FURTHER = ("travel", "temperature", "sigma", "masks")
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,8 @@ class Prediction:
     temperature: np.ndarray | None = None  # (n, joints) as logged; NaN where it was not
     full: FullRate | None = None  # None: the rows are all there is
     motors: tuple[Motor, ...] = ()
+    sigma: np.ndarray | None = None  # (n, joints) N m or N, of `predicted` by the fit's covariance
+    masks: np.ndarray | None = None  # (n, joints) why a row does not count, see observation.masks
 
 
 def residual(prediction: Prediction) -> np.ndarray:
@@ -85,6 +89,22 @@ def relative_error(prediction: Prediction) -> float:
     size = float(np.linalg.norm(prediction.measured[used]))
     error = float(np.linalg.norm(residual(prediction)[used]))
     return error / size if size else math.nan
+
+
+def unit_errors(prediction: Prediction, rows: np.ndarray | None = None) -> dict[str, float]:
+    """Relative error over all joints of one unit, by unit.
+
+    Args:
+        prediction: measured and predicted.
+        rows: (n,) bool, those that are looked at; None: all.
+    """
+    used = prediction.used if rows is None else prediction.used & rows[:, None]
+    left = np.where(used, prediction.measured - prediction.predicted, 0.0)
+    measured = np.where(used, prediction.measured, 0.0)
+    return errors_by_unit(
+        (info.effort_unit, float(left[:, j] @ left[:, j]), float(measured[:, j] @ measured[:, j]))
+        for j, info in enumerate(prediction.joints)
+    )
 
 
 def check_prediction(prediction: Prediction) -> None:
@@ -111,7 +131,7 @@ def _check_shapes(prediction: Prediction) -> None:
     if columns == 0:
         raise ShapeError("joints: got none; expected at least one joint to compare")
     expected = {name: (rows,) for name in ("time", "run", "segment")}
-    further = [n for n in ("travel", "temperature") if getattr(prediction, n) is not None]
+    further = [n for n in _FURTHER if getattr(prediction, n) is not None]
     matrices = {name: (rows, columns) for name in (*_MATRICES, "used", *further)}
     for name, shape in {**expected, **matrices}.items():
         got = np.shape(getattr(prediction, name))

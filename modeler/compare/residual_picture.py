@@ -4,7 +4,10 @@ import numpy as np
 
 from modeler.compare.comparison import JointComparison
 from modeler.compare.coordinates import coordinate_unit, coordinate_values, coordinates_of
-from modeler.compare.picture import (
+from modeler.compare.prediction import Prediction
+from modeler.compare.ripple import lines, waves
+from modeler.compare.time_picture import running_time
+from modeler.pictures.picture import (
     BLUE,
     GREY,
     ORANGE,
@@ -16,12 +19,9 @@ from modeler.compare.picture import (
     Points,
     Style,
 )
-from modeler.compare.prediction import Prediction
-from modeler.compare.ripple import lines, waves
-from modeler.compare.thinning import thin_curves, thin_points
-from modeler.compare.time_picture import running_time
+from modeler.pictures.thinning import thin_curves, thin_points
 
-_DOTS = 1200
+_DOTS = 700
 _BINS = 24
 _FEWEST = 8  # samples of a bin whose mean is drawn
 _CLOUD = Style(GREY, width=2.6, opacity=0.45)

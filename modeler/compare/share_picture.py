@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.compare.comparison import Comparison
-from modeler.compare.picture import BLUE, SLATE, VERMILLION, Bars, Panel, Style
+from modeler.pictures.picture import BLUE, SLATE, VERMILLION, Bars, Panel, Style
 
 _READABLE = 8.0  # percent: a shorter stretch of a bar has no room for its number
 

@@ -4,6 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from modeler.core.by_unit import WORDS
+
 if TYPE_CHECKING:
     from modeler.compare.comparison import Comparison, JointComparison
 
@@ -26,10 +28,17 @@ def summary(comparison: "Comparison") -> str:
     names = max((len(name) for name, _ in comparison.unjudged), default=0)
     width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
     lines += [f"{name:<{width}}not judged: {reason}" for name, reason in comparison.unjudged]
-    lines.append(
-        f"{'all':<{width}}{or_dash(comparison.relative_error, '.1%')}  of "
-        f"{comparison.samples} samples"
-    )
+    if len(comparison.by_unit) == 1:
+        lines.append(
+            f"{'all':<{width}}{or_dash(comparison.relative_error, '.1%')}  of "
+            f"{comparison.samples} samples"
+        )
+    else:  # N m and N add up to nothing
+        lines += [
+            f"{'all':<{width}}{or_dash(error, '.1%')}  of the {WORDS[unit]}s ({unit})"
+            for unit, error in comparison.by_unit.items()
+        ]
+        lines.append(f"{comparison.samples} samples")
     lines += method_lines(comparison)
     if len(comparison.logs) > 1:
         lines += ["", *_logs(comparison)]
@@ -85,12 +94,14 @@ def _row(item: "JointComparison") -> tuple[str, ...]:
 
 def _logs(comparison: "Comparison") -> list[str]:
     names = [name for name, _ in comparison.logs[0].joints]
-    head = ("log", "samples", "error", *(f"joint {name}" for name in names))
+    units = comparison.by_unit
+    errors = ["error"] if len(units) == 1 else [f"error {unit}" for unit in units]
+    head = ("log", "samples", *errors, *(f"joint {name}" for name in names))
     rows = [
         (
             item.log,
             str(item.samples),
-            or_dash(item.relative_error, ".1%"),
+            *(or_dash(error, ".1%") for error in item.by_unit.values()),
             *(or_dash(error, ".1%") for _, error in item.joints),
         )
         for item in comparison.logs

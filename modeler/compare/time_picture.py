@@ -4,24 +4,32 @@ from dataclasses import replace
 
 import numpy as np
 
+from modeler.compare.band import DEVIATIONS
 from modeler.compare.comparison import JointComparison
-from modeler.compare.picture import (
+from modeler.compare.masked import masked_spans, told_masks
+from modeler.compare.prediction import Prediction, residual
+from modeler.compare.where import WINDOW
+from modeler.core.by_unit import WORDS
+from modeler.pictures.picture import (
     BLACK,
+    COLOR_NAMES,
     ORANGE,
+    SHADE,
+    SKY,
     VERMILLION,
+    Band,
     Curve,
     Panel,
     Picture,
     Series,
     Style,
 )
-from modeler.compare.prediction import Prediction, residual
-from modeler.compare.thinning import thin_curves
-from modeler.compare.where import WINDOW
+from modeler.pictures.thinning import thin_curves
 
 _MEASURED = Style(BLACK, width=1.1)
 _PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)
 _RESIDUAL = Style(VERMILLION, width=1.0)
+_BAND = Style(SKY, opacity=0.45)
 
 
 def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
@@ -35,20 +43,14 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     left = _column(prediction, item, np.arange(time.size), running, _whole_title(prediction), label)
     right = _column(
         prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
-        f"time in {window.log} [s]",
+        f"time in {window.log} [s]", banded=True,
     )  # fmt: skip
     here, close = (start, start + window.end - window.start), (window.start, window.end)
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_time",
         title=f"Joint {name}: measured and predicted torque",
-        caption=(
-            f"Above: measured ({_MEASURED.named}) and predicted ({_PREDICTED.named}); where you "
-            f"see no {_MEASURED.named}, they agree. Below ({_RESIDUAL.named}): the difference, on "
-            "its own, finer scale; samples that do not count (masked for low speed or saturation) "
-            f"are left out of it. Shaded: the {WINDOW} s with the largest squared residual, "
-            "enlarged on the right."
-        ),
+        caption=" ".join(_caption(prediction, item)),
         panels=tuple(
             (replace(all_logs, marks=marks, shade=here), replace(worst, shade=close))
             for all_logs, worst in zip(left, right, strict=True)
@@ -58,6 +60,24 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
         height=440,
         shared_time=True,
     )
+
+
+def _caption(prediction: Prediction, item: JointComparison) -> list[str]:
+    what = WORDS[item.joint.effort_unit]
+    lines = [
+        f"Above: measured ({_MEASURED.named}) and predicted ({_PREDICTED.named}) {what}; where you "
+        f"see no {_MEASURED.named}, they agree. Below ({_RESIDUAL.named}): the difference, on its "
+        f"own, finer scale. Shaded {COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s "
+        "with the largest squared residual, enlarged on the right."
+    ]
+    if prediction.sigma is not None:
+        lines.append(
+            f"Broad {_BAND.named} there: two standard deviations of the predicted {what} on either "
+            "side, from the covariance of the fitted parameters alone: 95 % where the model is "
+            "right; it knows nothing of effects that the model lacks."
+        )
+    masks = told_masks(prediction, item.index)
+    return [*lines, masks] if masks else lines
 
 
 def running_time(
@@ -98,6 +118,7 @@ def _column(
     time: np.ndarray,
     title: str,
     label: str,
+    banded: bool = False,
 ) -> tuple[Panel, Panel]:
     unit, joint = item.joint.effort_unit, item.index
     curves = (
@@ -112,8 +133,25 @@ def _column(
     for text, values, style in zip(labels, curves, styles, strict=True):
         x, y = broken(prediction.segment[rows][kept], time[rows][kept], values[kept])
         series.append(Curve(text, x, y, style))
+    spans = masked_spans(prediction, joint, time, rows)
+    bands = _bands(prediction, joint, rows[kept], time) if banded else ()
     return (
-        Panel(title, label, f"torque [{unit}]" if unit == "N m" else f"force [{unit}]",
-              tuple(series[:2])),
-        Panel(f"{title}: residual", label, f"residual [{unit}]", (series[2],), zero=True),
+        Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
+        Panel(f"{title}: residual", label, f"residual [{unit}]", (*bands[1:], series[2]), zero=True,
+              spans=spans),
     )  # fmt: skip
+
+
+def _bands(
+    prediction: Prediction, joint: int, rows: np.ndarray, time: np.ndarray
+) -> tuple[Band, ...]:
+    """About the prediction, and about zero."""
+    if prediction.sigma is None:
+        return ()
+    half = DEVIATIONS * prediction.sigma[rows, joint]
+    found = []
+    for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
+        x, low = broken(prediction.segment[rows], time[rows], middle - half)
+        _, high = broken(prediction.segment[rows], time[rows], middle + half)
+        found.append(Band("95 % band of the prediction", x, low, high, _BAND))
+    return tuple(found)

@@ -5,6 +5,7 @@ from modeler.compare.coordinates import COORDINATES, Coordinate
 from modeler.compare.ripple import lines, waves
 from modeler.compare.structure import NEARLY
 from modeler.compare.where import Region
+from modeler.core.by_unit import WORDS
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
 _STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
@@ -20,7 +21,8 @@ def headline(comparison: Comparison) -> str:
     if not comparison.joints:
         return f"{comparison.prediction.robot}: no joint could be judged."
     ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
-    text = f"{percent(comparison.relative_error)} of the torque is unexplained"
+    parts = [f"{percent(error)} of the {WORDS[unit]}" for unit, error in told_units(comparison)]
+    text = f"{' and '.join(parts)} is unexplained"
     if len(ranked) == 1:
         return f"{text}."
     best, worst = ranked[0], ranked[-1]
@@ -28,6 +30,12 @@ def headline(comparison: Comparison) -> str:
         f"{text}; joint by joint from {percent(best.relative_error)} (joint {best.joint.name}) "
         f"to {percent(worst.relative_error)} (joint {worst.joint.name})."
     )
+
+
+def told_units(comparison: Comparison) -> list[tuple[str, float]]:
+    """Units of the judged joints, and the error over the joints of each."""
+    judged = {item.joint.effort_unit for item in comparison.joints}
+    return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
 
 
 def verdict(comparison: Comparison) -> tuple[str, ...]:
@@ -40,7 +48,8 @@ def verdict(comparison: Comparison) -> tuple[str, ...]:
 def joint_verdict(item: JointComparison) -> str:
     """The line of one joint."""
     return (
-        f"Joint {item.joint.name}: {percent(item.relative_error)} of the torque is unexplained "
+        f"Joint {item.joint.name}: {percent(item.relative_error)} of the "
+        f"{WORDS[item.joint.effort_unit]} is unexplained "
         f"({item.rms:.2g} {item.joint.effort_unit} rms); {'; '.join(findings(item))}."
     )
 

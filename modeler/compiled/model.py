@@ -29,10 +29,14 @@ class CompiledModel:
 
     Attributes:
         spec: the manifest.
+        log: the [log] of the robot file: which columns of its logs are which.
     """
 
-    def __init__(self, spec: ModuleSpec, library: Library) -> None:
+    def __init__(
+        self, spec: ModuleSpec, library: Library, log: Mapping[str, object] | None = None
+    ) -> None:
         self.spec = spec
+        self.log: Mapping[str, object] = log or {}
         self._library = library
         self._functions = {
             function.name.removeprefix(f"{spec.prefix}_"): function for function in spec.functions
@@ -237,12 +241,15 @@ class CompiledModel:
         )
 
 
-def load(spec: ModuleSpec, files: Mapping[str, str]) -> CompiledModel:
+def load(
+    spec: ModuleSpec, files: Mapping[str, str], log: Mapping[str, object] | None = None
+) -> CompiledModel:
     """The compiled model of an emitted module; compiled once, then taken from the cache.
 
     Args:
         spec: the manifest.
         files: {file name: text} with at least `spec.sources`; others are not looked at.
+        log: the [log] of the robot file.
 
     Raises:
         ManifestError: a file is missing, a name of the manifest is no C name, or the code belongs
@@ -256,7 +263,7 @@ def load(spec: ModuleSpec, files: Mapping[str, str]) -> CompiledModel:
             f"{spec.robot}: the module lacks {', '.join(missing)}; generate it again"
         )
     path = build_library({name: files[name] for name in spec.sources})
-    return CompiledModel(spec, Library(spec, path))
+    return CompiledModel(spec, Library(spec, path), log)
 
 
 def load_folder(folder: Path | str) -> CompiledModel:

@@ -8,7 +8,7 @@ import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -132,6 +132,34 @@ class SignalSpec:
 
 
 @dataclass(frozen=True)
+class FittedParameter:
+    """One value of a fit."""
+
+    name: str  # "ZZ1R"
+    unit: str
+    value: float
+    sigma: float | None  # standard deviation; None: set aside, the value is 0
+    essential: bool = True
+
+
+@dataclass(frozen=True)
+class FittedSpec:
+    """The values that stand in the C of a fitted model, and the functions that have them."""
+
+    method: str  # id of the estimator
+    usable: bool | None  # None: nobody has judged the fit
+    verdict: str
+    doubts: tuple[str, ...]
+    remarks: tuple[str, ...]  # what a reader of the values must know besides
+    parameters: tuple[FittedParameter, ...]  # in the order of `base`
+    gains: tuple[float, ...] = ()  # joint torque per drive unit; empty unless all are known
+    widths: tuple[str, ...] = ()  # macros, one per joint whose friction leaps
+    functions: tuple[FunctionSpec, ...] = ()
+    code: str = ""  # digest of the fitted unit, its signature left out
+    signature: str = ""  # of all that, and of the robot: what <prefix>_fitted_signature() answers
+
+
+@dataclass(frozen=True)
 class ModuleSpec:
     """The manifest of one robot."""
 
@@ -148,6 +176,7 @@ class ModuleSpec:
     closure: ClosureSpec | None = None
     signals: tuple[SignalSpec, ...] = ()
     code: str = ""  # digest of the sources, their signature left out: see `code_digest`
+    fitted: FittedSpec | None = None  # where it was generated from a model
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -166,6 +195,7 @@ class ModuleSpec:
     def sources(self) -> tuple[str, ...]:
         """Names of the C files that the library is compiled from, headers included."""
         units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
+        units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
         runtime = list(RUNTIME)
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
@@ -178,15 +208,25 @@ class ModuleSpec:
 
     @cached_property
     def _text(self) -> str:
-        return json.dumps(dataclasses.asdict(self), indent=1) + "\n"
+        entries = dataclasses.asdict(self)
+        if self.fitted is None:
+            del entries["fitted"]
+        return json.dumps(entries, indent=1) + "\n"
 
     def signature(self) -> str:
         """Hash that the emitted library repeats, so that a stale library is noticed.
 
-        Of the whole manifest, and with it of the whole C text: two robots of the same signature
-        have the same C. It is the same on every machine.
+        Of the whole manifest but the fitted values, which have a signature of their own, and with
+        it of the whole C text: two robots of the same signature have the same C. It is the same on
+        every machine.
         """
-        return hashlib.sha256(self.to_json().encode()).hexdigest()[:16]
+        robot = self if self.fitted is None else dataclasses.replace(self, fitted=None)
+        return text_digest(robot.to_json())
+
+
+def text_digest(text: str) -> str:
+    """The sixteen digits that a signature is."""
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def code_digest(sources: Mapping[str, str]) -> str:
@@ -206,10 +246,12 @@ class Emitted:
     Attributes:
         spec: its manifest.
         files: {file name: text}; the C files of `spec.sources`, the manifest, build files, tables.
+        log: what the robot file says of the columns of logs; no part of the C.
     """
 
     spec: ModuleSpec
     files: Mapping[str, str]
+    log: Mapping[str, object] = field(default_factory=dict)
 
 
 def module_from_json(text: bytes | str, where: str) -> ModuleSpec:

@@ -6,6 +6,7 @@ from modeler.fit.drive_gains import are_currents as are_currents
 from modeler.fit.drive_gains import check_currents as check_currents
 from modeler.fit.drive_gains import identify_gains as identify_gains
 from modeler.fit.drive_gains import in_drive_units as in_drive_units
+from modeler.fit.emitted import fitted_spec as fitted_spec
 from modeler.fit.energy import EnergyFit as EnergyFit
 from modeler.fit.energy import identify_energy as identify_energy
 from modeler.fit.essential import Essential as Essential

@@ -1,6 +1,7 @@
 """The MODEL file: one JSON file with all that later commands need; it can be mailed."""
 
 import json
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -150,7 +151,16 @@ class IdentifiedModel:
         # Only here: a model file can be read and printed where there is no compiler.
         from modeler.compiled import load
 
-        return load(self.spec, self.sources)
+        return load(self.spec, self.sources, _log_table(self.robot_text))
+
+
+def _log_table(robot_text: str) -> Mapping[str, Any]:
+    """The [log] of a robot file."""
+    try:
+        table = tomllib.loads(robot_text).get("log", {})
+    except ValueError:
+        return {}
+    return table if isinstance(table, Mapping) else {}
 
 
 def provenance(report: DataReport) -> tuple[LogProvenance, ...]:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.by_unit import POOLED, errors_by_unit, told_by_unit
 from modeler.core.errors import DataError, ManifestError
 from modeler.fit.bodies import bodies_told
 from modeler.fit.directions import Directed, directed_from_json, direction_lines
@@ -118,6 +119,21 @@ class FitResult:
         """(c,) values of the base parameters, manifest order, SI units."""
         return np.array([parameter.value for parameter in self.parameters])
 
+    @property
+    def by_unit(self) -> dict[str, float]:
+        """Relative error over the joints of one unit, by unit; NaN without torque."""
+        return errors_by_unit(
+            (joint.unit, left, left / joint.relative_error**2 if joint.relative_error else 0.0)
+            for joint in self.joints
+            for left in [joint.rows * joint.rms**2]
+        )
+
+    def error_told(self, form: str = "{:.3f} %") -> str:
+        """The relative error as text; of torques and forces apart where the robot has both."""
+        if self.energy is None and len(self.by_unit) > 1:
+            return told_by_unit(self.by_unit, form)
+        return form.format(100.0 * self.relative_error)
+
     def summary(self) -> list[str]:
         """Lines of text: parameters, joints, remarks."""
         lines = parameter_lines((*self.gains, *self.parameters, *self.loads))
@@ -125,7 +141,7 @@ class FitResult:
         lines += [
             f"{self.rows} rows of {self.samples} samples, condition number "
             f"{self.condition_number:.4g} ({self.condition_scaled:.4g} with columns of length one)",
-            f"relative error {100.0 * self.relative_error:.3f} %",
+            f"relative error {self.error_told()}",
         ]
         for joint in self.joints:
             error = joint.relative_error
@@ -150,6 +166,8 @@ class FitResult:
             "condition_number": _finite(self.condition_number),
             "condition_scaled": _finite(self.condition_scaled),
             "relative_error": self.relative_error,
+            "relative_error_pools": POOLED,
+            "by_unit": {unit: _finite(error) for unit, error in self.by_unit.items()},
             "essential_error": self.essential_error,
             "joints": {
                 joint.name: {

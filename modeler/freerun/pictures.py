@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from modeler.compare.picture import BLACK, GREY, ORANGE, VERMILLION, Curve, Panel, Picture, Style
-from modeler.compare.thinning import thin_curves
 from modeler.freerun.result import FreeRun
+from modeler.pictures.picture import BLACK, GREY, ORANGE, VERMILLION, Curve, Panel, Picture, Style
+from modeler.pictures.thinning import thin_curves
 
 _MEASURED = Style(BLACK, width=1.1)
 _SIMULATED = Style(ORANGE, width=1.6, opacity=0.9)

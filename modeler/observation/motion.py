@@ -24,6 +24,8 @@ MISSING = "have no measured position or torque, or a damaged one"
 BRIDGES = "lie beside missing positions, as near as the position filter reaches"
 CONTRADICTED = "have impossible derivatives, or lie as near to them as the position filter reaches"
 SATURATED = "have a torque at its limit"
+CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED)
+"""In this order; the first that applies counts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,8 @@ class Segment:
         valid: (n, joints) True where the torque is a measurement that counts.
         lost: why the others do not count, samples (joints,) by cause; the first cause that applies.
         commanded: (n, joints) commanded positions, filtered like q; None where none were logged.
+        cause: (n, joints) place in CAUSES of why a sample does not count, -1 where it counts; None
+            where nobody asked.
     """
 
     run: int
@@ -55,6 +59,7 @@ class Segment:
     valid: np.ndarray
     lost: Mapping[str, np.ndarray]
     commanded: np.ndarray | None = None
+    cause: np.ndarray | None = None
 
     @property
     def samples(self) -> int:
@@ -93,12 +98,14 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     whole = np.ones(len(piece.time), dtype=bool)
     if edge:
         whole[:edge] = whole[-edge:] = False
-    valid, lost = _counted(piece, whole, edge, cutoff, processing.keep_saturated)
+    cause = _causes(piece, whole, edge, cutoff, processing.keep_saturated)
+    lost = {name: np.sum(cause == k, axis=0) for k, name in enumerate(CAUSES)}
     tau = _later(piece, processing.delay)
     wanted = None if piece.commanded is None else low_pass(piece.commanded, piece.step, cutoff)
     return Segment(
-        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, valid, lost, wanted
-    )
+        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, cause < 0, lost,
+        wanted, cause,
+    )  # fmt: skip
 
 
 def _later(piece: Piece, delay: float) -> np.ndarray:
@@ -109,31 +116,27 @@ def _later(piece: Piece, delay: float) -> np.ndarray:
     return np.column_stack([np.interp(moved, piece.time, tau) for tau in piece.tau.T])
 
 
-def _counted(
+def _causes(
     piece: Piece, whole: np.ndarray, edge: int, cutoff: float, keep_saturated: bool
-) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """(n, joints) samples that count, and how many do not for which cause.
+) -> np.ndarray:
+    """(n, joints) why samples do not count, as places in CAUSES; -1 where they do.
 
     The bend of a bridge, or of a wrong velocity, reaches as far as the start-up of the filter; a
     few missing samples that take less than 0.4 periods of the cut-off leave no bend.
     """
     few = min(SHORT, int(_SHORT_PERIODS / (cutoff * piece.step)) - 1) if cutoff else 0
     bent = longer_runs(piece.bridged, few) if few > 0 else piece.bridged
-    causes = {
+    flags = {
         EDGE: ~whole[:, None],
         MISSING: piece.bridged[:, None] | ~piece.valid,
         BRIDGES: _near(bent, edge)[:, None],
         CONTRADICTED: _near(piece.contradicted, edge)[:, None],
         SATURATED: piece.clipped & (not keep_saturated),
     }
-    valid = np.ones(piece.valid.shape, dtype=bool)
-    lost = {}
-    for cause, flags in causes.items():
-        lost[cause] = np.zeros(len(valid[0]), dtype=int)
-        if flags.any():
-            lost[cause] = np.sum(valid & flags, axis=0)
-            valid = valid & ~flags
-    return valid, lost
+    cause = np.full(piece.valid.shape, -1, dtype=np.int8)
+    for k, name in enumerate(CAUSES):
+        cause[(cause < 0) & flags[name]] = k
+    return cause
 
 
 def _near(flags: np.ndarray, edge: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Logs from Parquet and CSV, in the columns of the log format."""
+"""A log of any format as a `Log`, in the columns of the log format."""
 
 from pathlib import Path
 
@@ -6,32 +6,34 @@ import numpy as np
 
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.core.errors import DataError
+from modeler.logs import LogMap, Table
 from modeler.observation.log import Log, fingerprint
-from modeler.observation.table import Table
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
 _SHORTEST_STEP, _LONGEST_STEP = 1e-7, 1e7  # s; beyond, squares of it say nothing any more
 _FAR = 30.0  # rad; nearly five turns: more likely degrees
 
 
-def read_log(path: str | Path, spec: ModuleSpec) -> Log:
+def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) -> Log:
     """The `Log` of one file; columns `time`, `q<j>`, optional `qd<j> qdd<j> qc<j>`, `tau<j>`.
 
     The torque of a joint is `tau<j>` if the log has it, else `current<j>` times the drive gain of
     the robot file. A passive joint without `tau<j>` has torque 0.
 
     Args:
-        path: a .parquet or .csv file.
+        path: a file of any format of `modeler.logs`.
         spec: the robot's manifest; it names the joints.
+        mapping: which column of the file is which of these, and in which unit; else the file has
+            these names and SI units.
 
     Raises:
         DataError: the file cannot be read, a needed column is missing or not numeric, time does
             not increase, or no joint has a measured torque.
     """
     path = Path(path)
-    table = Table(path)
+    table = Table(path, mapping, spec.joints)
     time = _time(table)
-    notes: list[str] = []
+    notes: list[str] = [*table.notes]
     q = np.column_stack([_position(table, joint, spec) for joint in spec.joints])
     torques = [_torque(table, joint, spec) for joint in spec.joints]
     tau = np.column_stack([values for values, _ in torques])
@@ -57,26 +59,27 @@ def read_log(path: str | Path, spec: ModuleSpec) -> Log:
 
 
 def _time(table: Table) -> np.ndarray:
-    time = table.numbers("time")
+    time, name = table.numbers("time"), table.called("time")
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         raise DataError(
-            f"{table.path}: column time, row {bad[0] + 1}: no value; every row needs its time; "
+            f"{table.path}: column {name}, row {bad[0] + 1}: no value; every row needs its time; "
             "delete the row or restore the time"
         )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         row = int(back[0]) + 1
         raise DataError(
-            f"{table.path}: column time, row {row + 1}: {time[row]:.9g} s after "
+            f"{table.path}: column {name}, row {row + 1}: {time[row]:.9g} s after "
             f"{time[row - 1]:.9g} s; expected increasing time; delete repeated rows, or sort "
             "and split the file where the clock restarts"
         )
     step = float(np.median(np.diff(time)))
     if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
         raise DataError(
-            f"{table.path}: column time: median step of {step:.3g} s; expected {_SHORTEST_STEP:g} "
-            f"to {_LONGEST_STEP:g} s; write the time in seconds"
+            f"{table.path}: column {name}: median step of {step:.3g} s; expected "
+            f"{_SHORTEST_STEP:g} to {_LONGEST_STEP:g} s; write the time in seconds, or map it "
+            "with its unit"
         )
     return time
 
@@ -85,8 +88,9 @@ def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
     name = f"q{joint.name}"
     if name not in table and not joint.actuated:
         raise DataError(
-            f"{table.path}: no column {name}: joint {joint.name} of {spec.robot} is passive and "
-            "its position must be logged, or computed from the closed loops before; add the column"
+            f"{table.path}: no column {table.called(name)}: joint {joint.name} of {spec.robot} is "
+            "passive and its position must be logged, or computed from the closed loops before; "
+            "add the column"
         )
     return table.measured(name)
 
@@ -94,20 +98,21 @@ def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
 def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
     tau, current = f"tau{joint.name}", f"current{joint.name}"
     if tau in table:
-        return table.measured(tau), tau
+        return table.measured(tau), table.source(tau)
     if current in table:
         if joint.drive_gain is None:
             raise DataError(
-                f"{table.path}: {current} is in drive units and {spec.robot} has no drive gain "
-                f"for joint {joint.name}; write [drive_gains] {joint.name} = torque per unit in "
-                f"the robot file, log {tau}, or let `modeler fit --method tls` find it"
+                f"{table.path}: {table.called(current)} is in drive units and {spec.robot} has no "
+                f"drive gain for joint {joint.name}; write [drive_gains] {joint.name} = torque per "
+                f"unit in the robot file, log {tau}, or let `modeler fit --method tls` find it"
             )
-        return joint.drive_gain * table.measured(current), f"{current} x {joint.drive_gain:g}"
+        source = f"{table.source(current)} x {joint.drive_gain:g}"
+        return joint.drive_gain * table.measured(current), source
     if not joint.actuated:
         return np.zeros(table.rows), "0 (passive)"
     raise DataError(
-        f"{table.path}: no column {tau} or {current}: joint {joint.name} of {spec.robot} is "
-        "actuated; log its torque, or its current and give the drive gain"
+        f"{table.path}: no column {table.absent(tau, current)}: joint {joint.name} of "
+        f"{spec.robot} is actuated; log its torque, or its current and give the drive gain"
     )
 
 
@@ -119,7 +124,8 @@ def _optional(table: Table, prefix: str, spec: ModuleSpec, notes: list[str]) -> 
     if there:
         absent = [name for name in names if name not in table]
         notes.append(
-            f"{', '.join(absent)} missing, so the logged {prefix} of the other joints is not used"
+            f"{', '.join(map(table.called, absent))} missing, so the logged {prefix} of the other "
+            "joints is not used"
         )
     return None
 
@@ -131,8 +137,8 @@ def _segment(table: Table) -> np.ndarray | None:
     bad = np.flatnonzero(np.isnan(values))
     if bad.size:
         raise DataError(
-            f"{table.path}: column segment, row {bad[0] + 1}: no value; number every row, or "
-            "leave the column out"
+            f"{table.path}: column {table.called('segment')}, row {bad[0] + 1}: no value; number "
+            "every row, or leave the column out"
         )
     return values
 
@@ -164,7 +170,9 @@ def _temperatures(
         if not name.startswith("temperature") or logged.all():
             continue
         if not logged.any():
-            raise DataError(f"{table.path}: {name} has no values; record it, or drop the column")
+            raise DataError(
+                f"{table.path}: {table.called(name)} has no values; record it, or drop the column"
+            )
         time = table.numbers("time")
         found[name] = np.interp(time, time[logged], values[logged])
         notes.append(

@@ -5,44 +5,56 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.compare.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
-from modeler.compare.report import figure_html
-from modeler.core.files import write_atomically
 from modeler.diagnose.sentences import percent
 from modeler.fit import Addition
-from modeler.pages.sheet import page, section
+from modeler.pages.sheet import Code, Figure, Items, Origin, Section, Sheet, write_page
+from modeler.pictures.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
 
 
 def write_additions(
-    path: Path, robot: str, history: Sequence[Addition], left_out: Sequence[str] = ()
+    path: Path,
+    robot: str,
+    history: Sequence[Addition],
+    left_out: Sequence[str] = (),
+    origin: Origin | None = None,
+    following: Sequence[str] = (),
 ) -> Path:
     """Write the page of a model's history: the error after every effect that was added.
 
     Args:
-        path: of an .html file.
+        path: an `.html` file, or a folder, which then gets `improved.html`.
         robot: name.
         history: of the model.
         left_out: effects that were not added, and why.
+        origin: model, logs, and whether some were held out.
+        following: commands to go on with.
 
     Raises:
         ModelerError: the place cannot be written.
     """
-    first, last = history[0].error, history[-1].error
-    held = history[-1].held_out
+    held, last = history[-1].held_out, history[-1].error
     fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
-    lines = [
-        f"modeler add MODEL {s.effect}{f' --joint {s.joint}' if s.joint else ''} LOG... --out MODEL"
-        for s in history[1:]
-    ]
-    text = page(
-        title=f"{robot}: effects added",
-        headline=(percent(last), f"error left of {percent(first)}"),
-        facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
-        sections=section("The error falls", figure_html(waterfall_picture(history))),
-        provenance=["To do this again, in this order:", *lines, *left_out],
+    sections = [Section("The error falls", [Figure(waterfall_picture(history))])]
+    if left_out:
+        sections.append(Section("Left out", [Items([("", line) for line in left_out])]))
+    sections.append(
+        Section("To do this again, in this order", [Code(_again(step)) for step in history[1:]])
     )
-    write_atomically(Path(path), text)
-    return Path(path)
+    sheet = Sheet(
+        title=f"{robot}: effects added",
+        headline=(percent(last), f"error left of {percent(history[0].error)}"),
+        sections=sections,
+        origin=origin or Origin(robot, held, bool(held)),
+        facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
+        next=following,
+        command="add",
+    )
+    return write_page(path, sheet, "improved.html")
+
+
+def _again(step: Addition) -> str:
+    joint = f" --joint {step.joint}" if step.joint else ""
+    return f"modeler add MODEL {step.effect}{joint} LOG... --out MODEL"
 
 
 def waterfall_picture(history: Sequence[Addition]) -> Picture:

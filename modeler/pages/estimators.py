@@ -1,13 +1,11 @@
 """The page of all estimators on the same logs."""
 
-import html
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.core.files import page_place, write_atomically
 from modeler.fit.result import ParameterEstimate
 from modeler.fit.side_by_side import Tried
-from modeler.pages.sheet import page, section
+from modeler.pages.sheet import Items, Origin, Section, Sheet, Table, write_page
 
 
 def write_estimators(
@@ -24,19 +22,21 @@ def write_estimators(
     Raises:
         ModelerError: the place cannot be written.
     """
-    path = page_place(path, "estimators.html")
     sections = [
-        section("Errors and effort", _html(table_of(tried))),
-        section("Values and standard deviations", _html(values_of(tried))),
-        section("What each says", _said(tried)),
+        Section("Errors and effort", [_table(table_of(tried))]),
+        Section("Values and standard deviations", [_table(values_of(tried))]),
+        Section("What each says", [_said(tried)]),
     ]
     done = sum(own.fit is not None for own in tried)
-    text = page(
-        f"Estimators on {robot}", (str(done), f"of {len(tried)} estimators fit these logs"), (),
-        "\n".join(sections), provenance,
-    )  # fmt: skip
-    write_atomically(path, text)
-    return path
+    sheet = Sheet(
+        f"Estimators on {robot}",
+        (str(done), f"of {len(tried)} estimators fit these logs"),
+        sections,
+        Origin(robot),
+        provenance=provenance,
+        command="estimators",
+    )
+    return write_page(path, sheet, "estimators.html")
 
 
 def table_of(tried: Sequence[Tried]) -> list[list[str]]:
@@ -75,18 +75,16 @@ def _value(parameter: ParameterEstimate) -> str:
     return f"{parameter.value:.4g} +- {parameter.sigma:.2g}"
 
 
-def _html(rows: Sequence[Sequence[str]]) -> str:
+def _table(rows: Sequence[Sequence[str]]) -> Table:
     head, *body = rows
-    lines = ["<tr>" + "".join(f"<th>{html.escape(cell)}</th>" for cell in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
-              for row in body]  # fmt: skip
-    return '<div class="wide"><table>\n' + "\n".join(lines) + "\n</table></div>"
+    return Table(head, body)
 
 
-def _said(tried: Sequence[Tried]) -> str:
-    lines = [
-        f"<li><b>{html.escape(own.method)}</b> {html.escape(remark)}</li>"
-        for own in tried
-        for remark in ((own.refusal,) if own.refusal else own.remarks)
-    ]
-    return "<ul>\n" + "\n".join(lines) + "\n</ul>"
+def _said(tried: Sequence[Tried]) -> Items:
+    return Items(
+        [
+            (own.method, remark)
+            for own in tried
+            for remark in ((own.refusal,) if own.refusal else own.remarks)
+        ]
+    )

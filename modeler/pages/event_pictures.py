@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from modeler.compare.picture import COLORS, Curve, Panel, Picture, Style
 from modeler.diagnose.bursts import AFTER, load_turns
 from modeler.diagnose.contact import MARGIN, Window
 from modeler.pages.evidence import MEANS, ROWS, scatter
+from modeler.pictures.picture import COLORS, Curve, Panel, Picture, Style
 from modeler.scoring.state import State
 
 _AROUND = 0.5  # s before and after a change of sign that are drawn

@@ -5,12 +5,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.compare.picture import (
+from modeler.compare.band import DEVIATIONS
+from modeler.diagnose.judge import Judged
+from modeler.diagnose.search import Step
+from modeler.pages.bins import bins_of
+from modeler.pages.shown import Shown
+from modeler.pages.view import View, view_of
+from modeler.pictures.picture import (
     BLACK,
     BLUE,
     GREEN,
     GREY,
+    SKY,
     VERMILLION,
+    Band,
     Bars,
     Curve,
     Means,
@@ -20,16 +28,13 @@ from modeler.compare.picture import (
     Series,
     Style,
 )
-from modeler.diagnose.search import Step
-from modeler.pages.bins import bins_of
-from modeler.pages.shown import Shown
-from modeler.pages.view import View, view_of
 from modeler.scoring.orders import order_spectrum
 
 ROWS = Style(GREY, 2.0, 0.35)
 MEANS = Style(BLACK, 0.0)
 EFFECT = Style(VERMILLION, 2.2)
 RIVAL = Style(BLUE, 1.4, dash=True)
+LAW_BAND = Style(SKY, opacity=0.45)
 LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
 _DOTS = 1500
 
@@ -75,8 +80,13 @@ def _with(item: Shown, view: View) -> Panel:
 def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
     """Torque that is left to the effect with all else in the model, and its equation."""
     y = item.bins.means(item.axis.turned(own))
-    curve = Curve(item.step.pick.effect.id, *_pieces(item, y), EFFECT)
-    panel = _panel("its law", item, view, (*_cloud(item, view, own + item.after), curve))
+    series = [*_cloud(item, view, own + item.after)]
+    if item.own_sigma is not None:
+        half = DEVIATIONS * item.own_sigma
+        x, low = _pieces(item, y - half)
+        series.append(Band("95 % band of its law", x, low, _pieces(item, y + half)[1], LAW_BAND))
+    series.append(Curve(item.step.pick.effect.id, *_pieces(item, y), EFFECT))
+    panel = _panel("its law", item, view, tuple(series))
     label = panel.y_label.replace("residual", "torque laid to it")
     return dataclasses.replace(panel, y_label=label, y_range=view.law)
 
@@ -140,6 +150,11 @@ def _caption(item: Shown, view: View) -> list[str]:
         )
     else:
         lines.append("Its law: measured torque less all else in the model, and the equation.")
+        if item.own_sigma is not None:
+            lines.append(
+                f"Broad {LAW_BAND.named}: two standard deviations of the law on either side, by "
+                "the scatter between blocks of time, its shapes taken as known."
+            )
     if item.rival is not None:
         lines.append(
             f"{RIVAL.named.capitalize()}: the flexible rival, any smooth law of what was "
@@ -154,12 +169,17 @@ def _caption(item: Shown, view: View) -> list[str]:
     return [*lines, *view.outside]
 
 
+def rivals_of(step: Step) -> list[Judged]:
+    """The effects that could stand for it: those of the same joint, or of the whole robot."""
+    return [rival for rival in step.rivals if rival.candidate.joint == step.pick.joint]
+
+
 def rivals_picture(step: Step) -> Picture:
-    """What the best effects explain within the logs, side by side."""
-    items = [step.judged, *step.rivals[:7]]
+    """What the best effects on the same joint explain within the logs, side by side."""
+    items = [step.judged, *rivals_of(step)[:7]]
     names = tuple(
-        i.candidate.effect.id.replace("_", "<br>")
-        + (f"<br>@{i.candidate.joint}" if i.candidate.joint else "")
+        i.candidate.effect.id.replace("_", "\n")
+        + (f"\n@{i.candidate.joint}" if i.candidate.joint else "")
         for i in items
     )
     gains = np.array([100.0 * max(0.0, i.gain) for i in items])
@@ -169,8 +189,8 @@ def rivals_picture(step: Step) -> Picture:
         title="Why not another effect",
         caption=(
             "Share of the error variance of its own joints that each effect explains within these "
-            "logs, cross-validated. An effect on another joint is no rival, but perhaps the next "
-            "one."
+            "logs, cross-validated. Only effects on the same joint are rivals; one on another "
+            "joint is perhaps the next to be found."
         ),
         panels=((Panel("", "", "explained [%]", (bars,)),),),
         heights=(1.0,),

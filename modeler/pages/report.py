@@ -1,40 +1,59 @@
 """The page of a diagnosis: one HTML file, no network."""
 
-import html
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.compare.report import figure_html
-from modeler.core.files import write_atomically
 from modeler.diagnose import Diagnosis, Finding
 from modeler.diagnose.sentences import blind_spots, percent, unit, where
 from modeler.effects import effect_named
 from modeler.pages.event_pictures import play_picture, push_picture
 from modeler.pages.evidence import evidence_picture, rivals_picture
-from modeler.pages.sheet import page, section
+from modeler.pages.sheet import (
+    Block,
+    Cell,
+    Figure,
+    Items,
+    Lead,
+    Origin,
+    Section,
+    Sheet,
+    Table,
+    write_page,
+)
 from modeler.pages.shown import figures, shown
 
 
-def write_diagnosis(path: Path, diagnosis: Diagnosis, provenance: Sequence[str] = ()) -> Path:
+def write_diagnosis(
+    path: Path,
+    diagnosis: Diagnosis,
+    provenance: Sequence[str] = (),
+    origin: Origin | None = None,
+    following: Sequence[str] = (),
+) -> Path:
     """Write the page of a diagnosis; the path of the file written.
 
     Args:
-        path: of an .html file.
+        path: an `.html` file, or a folder, which then gets `diagnosis.html`.
         diagnosis: what it shows.
         provenance: lines on how the data came about.
+        origin: model, logs, and whether some were held out; what the diagnosis knows of them if it
+            is left out.
+        following: commands to go on with.
 
     Raises:
         ModelerError: the place cannot be written.
     """
-    text = page(
+    sheet = Sheet(
         title=f"{diagnosis.robot}: which effect is missing",
         headline=_headline(diagnosis),
+        sections=_sections(diagnosis),
+        origin=origin or Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
         facts=_facts(diagnosis),
-        sections="\n".join(_sections(diagnosis)),
+        next=following,
         provenance=[*diagnosis.sentences, *provenance],
+        command="diagnose",
     )
-    write_atomically(Path(path), text)
-    return Path(path)
+    return write_page(path, sheet, "diagnosis.html")
 
 
 def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
@@ -78,21 +97,20 @@ def _runner_up(diagnosis: Diagnosis) -> str:
     return f"nothing; the runner-up is {effect} on {where(joint)}, {share} within these logs"
 
 
-def _sections(diagnosis: Diagnosis) -> list[str]:
-    found = [section("Effects", _table(diagnosis)), section("Joints", _joints(diagnosis))]
+def _sections(diagnosis: Diagnosis) -> list[Section]:
+    found = [Section("Effects", [_table(diagnosis)]), Section("Joints", [_joints(diagnosis)])]
     for step in diagnosis.search.steps:
         item = shown(diagnosis.search, step)
-        pictures = f'<p class="lead">{html.escape(figures(item))}</p>\n'
-        pictures += figure_html(evidence_picture(item))
+        blocks: list[Block] = [Lead(figures(item)), Figure(evidence_picture(item))]
         if step is diagnosis.search.steps[0]:
-            pictures += figure_html(rivals_picture(step))
-        found.append(section(_name(step.pick.effect.id, step.pick.joint), pictures))
+            blocks.append(Figure(rivals_picture(step)))
+        found.append(Section(_name(step.pick.effect.id, step.pick.joint), blocks))
     found += _events(diagnosis)
-    found.append(section("What these logs cannot show", _blind(diagnosis)))
+    found.append(Section("What these logs cannot show", [_blind(diagnosis)]))
     return found
 
 
-def _events(diagnosis: Diagnosis) -> list[str]:
+def _events(diagnosis: Diagnosis) -> list[Section]:
     """Play and pushes, which are no columns."""
     end = diagnosis.search.end
     names = [joint.name for joint in end.data.compiled.spec.joints]
@@ -100,10 +118,10 @@ def _events(diagnosis: Diagnosis) -> list[str]:
     for finding in diagnosis.effects:
         if finding.pick is None and finding.joint is not None:
             picture = play_picture(end, names.index(finding.joint))
-            found.append(section(_name(finding.effect, finding.joint), figure_html(picture)))
+            found.append(Section(_name(finding.effect, finding.joint), [Figure(picture)]))
     if diagnosis.window is not None:
         picture = push_picture(end, diagnosis.window)
-        found += [section(f.effect, figure_html(picture)) for f in diagnosis.effects if f.event]
+        found += [Section(f.effect, [Figure(picture)]) for f in diagnosis.effects if f.event]
     return found
 
 
@@ -111,61 +129,59 @@ def _name(effect: str, joint: str | None) -> str:
     return f"{effect}, {where(joint)}"
 
 
-def _table(diagnosis: Diagnosis) -> str:
+def _table(diagnosis: Diagnosis) -> Block:
     findings = [*diagnosis.effects, *diagnosis.refinements]
     if not findings:
-        return f"<p>{html.escape(diagnosis.sentences[0])}</p>"
+        return Lead(diagnosis.sentences[0])
     head = (
-        '<tr><th class="text">effect</th><th class="text">joint</th><th class="text">values</th>'
-        '<th>error before</th><th>error after</th><th class="text">gain</th>'
-        '<th class="text">why</th></tr>'
-    )
-    return f"<table>{head}{''.join(_row(f) for f in findings)}</table>"
+        "effect", Cell("joint", "text"), Cell("values", "text"), "error before", "error after",
+        Cell("gain", "bar"), Cell("why", "why"),
+    )  # fmt: skip
+    return Table(head, [_row(finding) for finding in findings])
 
 
-def _row(finding: Finding) -> str:
+def _row(finding: Finding) -> list[str | Cell]:
     values = "; ".join(
         f"{name} = {value:.4g}"
         + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
         + unit(finding, name)
         for name, value in finding.parameters.items()
     )
-    mark = " (refinement)" if finding.refines else ""
-    cells = [
-        f'<td class="text">{finding.effect}{mark}</td>',
-        f'<td class="text">{html.escape(finding.joint or "all")}</td>',
-        f'<td class="text values">{html.escape(values)}</td>',
-        f"<td>{percent(finding.error_before)}</td>",
-        f"<td>{percent(finding.error_after)}</td>",
-        f'<td class="bar"><span style="width:{round(110 * max(0.0, finding.gain))}px"></span>'
-        f"{percent(finding.gain)}</td>",
-        f'<td class="text why">{html.escape(finding.evidence)}</td>',
+    return [
+        finding.effect + (" (refinement)" if finding.refines else ""),
+        Cell(finding.joint or "all", "text"),
+        Cell(values, "text"),
+        percent(finding.error_before),
+        percent(finding.error_after),
+        Cell(percent(finding.gain), "bar", max(0.0, finding.gain)),
+        Cell(finding.evidence, "why"),
     ]
-    return f"<tr>{''.join(cells)}</tr>"
 
 
-def _joints(diagnosis: Diagnosis) -> str:
+def _joints(diagnosis: Diagnosis) -> Table:
     """Share of each joint's torque: explained, systematic, noise."""
     head = (
-        "<tr><th>joint</th><th>error</th><th>with the effects</th><th>explained</th>"
-        "<th>systematic, unexplained</th><th>noise</th></tr>"
-    )
-    rows = "".join(
-        f"<tr><td>{html.escape(name)}</td><td>{percent(j.error_before)}</td>"
-        f"<td>{percent(j.error_after)}</td><td>{100 * j.explained:.3f} %</td>"
-        f"<td>{100 * j.systematic:.4f} %</td><td>{100 * j.noise:.4f} %</td></tr>"
+        "joint", "error", "with the effects", "explained", "systematic, unexplained", "noise",
+    )  # fmt: skip
+    rows = [
+        [
+            name,
+            percent(j.error_before),
+            percent(j.error_after),
+            f"{100 * j.explained:.3f} %",
+            f"{100 * j.systematic:.4f} %",
+            f"{100 * j.noise:.4f} %",
+        ]
         for name, j in diagnosis.joints.items()
-    )
-    note = (
-        "<caption>Shares of the torque's variance with the effects in. Systematic is what smooth "
-        "functions of the motion predict, what returns in the next lap, what lasts, and "
-        "outbursts.</caption>"
-    )
-    return f"<table>{note}{head}{rows}</table>"
-
-
-def _blind(diagnosis: Diagnosis) -> str:
-    lines = [
-        f"<li>{html.escape(what)}: {html.escape(why)}</li>" for what, why in blind_spots(diagnosis)
     ]
-    return f"<ul>{''.join(lines)}</ul>" if lines else "<p>Nothing of the catalogue.</p>"
+    return Table(
+        head,
+        rows,
+        "Shares of the torque's variance with the effects in. Systematic is what smooth functions "
+        "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
+    )
+
+
+def _blind(diagnosis: Diagnosis) -> Block:
+    lines = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
+    return Items(lines) if lines else Lead("Nothing of the catalogue.")

@@ -1,39 +1,171 @@
-"""One page: headline, facts, sections, how it was made; one HTML file, no network."""
+"""What a page says, as plain data: first screen, sections, how it was made."""
 
-import html
+import dataclasses
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from string import Template
 
-from modeler.compare.report import page_assets
+from modeler.core.files import page_place, write_atomically
+from modeler.pages.render import render
+from modeler.pictures.picture import Picture
 
-_HERE = Path(__file__).parent
+
+@dataclass(frozen=True)
+class Cell:
+    """Of a table.
+
+    Attributes:
+        text: what stands there.
+        kind: "number" to the right, "text" to the left and wrapped, "bar" with a bar before it.
+        share: length of the bar, 0 to 1.
+        link: id of a section of this page.
+    """
+
+    text: str
+    kind: str = "number"
+    share: float = 0.0
+    link: str = ""
 
 
-def page(
-    title: str, headline: tuple[str, str], facts: Sequence[tuple[str, str]], sections: str,
-    provenance: Sequence[str],
-) -> str:  # fmt: skip
-    """The page as text.
+@dataclass(frozen=True)
+class Table:
+    """Head and rows; a plain string is a number, or the text of the first column."""
 
-    Args:
+    head: Sequence[str | Cell]
+    rows: Sequence[Sequence[str | Cell]]
+    caption: str = ""
+    block: str = "table"
+
+
+@dataclass(frozen=True)
+class Lead:
+    """A paragraph."""
+
+    text: str
+    block: str = "lead"
+
+
+@dataclass(frozen=True)
+class Items:
+    """A list; each line with a word before it that is set bold, or none."""
+
+    lines: Sequence[tuple[str, str]]
+    block: str = "items"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One line of a verdict.
+
+    Attributes:
+        kind: "noise" (good), "pattern" (bad), "other" (unclear), "" (none of them).
+        tag: a word or two.
+        head: what it is about.
+        text: what is said of it.
+        link: id of a section of this page, or nothing.
+    """
+
+    kind: str
+    tag: str
+    head: str
+    text: str
+    link: str = ""
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """A list of judgements."""
+
+    lines: Sequence[Judged]
+    block: str = "verdicts"
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture with its caption, legend, maps of cells as tables, and its numbers to download."""
+
+    picture: Picture
+    titled: bool = True
+    block: str = "figure"
+
+
+@dataclass(frozen=True)
+class Code:
+    """Commands or text to copy, as it is."""
+
+    text: str
+    block: str = "code"
+
+
+Block = Table | Lead | Items | Verdicts | Figure | Code
+
+
+@dataclass(frozen=True)
+class Section:
+    """A title and what stands below it; `id` is what links lead to."""
+
+    title: str
+    blocks: Sequence[Block]
+    id: str = ""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a page comes from, for its first screen.
+
+    Attributes:
+        model: file or robot that it is about.
+        logs: names of logs.
+        held_out: True if what is judged was never fitted, False for training data, None if a page
+            judges no fit.
+    """
+
+    model: str = ""
+    logs: Sequence[str] = ()
+    held_out: bool | None = None
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One page.
+
+    Attributes:
         title: plain text.
         headline: a figure, and what it is.
+        sections: in order.
+        origin: model, logs, badge.
         facts: names and what stands below them.
-        sections: HTML.
-        provenance: lines of plain text.
+        next: commands to go on with.
+        provenance: how it was made, in lines.
+        command: of `modeler`, that makes such pages.
     """
-    return Template((_HERE / "page.html").read_text(encoding="utf-8")).substitute(
-        title=html.escape(title),
-        figure=html.escape(headline[0]),
-        headline=html.escape(headline[1]),
-        facts="\n".join(f"<li><b>{html.escape(a)}</b>{html.escape(b)}</li>" for a, b in facts),
-        sections=sections,
-        provenance="\n".join(f"<li>{html.escape(line)}</li>" for line in provenance),
-        **page_assets(),
-    )
+
+    title: str
+    headline: tuple[str, str]
+    sections: Sequence[Section]
+    origin: Origin = dataclasses.field(default_factory=Origin)
+    facts: Sequence[tuple[str, str]] = ()
+    next: Sequence[str] = ()
+    provenance: Sequence[str] = ()
+    command: str = ""
 
 
-def section(title: str, body: str) -> str:
-    """A section of HTML under a title of plain text."""
-    return f"<section>\n<h2>{html.escape(title)}</h2>\n{body}\n</section>"
+def page(sheet: Sheet) -> str:
+    """The page as text; its security policy forbids any network access."""
+    return render("sheet", sheet=sheet)
+
+
+def write_page(path: Path, sheet: Sheet, name: str) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `name`.
+        sheet: what it says.
+        name: of the file in a folder.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    path = page_place(Path(path), name)
+    write_atomically(path, page(sheet))
+    return path

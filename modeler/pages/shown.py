@@ -8,6 +8,7 @@ from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import percent
 from modeler.pages.axes import Axis, axis_of
 from modeler.pages.bins import Bins, bins_of, calm_rows
+from modeler.pages.law_band import law_sigma
 from modeler.scoring.state import State, columns_of, state_of
 from modeler.scoring.systematic import rival
 
@@ -27,6 +28,7 @@ class Shown:
             where the axis is the effect itself.
         calm: (rows_j,) False for the few wild rows that no mean counts.
         bins: of the axis.
+        own_sigma: (b,) standard deviations of the means of `own`; None where that is None.
     """
 
     step: Step
@@ -38,6 +40,7 @@ class Shown:
     own: np.ndarray | None
     calm: np.ndarray
     bins: Bins
+    own_sigma: np.ndarray | None = None
 
     @property
     def before(self) -> np.ndarray:
@@ -84,10 +87,11 @@ def shown(found: Search, step: Step) -> Shown:
     axis = axis_of(full, step.pick, j, adds)
     calm = calm_rows(full.residual[j], full.base.block[j])
     own = None if axis.shows == "itself" else _own(found, step, j)
+    bins = bins_of(axis.x, adds if own is None else own, without.base.block[j], calm)
     return Shown(
         step=step, without=without, full=full, j=j, axis=axis,
         rival=rival(without, j).prediction, own=own, calm=calm,
-        bins=bins_of(axis.x, adds if own is None else own, without.base.block[j], calm),
+        bins=bins, own_sigma=None if own is None else law_sigma(found, step, j, axis, bins),
     )  # fmt: skip
 
 

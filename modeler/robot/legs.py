@@ -11,7 +11,7 @@ MARK = "{i}"
 MOST_LEGS = 50
 """Legs of three rows fill the longest table."""
 _NAME = re.compile(r"[A-Za-z0-9]+")
-_UNTOUCHED = ("legs", "shared", "notes", "title", "name")
+_UNTOUCHED = ("legs", "shared", "notes", "title", "name", "log")
 
 
 def expanded(document: dict[str, Any], place: Place) -> dict[str, Any]:

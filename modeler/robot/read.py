@@ -48,7 +48,7 @@ from modeler.robot.table import Row, table_joints, table_rows
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
-    "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms",
+    "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms", "log",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -166,6 +166,7 @@ def _with_tables(
         limits=read_limits(document.get("limits", {}), moving, values, place.at("[limits]")),
         physical=read_physical(document.get("physical", {}), moving, place.at("[physical]")),
         terms=table_at(document.get("terms", {}), place.at("[terms]"), "[terms]"),
+        log=table_at(document.get("log", {}), place.at("[log]"), '"q<j>" = "position_{j} [deg]"'),
     )
 
 

@@ -136,6 +136,7 @@ class Robot:
         limits: range of motion for simulation, by joint.
         physical: the letters of a paper for the links, by joint.
         terms: how a paper prints its coefficients (see `modeler.terms`).
+        log: which columns of logs are ours, and in which units (see `modeler.logs`).
         relations: variables of joints that follow others: row -> its variable as a linear
             expression of the variables of other rows (`q4 = "-q3"`).
         loops: joints that close kinematic chains.
@@ -164,6 +165,7 @@ class Robot:
     limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
     physical: Mapping[str, PhysicalLink] = field(default_factory=lambda: _EMPTY)
     terms: Mapping[str, object] = field(default_factory=lambda: _EMPTY)
+    log: Mapping[str, object] = field(default_factory=lambda: _EMPTY)
     relations: Mapping[str, Expression] = field(default_factory=lambda: _EMPTY)
     loops: tuple[Loop, ...] = ()
     platform: tuple[str, ...] = ()

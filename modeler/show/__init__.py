@@ -10,7 +10,6 @@ from modeler.show.closing import Posture as Posture
 from modeler.show.closing import gaps_of as gaps_of
 from modeler.show.closing import home_posture as home_posture
 from modeler.show.modes import modes_bytes as modes_bytes
-from modeler.show.page import page_html as page_html
 from modeler.show.paper import PICTURE_KINDS as PICTURE_KINDS
 from modeler.show.picture import picture_bytes as picture_bytes
 from modeler.show.pose import poses as poses

@@ -1,7 +1,7 @@
-"""The table of a robot for people: HTML, and what stands beside it."""
+"""The table of a robot for people, and what stands beside it."""
 
-import html
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,30 +13,46 @@ _COLUMNS = ("gamma", "b", "alpha", "d", "theta", "r")
 _LETTERS = {"gamma": "γ", "alpha": "α", "theta": "θ"}
 
 
-def table_html(robot: Robot) -> str:
-    """The rows of an HTML table: its head, the rows in table order, the platform's last."""
-    used = [name for name in _COLUMNS if any(not getattr(j, name).is_zero for j in robot.joints)]
-    heads = ["j", "a", "μ", "σ", *(_LETTERS.get(name, name) for name in used)]
-    head = "".join(f"<th>{name}</th>" for name in [*heads, "q"])
-    own = [(i, j) for i, j in enumerate(robot.joints) if j.name not in robot.platform]
-    moved = [(i, j) for i, j in enumerate(robot.joints) if j.name in robot.platform]
-    lines = [f"<thead><tr>{head}</tr></thead><tbody>"]
-    lines += [_row(i, joint, used) for i, joint in own]
-    if moved:
-        lines.append(f'<tr class="part"><td colspan="{len(heads) + 1}">platform</td></tr>')
-        lines += [_row(i, joint, used) for i, joint in moved]
-    return "\n".join([*lines, "</tbody>"])
+@dataclass(frozen=True)
+class TableRow:
+    """One row of the table, as it is printed.
+
+    Attributes:
+        number: index of the joint.
+        kind: "fixed", "actuated" or "passive".
+        cells: joint, antecedent, mu, sigma.
+        entries: (column, text) of the columns that are used.
+        platform: True for a row of the platform.
+    """
+
+    number: int
+    kind: str
+    cells: tuple[str, ...]
+    entries: tuple[tuple[str, str], ...]
+    platform: bool
 
 
-def _row(i: int, joint: Joint, used: list[str]) -> str:
+def table_head(robot: Robot) -> tuple[str, ...]:
+    """The names of the columns; those that are zero everywhere are left out."""
+    return ("j", "a", "μ", "σ", *(_LETTERS.get(name, name) for name in _used(robot)), "q")
+
+
+def table_rows(robot: Robot) -> tuple[TableRow, ...]:
+    """The rows in table order, the platform's last."""
+    used = _used(robot)
+    rows = [_row(i, joint, used, robot) for i, joint in enumerate(robot.joints)]
+    return tuple(sorted(rows, key=lambda row: row.platform))
+
+
+def _used(robot: Robot) -> list[str]:
+    return [name for name in _COLUMNS if any(not getattr(j, name).is_zero for j in robot.joints)]
+
+
+def _row(i: int, joint: Joint, used: list[str], robot: Robot) -> TableRow:
     kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
-    cells = [joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}"]
-    filled = "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
-    filled += "".join(
-        f'<td data-cell="{name}">{html.escape(_typeset(getattr(joint, name).text))}</td>'
-        for name in used
-    )
-    return f'<tr class="{kind}" data-row="{i}">{filled}<td class="value"></td></tr>'
+    cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
+    entries = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
+    return TableRow(i, kind, cells, entries, joint.name in robot.platform)
 
 
 def _typeset(cell: str) -> str:

@@ -2,6 +2,7 @@
 
 import json
 
+from modeler.core.latex_lines import Equation, display
 from modeler.terms.closed_form import ClosedForm, Function
 from modeler.terms.text import LATEX, TEXT, Style, form_text, monomial_text
 
@@ -19,14 +20,15 @@ def closed_form_text(closed: ClosedForm) -> str:
 
 
 def closed_form_latex(closed: ClosedForm) -> str:
-    """Every function in one `align*` of LaTeX."""
+    """Every function in an `align*` of LaTeX, each monomial on a line of its own."""
     out = []
     for function in closed.functions:
-        start = f"{_latex_function(function)} ={{}}&"
-        for sign, coefficient, monomial in _signed(closed, function, LATEX):
-            out.append(f"{start} {sign} {_product(coefficient, monomial, LATEX)}")
-            start = "&"
-    return "\\begin{align*}\n" + " \\\\\n".join(out) + "\n\\end{align*}\n"
+        lines = [
+            f"{sign} {_product(coefficient, monomial, LATEX)}"
+            for sign, coefficient, monomial in _signed(closed, function, LATEX)
+        ]
+        out.append(display([Equation(latex_function(function.name), tuple(lines))]) + "\n")
+    return "".join(out)
 
 
 def _signed(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str, str]]:
@@ -90,5 +92,6 @@ def _terms(closed: ClosedForm, function: Function, style: Style) -> list[tuple[s
     ]
 
 
-def _latex_function(function: Function) -> str:
-    return f"{function.name[0]}_{{{function.name[1:].strip('_').replace('_', ',')}}}"
+def latex_function(name: str) -> str:
+    """`S1_12` as `S_{1,12}`."""
+    return f"{name[0]}_{{{name[1:].strip('_').replace('_', ',')}}}"

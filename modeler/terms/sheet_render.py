@@ -1,8 +1,10 @@
 """A sheet as text that Python runs, as LaTeX, as Markdown, as JSON."""
 
 import textwrap
+from collections.abc import Callable
 from typing import Any
 
+from modeler.core.latex_lines import Equation, display
 from modeler.terms.sheet import Definition, Sheet
 from modeler.terms.sheet_text import SheetPrinter
 from modeler.terms.text import LATEX
@@ -64,25 +66,32 @@ def _wrapped(line: str) -> list[str]:
     )
 
 
-def sheet_latex(sheet: Sheet) -> str:
-    """One `align*` per section, titles as comments."""
+def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
+    """One `align*` per section.
+
+    Args:
+        sheet: what to write.
+        heading: how titles are written; None for comments.
+    """
+    heading = heading or _comment
     printer, known = SheetPrinter(sheet, LATEX), set(sheet.trig.values())
-    blocks: dict[str, list[str]] = {"sines and cosines": []}
+    blocks: dict[str, list[Equation]] = {"sines and cosines": []}
     for label, ref in sheet.angles.items():
         for letter, function in (("s", r"\sin"), ("c", r"\cos")):
             if letter + label in known:
                 name = printer.style.trig(letter + label)
-                line = f"{name} ={{}}& {function}({printer.sum(ref)})"
-                blocks["sines and cosines"].append(line)
+                right = f"{function}({printer.sum(ref)})"
+                blocks["sines and cosines"].append(Equation(name, (right,)))
     for definition in sheet.definitions:
-        line = f"{printer.name(definition)} ={{}}& {printer.value(definition)}"
+        line = Equation(printer.name(definition), (printer.value(definition),))
         blocks.setdefault(definition.section, []).append(line)
-    parts = [
-        f"% {title}\n\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
-        for title, lines in blocks.items()
-        if lines
-    ]
-    return "".join(parts)
+    return "".join(
+        f"{heading(title)}\n{display(lines)}\n" for title, lines in blocks.items() if lines
+    )
+
+
+def _comment(title: str) -> str:
+    return f"% {title}"
 
 
 def sheet_json(sheet: Sheet) -> dict[str, Any]:

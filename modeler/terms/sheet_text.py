@@ -22,6 +22,9 @@ _LATEX_NAMES = (
     (r"vd([xyz])_(\w+)", r"\\dot{v}_{\1,\2}"),
     (r"([Ug])([xyz]+)_(\w+)", r"\1_{\2,\3}"),
     (r"J([pt])(\w+)_(\w+)", r"J^{\1}_{\2,\3}"),
+    (r"J([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)", r"J_{\1,\2}"),
+    (r"S([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)_([A-Za-z0-9]+)", r"S_{\1,\2,\3}"),
+    (r"([Jg])([A-Z][A-Za-z0-9]*)", r"\1_{\2}"),
 )
 """Names of speeds and of vectors, by frame."""
 

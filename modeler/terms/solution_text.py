@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from modeler.core.latex import latex_name
+from modeler.core.latex import latex_name, latex_text
+from modeler.core.latex_lines import Equation, display
 from modeler.terms.known_sets import EASE
 from modeler.terms.physical_system import PhysicalSystem
 from modeler.terms.ring import Poly
@@ -72,12 +73,15 @@ def _text(solution: ClosedSolution) -> list[str]:
 
 def _latex(solution: ClosedSolution) -> list[str]:
     system = solution.system
-    rows = [rf"{latex_name(k)} &= \text{{{text}}}" for k, text in system.abbreviations.items()]
+    rows = [
+        Equation(latex_name(name), (rf"\text{{{latex_text(text)}}}",))
+        for name, text in system.abbreviations.items()
+    ]
     for step in solution.steps:
-        right = formula(step, system, LATEX)
-        left = f"{latex_name(step.letter)} &=" if step.equation is None else "0 &="
-        rows.append(f"{left} {right}")
-    return [r"\begin{align*}", *(row + r" \\" for row in rows[:-1]), *rows[-1:], r"\end{align*}"]
+        left = latex_name(step.letter) if step.equation is None else "0"
+        rows.append(Equation(left, (formula(step, system, LATEX),)))
+    lines = display(rows).splitlines() if rows else []
+    return [r"\begingroup\allowdisplaybreaks", *lines, r"\endgroup"]
 
 
 def _python(solution: ClosedSolution) -> list[str]:

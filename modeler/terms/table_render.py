@@ -3,8 +3,9 @@
 import json
 from dataclasses import dataclass
 
+from modeler.core.latex_lines import Equation, display
 from modeler.terms.coefficients import Coefficient, CoefficientTable
-from modeler.terms.render import equation
+from modeler.terms.render import equation, latex_function
 from modeler.terms.text import (
     LATEX,
     TEXT,
@@ -78,14 +79,18 @@ def coefficients_markdown(table: CoefficientTable) -> str:
 
 
 def coefficients_latex(table: CoefficientTable) -> str:
-    """A LaTeX `longtable`: name, monomial, definition."""
-    rows = [
-        f"${x.name}$ & {x.function} & ${x.monomial}$ & "
-        f"${x.relation if x.relation != x.name else x.physical}$ \\\\"
+    """An `align*` of LaTeX: every coefficient, of which monomial in which function it is."""
+    equations = [
+        Equation(
+            x.name,
+            (
+                f"{x.relation if x.relation != x.name else x.physical}"
+                rf" \quad \text{{of }} {x.monomial} \text{{ in }} {latex_function(x.function)}",
+            ),
+        )
         for x in table_lines(table, LATEX)
     ]
-    head = r"name & function & monomial & definition or relation \\ \hline"
-    return "\n".join([r"\begin{longtable}{llll}", head, *rows, r"\end{longtable}"]) + "\n"
+    return display(equations) + "\n" if equations else ""
 
 
 def coefficients_json(table: CoefficientTable) -> str:

@@ -54,7 +54,7 @@ def latex_letter(name: str) -> str:
     function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
     if function:
         return f"\\{function[1]}{{({latex_letter(function[2])})}}"
-    return latex_name(name)
+    return r"\pi" if name == "pi" else latex_name(name)
 
 
 def monomial_text(exponents: Sequence[int], names: Sequence[str], style: Style = TEXT) -> str:

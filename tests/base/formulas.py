@@ -13,13 +13,18 @@ Values = Mapping[str, np.ndarray]
 
 _FUNCTIONS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
+    "sign": np.sign, "abs": np.abs, "exp": np.exp, "tanh": np.tanh,
 }  # fmt: skip
 _TEXT = re.compile(r"\d+(?:\.\d*)?(?:e[-+]?\d+)?|[A-Za-z]\w*|\*\*|[-+*/()]")
-_HEAD = r"[A-Za-z]|\\mathit\{(?:\w|\\_)+\}|\\(?:alpha|beta|gamma|delta|theta|phi|psi)"
-_NAME = rf"(?:{_HEAD})(?:_\{{(?:\w|\\_)+\}})?"
+_GREEK = r"\\(?:alpha|beta|gamma|delta|theta|phi|psi|omega|epsilon|mu|Omega)(?![A-Za-z])"
+_DOTTED = r"\\d?dot\{(?:\\omega|[a-z])\}"
+_HEAD = rf"[A-Za-z]|\\mathit\{{(?:\w|\\_)+\}}|{_GREEK}|{_DOTTED}"
+_NAME = rf"(?:{_HEAD})(?:\^\{{[pt]\}})?(?:_\{{(?:\w|\\_|[-+,])+\}})?"
 _LATEX = re.compile(
-    rf"\\left\(|\\right\)|\\(?:frac|sqrt|sin|cos|tan|pi|cdot)|\d+(?:\.\d*)?|{_NAME}|[-+^{{}}\[\]]"
+    r"\\(?:left|bigl)\(|\\(?:right|bigr)\)|\\operatorname\{\w+\}|\\,|"
+    rf"\\(?:t?frac|sqrt|sin|cos|tanh?|exp|pi|cdot)|\d+(?:\.\d*)?|{_NAME}|[-+^{{}}()/\[\]]"
 )
+_OPENING, _CLOSING = (r"\left(", r"\bigl(", "("), (r"\right)", r"\bigr)", ")")
 
 
 class UnreadableError(Exception):
@@ -98,18 +103,24 @@ class _Text(_Reader):
 class _Latex(_Reader):
     def product(self) -> np.ndarray:
         value = self.power()
-        while self.next not in ("", "+", "-", "}", "]", r"\right)"):
-            if self.next == r"\cdot":
+        while self.next not in ("", "+", "-", "}", "]", *_CLOSING):
+            if self.next == "/":
+                self.take()
+                value = value / self.power()
+                continue
+            if self.next in (r"\cdot", r"\,"):
                 self.take()
             value = value * self.power()
         return value
 
     def power(self) -> np.ndarray:
         word = self.next.removeprefix("\\")
-        if word in ("sin", "cos", "tan"):
+        word = word.removeprefix("operatorname{").removesuffix("}")
+        if word in _FUNCTIONS and word != "sqrt":
             self.take()
             exponent = self.exponent()
-            return _FUNCTIONS[word](self.group()) ** exponent
+            argument = self.group() if self.next == "{" else self.atom()
+            return _FUNCTIONS[word](argument) ** exponent
         return self.atom() ** self.exponent()
 
     def exponent(self) -> np.ndarray:
@@ -126,15 +137,15 @@ class _Latex(_Reader):
 
     def atom(self) -> np.ndarray:
         word = self.take()
-        if word == r"\left(":
+        if word in _OPENING:
             value = self.sum()
-            self.take(r"\right)")
+            self.take(_CLOSING[_OPENING.index(word)])
             return value
         if word == "{":
             value = self.sum()
             self.take("}")
             return value
-        if word == r"\frac":
+        if word in (r"\frac", r"\tfrac"):
             above = self.group()
             return above / self.group()
         if word == r"\sqrt":
@@ -146,7 +157,15 @@ class _Latex(_Reader):
             return self.group() ** (1 / root)
         if word[0].isdigit():
             return np.float64(word)
-        return np.float64(np.pi) if word == r"\pi" else self.letter(name_of_latex(word))
+        return np.float64(np.pi) if word == r"\pi" else self.letter(self.name(word))
+
+    def name(self, word: str) -> str:
+        return name_of_latex(word)
+
+
+class _Written(_Latex):
+    def name(self, word: str) -> str:
+        return word
 
 
 def text_value(text: str, values: Values) -> np.ndarray:
@@ -157,6 +176,11 @@ def text_value(text: str, values: Values) -> np.ndarray:
 def latex_value(text: str, values: Values) -> np.ndarray:
     r"""Value of `\mathit{XX} + R^{2} \sin^{2}{\left(\phi_{1} \right)} M_{31}`."""
     return _Latex(text, _LATEX, values).result()
+
+
+def written_value(text: str, values: Values) -> np.ndarray:
+    r"""Value of `2\,\dot{q}_{1}\,\left(a + b\right)`; names as LaTeX writes them."""
+    return _Written(text, _LATEX, values).result()
 
 
 def name_of_latex(text: str) -> str:

@@ -31,6 +31,7 @@ def of_markdown(page: str) -> Relations:
 def of_latex(page: str) -> Relations:
     """Lines of the align environment."""
     body = page.removeprefix("\\begin{align}\n").removesuffix("\n\\end{align}")
+    body = body.replace(" \\notag \\\\\n&\\quad {}", " ")
     pairs = [line.split(" &= ") for line in body.split(" \\\\\n")]
     return [(name_of_latex(name), right) for name, right in pairs]
 

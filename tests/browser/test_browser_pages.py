@@ -49,7 +49,8 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Pages:
 def shown(browser: Chromium, page: Path, size: tuple[int, int]) -> str:
     """The rendered text of a page whose pictures have all been drawn."""
     browser.open(page, *size)
-    browser.value("document.querySelectorAll('.plot').forEach((p) => p.scrollIntoView())")
+    browser.until("[...document.querySelectorAll('a[download]')].every((link) => !link.hidden)")
+    browser.value("window.dispatchEvent(new Event('beforeprint'))")  # which draws them all
     browser.until(
         "[...document.querySelectorAll('.plot')].every((p) => p.querySelector('.main-svg'))"
     )

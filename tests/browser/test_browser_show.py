@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from modeler.pages.robot import robot_html
 from modeler.robot import builtin_text, read_robot, robot_from_text
-from modeler.show import Posture, Skeleton, home_posture, page_html, poses, skeleton_of
+from modeler.show import Posture, Skeleton, home_posture, poses, skeleton_of
 from modeler.show.closing import gaps_of, jacobian, residuals
-from modeler.show.page import page_content
+from modeler.show.content import page_content
 from modeler.showing import show
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS
@@ -23,7 +24,7 @@ def shown(browser: Chromium, place: Path, text: str, size: tuple[int, int] = SIZ
     """The page of a robot in the browser, drawn."""
     skeleton = skeleton_of(robot_from_text(text, "robot"))
     page = place / "page.html"
-    page.write_text(page_html(skeleton, home_posture(skeleton)), encoding="utf-8")
+    page.write_text(robot_html(skeleton, home_posture(skeleton)), encoding="utf-8")
     browser.open(page, *size)
     browser.until("window.modelerShow && modelerShow.view.items.length > 0")
     return skeleton
@@ -253,7 +254,8 @@ def test_what_the_file_says_is_text(browser, tmp_path) -> None:
     shown(browser, tmp_path, text)
     assert browser.value("document.querySelectorAll('img').length + (window.ran || 0)") == 0
     assert browser.value("document.querySelector('#loops td').textContent") == mark
-    assert browser.value("document.querySelector('header p').textContent").startswith(mark)
+    told = str(browser.value("document.querySelector('header p').textContent"))
+    assert told.startswith(f"modeler show {mark}")
 
 
 def test_pointing_at_a_joint_tells_its_row(browser, tmp_path) -> None:

@@ -102,7 +102,7 @@ def test_formulas_in_three_forms(capsys, tmp_path):
     raw = json.loads((tmp_path / "k.json").read_text())
     assert raw["missing"] == raw["surplus"] == 0 and len(raw["formulas"]) == 17
     status, out, _ = run(capsys, "wrist", "--known", EIGHT, "--format", "latex")
-    assert status == 0 and r"\mathit{ct}_{2} &= \frac{-\mathit{PG}_{2}}{\mathit{cm}} \\" in out
+    assert status == 0 and r"\mathit{ct}_{2} ={}& \frac{-\mathit{PG}_{2}}{\mathit{cm}} \\" in out
 
 
 @pytest.mark.parametrize("eighth", ["cm", "cJ11", "bJ12"])

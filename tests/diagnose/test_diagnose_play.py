@@ -10,8 +10,8 @@ from modeler.diagnose import Known, diagnose, diagnosis
 from modeler.diagnose import detected as module
 from modeler.diagnose.detected import detected
 from modeler.effects import effect_named
-from modeler.pages import write_diagnosis
 from modeler.pages.event_pictures import play_picture
+from modeler.pages.report import write_diagnosis
 from tests.diagnose.conftest import Case, motion, on_joint
 
 ERRORS = np.full(3, 0.05)

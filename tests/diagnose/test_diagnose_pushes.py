@@ -10,8 +10,8 @@ from modeler.diagnose import Diagnosis, Known, diagnose
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import candidates, scales_of
 from modeler.observation import Log
-from modeler.pages import write_diagnosis
 from modeler.pages.event_pictures import push_picture
+from modeler.pages.report import write_diagnosis
 from tests.diagnose.conftest import Case, motion, on_joint
 
 

@@ -9,17 +9,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.compare.picture import COLOR_NAMES, Curve, Means, Panel, Picture
 from modeler.diagnose import Diagnosis, diagnose
 from modeler.effects import CATALOGUE, VARIABLES
 from modeler.observation import Log
 from modeler.observation.bristle import bristle
-from modeler.pages import write_diagnosis
 from modeler.pages.bins import bins_of, calm_rows
 from modeler.pages.event_pictures import play_picture
 from modeler.pages.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
+from modeler.pages.report import write_diagnosis
 from modeler.pages.shown import figures, shown
+from modeler.pictures.picture import COLOR_NAMES, Curve, Means, Panel, Picture
 from modeler.robot import robot_from_text
+from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
 
@@ -114,15 +115,8 @@ def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
 @pytest.mark.parametrize("effect", ["stribeck", "motor_ripple"])
 def test_captions_name_the_colours_that_are_drawn(case: Case, effect: str) -> None:
     search = found(case, HIDDEN[effect][0]).search
-    assert_named(evidence_picture(shown(search, search.steps[0])))
-    assert_named(play_picture(search.end, 0))
-
-
-def assert_named(picture: Picture) -> None:
-    drawn = {s.style.color for row in picture.panels for panel in row for s in panel.series}
-    names = sorted(COLOR_NAMES.values(), key=len, reverse=True)
-    said = set(re.findall(rf"\b({'|'.join(names)}|red|yellow)\b", picture.caption.lower()))
-    assert said == {COLOR_NAMES[color] for color in drawn}
+    assert_all_named(evidence_picture(shown(search, search.steps[0])))
+    assert_all_named(play_picture(search.end, 0))
 
 
 def test_the_colours_have_different_names() -> None:
@@ -141,7 +135,7 @@ def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
     size = float(np.sqrt(np.mean(item.after**2)))
     assert after == pytest.approx(size, rel=0.2)
     page = write_diagnosis(tmp_path / "page.html", diagnosis).read_text()
-    assert html.escape(text) in page
+    assert text in html.unescape(page)
 
 
 def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:

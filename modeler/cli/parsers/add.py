@@ -1,6 +1,13 @@
 """`modeler add MODEL EFFECT LOG... --out MODEL2`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_page, add_several
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_page,
+    add_several,
+)
 from modeler.cli.places import LogFile, ModelFile, Output, Word
 
 
@@ -28,6 +35,7 @@ def add_add(commands: Commands) -> None:
     )
     add_several(parser, "--holdout", "LOG", LogFile, "logs of other motion to judge on")
     parser.add_argument("--robot", metavar="FILE", type=Output, help="write the new robot file too")
+    add_map(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_add)

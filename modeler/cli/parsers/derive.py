@@ -1,10 +1,17 @@
-"""`modeler derive ROBOT` and `modeler generate ROBOT --out DIR`."""
+"""`modeler derive ROBOT` and `modeler generate ROBOT|MODEL --out DIR`."""
 
 import argparse
 from typing import Literal, get_args
 
-from modeler.cli.parsers.options import Commands, Run, add_force, add_json, add_robot
-from modeler.cli.places import ModuleFolder, Output
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_effects,
+    add_force,
+    add_json,
+    add_robot,
+)
+from modeler.cli.places import ModuleFolder, Output, RobotOrModel
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
@@ -21,12 +28,16 @@ def add_derive(commands: Commands) -> None:
         description="Derives the model of ROBOT, linear in the dynamic parameters: which base "
         "parameters it has, how the standard parameters group, and the proof. Robots of up to "
         f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
-        epilog="example: modeler derive puma560 --format latex",
+        epilog="example: modeler derive puma560 --format latex --document > puma560.tex",
     )
     add_robot(parser)
     parser.add_argument(
         "--format", choices=sorted(get_args(Form)), default="text", help="of what is printed"
     )
+    parser.add_argument(
+        "--document", action="store_true",
+        help="with --format latex: a whole document; without, what \\input takes beside amsmath",
+    )  # fmt: skip
     _add_formulas(parser)
     parser.add_argument(
         "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
@@ -78,10 +89,16 @@ def add_generate(commands: Commands) -> None:
         help="C source, header, manifest and build files",
         description="Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia "
         "matrix, gravity, Coriolis, and the batch observation matrix, in a folder that builds by "
-        "itself with make or cmake.",
-        epilog="example: modeler generate panda --out panda_c",
+        "itself with make or cmake. Of a MODEL also functions that have its fitted values: they "
+        "take no parameters, and their Coulomb friction can be smoothed.",
+        epilog="example: modeler generate panda --out panda_c; of a fitted model: "
+        "modeler generate arm.model.json --out arm_c",
     )
-    add_robot(parser)
+    parser.add_argument(
+        "robot", metavar="ROBOT|MODEL", type=RobotOrModel,
+        help="a robot file, the name of a built-in robot, or a model file of `modeler fit`",
+    )  # fmt: skip
+    add_effects(parser)
     parser.add_argument(
         "--out", metavar="DIR", required=True, type=ModuleFolder, help="folder to write"
     )
@@ -91,6 +108,6 @@ def add_generate(commands: Commands) -> None:
 
 
 def _generate() -> Run:
-    from modeler.cli.derive import run_generate
+    from modeler.cli.generate import run_generate
 
     return run_generate

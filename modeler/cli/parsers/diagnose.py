@@ -1,6 +1,13 @@
 """`modeler diagnose MODEL LOG...`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_page, add_several
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_page,
+    add_several,
+)
 from modeler.cli.places import LogFile, ModelFile, Word
 
 
@@ -32,6 +39,7 @@ def add_diagnose(commands: Commands) -> None:
         "--without", metavar="EFFECT[@J]", action="append", default=[], type=Word,
         help="an effect that this robot does not have, on one joint or at all",
     )  # fmt: skip
+    add_map(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_diagnose)

@@ -1,6 +1,13 @@
 """`modeler estimators [ROBOT LOG...]`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_page, add_several
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_page,
+    add_several,
+)
 from modeler.cli.places import LogFile, RobotFile, Word
 
 
@@ -33,6 +40,7 @@ def add_estimators(commands: Commands) -> None:
         "--methods", metavar="LIST", type=Word,
         help="some of them, with commas between; default: all",
     )  # fmt: skip
+    add_map(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_estimators)

@@ -3,12 +3,31 @@
 import argparse
 from typing import get_args
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_number, add_page, add_robot
-from modeler.cli.places import LogFile, ModelFile, Output, PageOrFolder, PictureFolder, Word
+from modeler.cli.parsers.options import (
+    Commands,
+    Run,
+    add_json,
+    add_map,
+    add_number,
+    add_page,
+    add_robot,
+)
+from modeler.cli.places import (
+    LogFile,
+    ModelFile,
+    Output,
+    PageOrFolder,
+    PictureFolder,
+    Word,
+    model_or_log,
+)
 from modeler.core.choices import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
 from modeler.core.estimators import ABOUT, APART
 
-_LOGS = "Parquet or CSV logs; FILE@START:END takes the rows between these seconds"
+_LOGS = (
+    "Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; FILE@START:END takes the rows between these "
+    "seconds"
+)
 
 
 def add_fit(commands: Commands) -> None:
@@ -22,6 +41,7 @@ def add_fit(commands: Commands) -> None:
     )
     add_robot(parser)
     parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    add_map(parser)
     parser.add_argument(
         "--out", metavar="MODEL", required=True, type=Output, help="model file to write"
     )
@@ -130,13 +150,19 @@ def add_compare(commands: Commands) -> None:
         "compare",
         help="measured against predicted torque: how good, where it fails",
         description="Predicts the torques of the logs with MODEL and shows per joint how good it "
-        "is, where it fails, and whether the rest still has structure.",
-        epilog="example: modeler compare ur10e.model.json held_out.parquet --report page.html",
+        "is, where it fails, and whether the rest still has structure. Of several models: whose "
+        "error is smaller on which joint, and where that is beyond doubt.",
+        epilog="example: modeler compare ur10e.model.json held_out.parquet --report page.html; "
+        "modeler compare ur10e.model.json better.model.json held_out.parquet",
     )
     parser.add_argument(
         "model", metavar="MODEL", type=ModelFile, help="a model file of `modeler fit`"
     )
-    parser.add_argument("logs", metavar="LOG", nargs="+", type=LogFile, help=_LOGS)
+    parser.add_argument(
+        "logs", metavar="LOG", nargs="+", type=model_or_log,
+        help=f"{_LOGS}; before them perhaps further models, which are set beside the first",
+    )  # fmt: skip
+    add_map(parser)
     add_page(parser, PageOrFolder)
     parser.add_argument(
         "--pictures", metavar="DIR", type=PictureFolder,

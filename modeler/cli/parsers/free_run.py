@@ -1,6 +1,6 @@
 """`modeler free-run MODEL LOG...`."""
 
-from modeler.cli.parsers.options import Commands, Run, add_json, add_number
+from modeler.cli.parsers.options import Commands, Run, add_json, add_map, add_number
 from modeler.cli.places import LogFile, ModelFile, PictureFolder, Word
 
 
@@ -36,6 +36,7 @@ def add_free_run(commands: Commands) -> None:
         "--pictures", metavar="DIR", type=PictureFolder,
         help="write every picture as PNG, SVG and CSV",
     )  # fmt: skip
+    add_map(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_free_run)
 

@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from modeler.cli.places import JsonFile, Output, RobotFile, Word
+from modeler.cli.places import JsonFile, MapWord, Output, RobotFile, Word
 
 if TYPE_CHECKING:
     Commands = argparse._SubParsersAction[argparse.ArgumentParser]
@@ -50,6 +50,11 @@ def add_robot(parser: argparse.ArgumentParser) -> None:
         "robot", metavar="ROBOT", type=RobotFile,
         help="a robot file, or the name of a built-in robot",
     )  # fmt: skip
+    add_effects(parser)
+
+
+def add_effects(parser: argparse.ArgumentParser) -> None:
+    """`--effects LIST`, which changes ROBOT."""
     parser.add_argument(
         "--effects",
         metavar="LIST",
@@ -61,6 +66,15 @@ def add_robot(parser: argparse.ArgumentParser) -> None:
 def add_json(parser: argparse.ArgumentParser, text: str) -> None:
     """`--json FILE`, which every command has."""
     parser.add_argument("--json", metavar="FILE", type=JsonFile, help=f"{text}; - for stdout")
+
+
+def add_map(parser: argparse._ActionsContainer) -> None:
+    """`--map`, which every command has that takes logs."""
+    parser.add_argument(
+        "--map", metavar="NAME=COLUMN[:UNIT]", action="append", default=[], type=MapWord,
+        help="which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such "
+        "lines; may be given several times; over [log] of the robot file",
+    )  # fmt: skip
 
 
 def add_page(parser: argparse.ArgumentParser, kind: type[Output] = Output) -> None:

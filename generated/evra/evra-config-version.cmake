@@ -1,0 +1,11 @@
+# find_package(evra) takes any, find_package(evra 1) any of this C interface,
+# find_package(evra 1.51822.34701.14290) only what has the signature ca6e878d37d23223.
+set(PACKAGE_VERSION 1.51822.34701.14290)
+set(PACKAGE_VERSION_COMPATIBLE FALSE)
+set(PACKAGE_VERSION_EXACT FALSE)
+if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+  set(PACKAGE_VERSION_EXACT TRUE)
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+endif()

@@ -1,0 +1,11 @@
+# find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 1) any of this C interface,
+# find_package(orthoglide_2003 1.48987.8893.49471) only what has the signature bf5b22bdc13feb49.
+set(PACKAGE_VERSION 1.48987.8893.49471)
+set(PACKAGE_VERSION_COMPATIBLE FALSE)
+set(PACKAGE_VERSION_EXACT FALSE)
+if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+  set(PACKAGE_VERSION_EXACT TRUE)
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+endif()

@@ -1,0 +1,43 @@
+# find_package(orthoglide_2003) gives the target orthoglide_2003::orthoglide_2003: the kind that BUILD_SHARED_LIBS asks for, else the
+# other; COMPONENTS static or shared insists. orthoglide_2003_SIGNATURE is what orthoglide_2003_signature() returns.
+set(orthoglide_2003_SIGNATURE bf5b22bdc13feb49)
+
+if(orthoglide_2003_FIND_COMPONENTS)
+  set(_modeler_kinds ${orthoglide_2003_FIND_COMPONENTS})
+elseif(BUILD_SHARED_LIBS)
+  set(_modeler_kinds shared static)
+else()
+  set(_modeler_kinds static shared)
+endif()
+set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
+
+foreach(_modeler_kind IN LISTS _modeler_kinds)
+  # A library of another signature that is left in the same place has another file.
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2003-${_modeler_kind}-bf5b22bdc13feb49.cmake")
+  if(TARGET orthoglide_2003::orthoglide_2003 OR NOT EXISTS "${_modeler_file}")
+    continue()
+  endif()
+  include("${_modeler_file}")
+  if(NOT TARGET orthoglide_2003::orthoglide_2003) # installed by make
+    if(_modeler_kind STREQUAL "shared")
+      set(_modeler_name liborthoglide_2003_model.so.bf5b22bdc13feb49)
+    else()
+      set(_modeler_name liborthoglide_2003_model.a)
+    endif()
+    string(TOUPPER ${_modeler_kind} _modeler_type)
+    add_library(orthoglide_2003::orthoglide_2003 ${_modeler_type} IMPORTED)
+    get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
+    get_filename_component(_modeler_include "${_modeler_lib}/../include/orthoglide_2003" ABSOLUTE)
+    set_target_properties(orthoglide_2003::orthoglide_2003 PROPERTIES IMPORTED_LOCATION "${_modeler_location}"
+      INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
+    if(_modeler_kind STREQUAL "shared")
+      set_target_properties(orthoglide_2003::orthoglide_2003 PROPERTIES IMPORTED_SONAME "${_modeler_name}")
+    endif()
+  endif()
+endforeach()
+
+if(NOT TARGET orthoglide_2003::orthoglide_2003)
+  set(orthoglide_2003_FOUND FALSE)
+  set(orthoglide_2003_NOT_FOUND_MESSAGE
+    "no library of signature bf5b22bdc13feb49 here that is ${_modeler_kinds}; install it again")
+endif()

@@ -1,0 +1,43 @@
+# find_package(orthoglide_leg_tree) gives the target orthoglide_leg_tree::orthoglide_leg_tree: the kind that BUILD_SHARED_LIBS asks for, else the
+# other; COMPONENTS static or shared insists. orthoglide_leg_tree_SIGNATURE is what orthoglide_leg_tree_signature() returns.
+set(orthoglide_leg_tree_SIGNATURE b6b92c1f550c6254)
+
+if(orthoglide_leg_tree_FIND_COMPONENTS)
+  set(_modeler_kinds ${orthoglide_leg_tree_FIND_COMPONENTS})
+elseif(BUILD_SHARED_LIBS)
+  set(_modeler_kinds shared static)
+else()
+  set(_modeler_kinds static shared)
+endif()
+set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
+
+foreach(_modeler_kind IN LISTS _modeler_kinds)
+  # A library of another signature that is left in the same place has another file.
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-b6b92c1f550c6254.cmake")
+  if(TARGET orthoglide_leg_tree::orthoglide_leg_tree OR NOT EXISTS "${_modeler_file}")
+    continue()
+  endif()
+  include("${_modeler_file}")
+  if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree) # installed by make
+    if(_modeler_kind STREQUAL "shared")
+      set(_modeler_name liborthoglide_leg_tree_model.so.b6b92c1f550c6254)
+    else()
+      set(_modeler_name liborthoglide_leg_tree_model.a)
+    endif()
+    string(TOUPPER ${_modeler_kind} _modeler_type)
+    add_library(orthoglide_leg_tree::orthoglide_leg_tree ${_modeler_type} IMPORTED)
+    get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
+    get_filename_component(_modeler_include "${_modeler_lib}/../include/orthoglide_leg_tree" ABSOLUTE)
+    set_target_properties(orthoglide_leg_tree::orthoglide_leg_tree PROPERTIES IMPORTED_LOCATION "${_modeler_location}"
+      INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
+    if(_modeler_kind STREQUAL "shared")
+      set_target_properties(orthoglide_leg_tree::orthoglide_leg_tree PROPERTIES IMPORTED_SONAME "${_modeler_name}")
+    endif()
+  endif()
+endforeach()
+
+if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree)
+  set(orthoglide_leg_tree_FOUND FALSE)
+  set(orthoglide_leg_tree_NOT_FOUND_MESSAGE
+    "no library of signature b6b92c1f550c6254 here that is ${_modeler_kinds}; install it again")
+endif()

@@ -1,0 +1,11 @@
+# find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
+# find_package(wrist 1.42504.43304.49154) only what has the signature a608a928c002c0c1.
+set(PACKAGE_VERSION 1.42504.43304.49154)
+set(PACKAGE_VERSION_COMPATIBLE FALSE)
+set(PACKAGE_VERSION_EXACT FALSE)
+if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+  set(PACKAGE_VERSION_EXACT TRUE)
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+endif()

@@ -1,0 +1,43 @@
+# find_package(wrist) gives the target wrist::wrist: the kind that BUILD_SHARED_LIBS asks for, else the
+# other; COMPONENTS static or shared insists. wrist_SIGNATURE is what wrist_signature() returns.
+set(wrist_SIGNATURE a608a928c002c0c1)
+
+if(wrist_FIND_COMPONENTS)
+  set(_modeler_kinds ${wrist_FIND_COMPONENTS})
+elseif(BUILD_SHARED_LIBS)
+  set(_modeler_kinds shared static)
+else()
+  set(_modeler_kinds static shared)
+endif()
+set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
+
+foreach(_modeler_kind IN LISTS _modeler_kinds)
+  # A library of another signature that is left in the same place has another file.
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-a608a928c002c0c1.cmake")
+  if(TARGET wrist::wrist OR NOT EXISTS "${_modeler_file}")
+    continue()
+  endif()
+  include("${_modeler_file}")
+  if(NOT TARGET wrist::wrist) # installed by make
+    if(_modeler_kind STREQUAL "shared")
+      set(_modeler_name libwrist_model.so.a608a928c002c0c1)
+    else()
+      set(_modeler_name libwrist_model.a)
+    endif()
+    string(TOUPPER ${_modeler_kind} _modeler_type)
+    add_library(wrist::wrist ${_modeler_type} IMPORTED)
+    get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
+    get_filename_component(_modeler_include "${_modeler_lib}/../include/wrist" ABSOLUTE)
+    set_target_properties(wrist::wrist PROPERTIES IMPORTED_LOCATION "${_modeler_location}"
+      INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
+    if(_modeler_kind STREQUAL "shared")
+      set_target_properties(wrist::wrist PROPERTIES IMPORTED_SONAME "${_modeler_name}")
+    endif()
+  endif()
+endforeach()
+
+if(NOT TARGET wrist::wrist)
+  set(wrist_FOUND FALSE)
+  set(wrist_NOT_FOUND_MESSAGE
+    "no library of signature a608a928c002c0c1 here that is ${_modeler_kinds}; install it again")
+endif()

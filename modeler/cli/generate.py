@@ -1,0 +1,68 @@
+"""`modeler generate ROBOT|MODEL --out DIR`."""
+
+import argparse
+
+from modeler.api import generate
+from modeler.cli.console import Json, complain, say, working
+from modeler.cli.robots import robot_of
+from modeler.core.contract import Emitted, FittedSpec, FunctionSpec
+from modeler.core.errors import DataError
+from modeler.derivation import derive
+from modeler.fit import IdentifiedModel, load_model
+
+
+def run_generate(args: argparse.Namespace) -> Json:
+    """Writes the folder and says what is in it."""
+    model = _model(args)
+    emitted = _written(args, model)
+    spec, fitted = emitted.spec, emitted.spec.fitted
+    for line in () if model is None else model.warning:
+        complain(line)
+    say(f"{spec.robot}: {len(spec.base)} base parameters, written to {args.out}:")
+    for name in sorted(emitted.files):
+        say(f"  {name}")
+    for function in spec.functions:
+        say(_told(function))
+    result = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
+    return result if fitted is None else result | _say_fitted(fitted)
+
+
+def _model(args: argparse.Namespace) -> IdentifiedModel | None:
+    """None of a robot."""
+    if not args.robot.endswith(".json"):
+        return None
+    if args.effects is not None:
+        raise DataError(
+            "--effects: of a robot file only; a model has the effects it was fitted with"
+        )
+    return load_model(args.robot)
+
+
+def _written(args: argparse.Namespace, model: IdentifiedModel | None) -> Emitted:
+    if model is not None:
+        with working(f"deriving {model.spec.robot}"):
+            return generate(model, args.out, args.force)
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        return generate(derive(robot), args.out, args.force)
+
+
+def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:
+    """What has the values."""
+    say(f"with the fitted values, signature {fitted.signature}:")
+    for function in fitted.functions:
+        say(_told(function))
+    if fitted.widths:
+        say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
+    return {
+        "fitted_signature": fitted.signature,
+        "usable": fitted.usable,
+        "doubts": list(fitted.doubts),
+    }
+
+
+def _told(function: FunctionSpec) -> str:
+    return (
+        f"  {function.name}: {function.equation} ({function.additions} additions, "
+        f"{function.multiplications} multiplications)"
+    )

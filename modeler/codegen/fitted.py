@@ -1,0 +1,163 @@
+"""The unit of a fitted model: its functions with the values in the place of beta.
+
+The values are numbers to the graph, so products of values and lengths are constants, and what a
+value of 0 multiplies is gone. Only here may the sign of a speed be smooth: functions that read beta
+stay those of the regressors, phi beta, which fits and their checks rely on.
+"""
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from modeler.base.result import BaseParameters
+from modeler.codegen import layout
+from modeler.codegen.closed import closed_dynamics
+from modeler.codegen.functions import Closed, Function, arguments_of, dynamics_functions
+from modeler.codegen.names import enumerators
+from modeler.core.contract import FittedParameter, FittedSpec, ModuleSpec
+from modeler.core.errors import EmitError
+from modeler.symbolic import ShaftColumn, SymbolicModel
+from modeler.symbolic.effects import along
+from modeler.symbolic.graph import Node
+
+UNIT = "_fitted"
+"""C file of these functions, without the robot's name and `.c`."""
+
+_TREE = "fitted_tree"
+
+
+@dataclass(frozen=True)
+class Width:
+    """The width over which dry friction of a joint turns.
+
+    Attributes:
+        joint: its row in the table.
+        macro: that says it.
+        constant: C constant that the macro initialises.
+        unit: "rad/s" or "m/s".
+        speed: node of the joint's speed, or the motor's.
+    """
+
+    joint: str
+    macro: str
+    constant: str
+    unit: str
+    speed: int
+
+
+def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
+    """Nothing, if there is one finite value of every base parameter, in order.
+
+    Raises:
+        EmitError: says what is there instead.
+    """
+    names = [parameter.name for parameter in base.parameters]
+    given = [parameter.name for parameter in fitted.parameters]
+    if given != names:
+        raise EmitError(
+            f"values of {', '.join(given)}; expected those of the base parameters "
+            f"{', '.join(names)}; fit the model again"
+        )
+    for parameter in fitted.parameters:
+        if not math.isfinite(parameter.value):
+            raise EmitError(
+                f"{parameter.name}: got the value {parameter.value}; expected a number; fit the "
+                "model again"
+            )
+
+
+def fitted_functions(
+    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
+) -> tuple[Function, ...]:
+    """Internal ones first, then those of the header: the twins without their argument beta."""
+    values = {
+        parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
+        for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
+    }
+    if model.closure is None:
+        given = arguments_of(model.robot.free, model, base)
+        return tuple(map(_public, dynamics_functions(model, values, given)))
+    tree, public = closed_dynamics(model, base, values)
+    inner = [dataclasses.replace(_public(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree]
+    return (*inner, *map(_public, public))
+
+
+def _public(function: Function) -> Function:
+    """The function without beta."""
+    return dataclasses.replace(
+        function,
+        unit=UNIT,
+        role=f"fitted_{function.role}",
+        inputs=tuple(a for a in function.inputs if a.name != "beta"),
+        closed=None if function.closed is None else _closed(function.closed),
+    )
+
+
+def _closed(closed: Closed) -> Closed:
+    reads = ", ".join(name for name in closed.reads.split(", ") if name != "beta")
+    return dataclasses.replace(closed, tree=_TREE, reads=reads)
+
+
+def widths(prefix: str, model: SymbolicModel, functions: Sequence[Function]) -> tuple[Width, ...]:
+    """One for every joint or motor of whose speed the functions read the sign.
+
+    Joints that always move alike have one speed, and the width of the first of them. A sign of
+    anything else than such a speed leaps where it did.
+    """
+    read = {node.args[0] for node in _nodes(model, functions) if node.op == "sign"}
+    found: dict[int, Width] = {}
+    for column in model.columns:
+        for part in column.parts if isinstance(column, ShaftColumn) else ():
+            speed = abs(along(model, part.shaft, "qd").ref)
+            if speed not in read or speed in found:
+                continue
+            joint = model.robot.joints[part.row]
+            found[speed] = Width(
+                joint.name,
+                f"{prefix.upper()}_COULOMB_WIDTH_{joint.name}",
+                f"{prefix}_width_{joint.name}",
+                f"{joint.unit}/s",
+                speed,
+            )
+    return tuple(found.values())
+
+
+def _nodes(model: SymbolicModel, functions: Sequence[Function]) -> list[Node]:
+    """All that the functions need."""
+    values = [value for function in functions for _, value in function.entries]
+    return [model.graph.nodes[index] for index in model.graph.reachable(values)]
+
+
+def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -> dict[str, Any]:
+    """Finished strings for the templates of the unit."""
+    verdict = f"The fit of this model is {fitted.verdict or 'one that nobody has judged'}"
+    doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
+    warning = "" if fitted.usable else "WARNING. "
+    return {
+        "widths": found,
+        "remarks": layout.comment_lines([f"{warning}{verdict}", *doubts, *fitted.remarks]),
+        "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
+        "lines": _value_lines(spec, fitted.parameters),
+        "gains": layout.name_lines([repr(gain) for gain in fitted.gains]),
+    }
+
+
+def _value_lines(spec: ModuleSpec, parameters: Sequence[FittedParameter]) -> list[str]:
+    """Lines of the C table: the value, which it is, its unit, how sure it is."""
+    places = enumerators(spec.prefix, "beta", [base.name for base in spec.base])
+    lines: list[str] = []
+    for parameter, place in zip(parameters, places, strict=True):
+        comma = "," if len(lines) + 1 < len(parameters) else " "
+        about = layout.comment_line(f"{place} [{parameter.unit}], {_sure(parameter)}")
+        lines.append(f"    {parameter.value!r:>24}{comma} /* {about} */")
+    return lines
+
+
+def _sure(parameter: FittedParameter) -> str:
+    if parameter.sigma is None:
+        return "set aside: the logs do not tell it"
+    told = f"sigma {parameter.sigma:.2g}"
+    return told if parameter.essential else f"{told}, not essential"

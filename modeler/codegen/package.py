@@ -1,0 +1,115 @@
+"""What makes an emitted folder a package: its version, what is installed, the texts of the build."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.codegen.examples import call_head, example_values, examples_of
+from modeler.codegen.render import render
+from modeler.core.contract import FunctionSpec, ModuleSpec
+
+C_INTERFACE = 1
+"""Raised when a function of the emitted C takes other arguments under the same name."""
+
+
+@dataclass(frozen=True)
+class Package:
+    """How build systems see the folder.
+
+    Attributes:
+        signature: of the manifest; where it has fitted values, with these.
+        version: see `package_version`.
+        sources: C files of the library.
+        headers: all that its objects depend on.
+        public: headers that a controller includes, installed.
+    """
+
+    signature: str
+    version: str
+    sources: tuple[str, ...]
+    headers: tuple[str, ...]
+    public: tuple[str, ...]
+
+
+def package_version(signature: str) -> str:
+    """`1.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
+
+    Build systems compare numbers, not digests: so `find_package(arm 1.4660.22136.43981)` and
+    `pkg-config 'arm = 1.4660.22136.43981'` find this code and no other. There is no order among
+    the last three.
+
+    Args:
+        signature: of the manifest, hexadecimal.
+    """
+    words = (int(signature[i : i + 4], 16) for i in (0, 4, 8))
+    return ".".join(map(str, (C_INTERFACE, *words)))
+
+
+def package_files(
+    spec: ModuleSpec, code: Mapping[str, str], values: Mapping[str, Any]
+) -> dict[str, str]:
+    """{name: text} of what builds, checks, installs and explains the library.
+
+    Args:
+        spec: the manifest.
+        code: {name: text} of all C files that the library is compiled from.
+        values: what all templates of the module are given.
+    """
+    prefix = spec.prefix
+    examples = examples_of(spec)
+    given = {
+        **values,
+        "package": _package(spec, code),
+        "examples": examples,
+        "programs": (f"{prefix}_check", *examples),
+        "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
+        "every": _functions(spec),
+        "home": _home(spec),
+        "fitted": spec.fitted,
+        "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
+        "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
+    }
+    names = {
+        "Makefile": "Makefile",
+        "CMakeLists.txt": "CMakeLists.txt",
+        f"{prefix}.pc.in": "package.pc.in",
+        f"{prefix}-config.cmake": "config.cmake",
+        f"{prefix}-config-version.cmake": "config-version.cmake",
+        f"{prefix}_check.c": "check.c",
+        "README.md": "README.md",
+    }
+    texts = {name: render(template, **given) for name, template in names.items()}
+    for name in examples:
+        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
+    return texts
+
+
+def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
+    prefix = spec.prefix
+    signature = spec.signature() if spec.fitted is None else spec.fitted.signature
+    public = [name for name in (f"{prefix}.h", f"{prefix}_fitted.h") if name in code]
+    for name in public:  # grows while it is read
+        public += [h for h in _included(code[name]) if h in code and h not in public]
+    return Package(
+        signature=signature,
+        version=package_version(signature),
+        sources=tuple(name for name in code if name.endswith(".c")),
+        headers=tuple(name for name in code if name.endswith(".h")),
+        public=tuple(public),
+    )
+
+
+def _included(text: str) -> list[str]:
+    return re.findall(r'^#include "([^"]+)"', text, flags=re.MULTILINE)
+
+
+def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
+    return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+
+
+def _home(spec: ModuleSpec) -> str:
+    """Coordinates of a posture in which the loops close, as a C initialiser."""
+    if spec.closure is None:
+        return "0.0"
+    return ", ".join(repr(spec.closure.home[place]) for place in spec.closure.given)

@@ -1,0 +1,105 @@
+"""Parquet and CSV files as columns."""
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.csv
+import pyarrow.parquet
+
+from modeler.core.errors import DataError
+from modeler.logs.columns import Columns, NotNumbers, Wanted
+from modeler.logs.csv_text import check_csv
+
+
+@dataclass(frozen=True, eq=False)
+class _Arrow:
+    """A column of a table of Arrow."""
+
+    column: pa.ChunkedArray
+
+    @property
+    def numeric(self) -> bool:
+        kind = self.column.type
+        return bool(
+            pa.types.is_integer(kind)
+            or pa.types.is_floating(kind)
+            or pa.types.is_decimal(kind)
+            or pa.types.is_null(kind)
+        )
+
+    def numbers(self) -> np.ndarray:
+        if not self.numeric:
+            raise NotNumbers(self._why())
+        return np.array(pc.cast(self.column, pa.float64(), safe=False).to_numpy(), dtype=float)
+
+    def _why(self) -> str:
+        kind = self.column.type
+        if pa.types.is_string(kind) or pa.types.is_large_string(kind):
+            for row, value in enumerate(self.column.to_pylist(), start=1):
+                try:
+                    float(value if value is not None else "nan")
+                except ValueError:
+                    return (
+                        f', row {row}: got "{value}"; expected a number{_with_point(value)}; '
+                        "correct it, or leave the entry empty if the measurement is missing"
+                    )
+        return f" holds {kind}; expected numbers; write the column as floating point"
+
+
+def read_csv(path: Path, wanted: Wanted) -> Columns:
+    """The columns of a CSV file."""
+    del wanted  # one table, no parts
+    with _told(path, "CSV"):
+        check_csv(path)
+        return _columns(_parsed(path))
+
+
+def read_parquet(path: Path, wanted: Wanted) -> Columns:
+    """The columns of a Parquet file."""
+    del wanted
+    with _told(path, "PARQUET"):
+        return _columns(pa.parquet.ParquetFile(path).read())  # read_table refuses equal names
+
+
+@contextmanager
+def _told(path: Path, what: str) -> Iterator[None]:
+    """Errors of Arrow as one line."""
+    try:
+        yield
+    except (pa.ArrowException, OSError) as error:
+        words = str(error).strip().split("\n")[0]
+        raise DataError(
+            f"{path}: cannot be read as {what} ({words}); write the file again"
+        ) from None
+
+
+def _parsed(path: Path) -> pa.Table:
+    """The table of a CSV file; an error of one row names it."""
+    try:
+        return pa.csv.read_csv(path)
+    except pa.ArrowInvalid:
+        # Rows are counted only where one thread reads all.
+        return pa.csv.read_csv(path, pa.csv.ReadOptions(use_threads=False))
+
+
+def _columns(table: pa.Table) -> Columns:
+    named = [(_bare(name), _Arrow(table.column(i))) for i, name in enumerate(table.column_names)]
+    return Columns(tuple(named), table.num_rows)
+
+
+def _with_point(value: str) -> str:
+    return " with a decimal point" if re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value) else ""
+
+
+def _bare(name: str) -> str:
+    """A column name without blanks and quotes around it: `"time", "q1"` leaves both."""
+    name = name.strip()
+    if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
+        name = name[1:-1].strip()
+    return name

@@ -1,0 +1,122 @@
+"""What every format gives: named columns of one length, read when they are asked for."""
+
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Protocol
+
+import numpy as np
+
+from modeler.core.errors import DataError
+
+_NONE: Mapping = MappingProxyType({})
+
+
+class Column(Protocol):
+    """One column: whether it holds numbers, and those."""
+
+    @property
+    def numeric(self) -> bool:
+        """True if it holds numbers, or nothing at all."""
+
+    def numbers(self) -> np.ndarray:
+        """(rows,) floats, a copy; what is missing is NaN.
+
+        Raises:
+            NotNumbers: it holds something else.
+        """
+
+
+class NotNumbers(Exception):
+    """Why a column has no numbers: what follows "column NAME", and what to do."""
+
+
+@dataclass(frozen=True)
+class Stream:
+    """A part of a file that was recorded by itself: a topic, a group.
+
+    Attributes:
+        name: as `topic` takes it.
+        kind: of what it holds: the type of its messages.
+        rows: how many.
+        clock: True if its rows are those of the columns.
+    """
+
+    name: str
+    kind: str
+    rows: int
+    clock: bool = False
+
+
+@dataclass(frozen=True)
+class Columns:
+    """What a file holds.
+
+    Attributes:
+        columns: (name, column), in the order of the file; a name may stand twice.
+        rows: of every column.
+        units: that the file states: name -> text.
+        notes: what was left out or joined, one sentence each.
+        streams: topics or groups, if the file has such.
+    """
+
+    columns: tuple[tuple[str, Column], ...]
+    rows: int
+    units: Mapping[str, str] = field(default_factory=lambda: _NONE)
+    notes: tuple[str, ...] = ()
+    streams: tuple[Stream, ...] = ()
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What of a file is wanted.
+
+    Attributes:
+        topic: the part that holds the motion; "" if there is one only.
+        any: True: take the likeliest part rather than asking which.
+    """
+
+    topic: str = ""
+    any: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Values:
+    """A column that is in memory already."""
+
+    values: np.ndarray
+
+    @property
+    def numeric(self) -> bool:
+        """True for integers and floats."""
+        return self.values.dtype.kind in "iuf"
+
+    def numbers(self) -> np.ndarray:
+        """A copy as floats."""
+        return np.array(self.values, dtype=float)
+
+
+@contextmanager
+def reading(path: Path, what: str, advice: str = "write the file again") -> Iterator[None]:
+    """Whatever another's reader raises about a damaged file, as one line.
+
+    Raises:
+        DataError: it raised anything; the file is at fault.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    except DataError:
+        raise
+    except Exception as error:  # a flipped bit takes these readers anywhere
+        words = " ".join(str(error).split())[:200] or type(error).__name__
+        raise DataError(f"{path}: cannot be read as {what} ({words}); {advice}") from None
+
+
+def missing_package(path: Path, what: str, package: str) -> DataError:
+    """The error of a format whose reader is not installed."""
+    return DataError(f"{path}: {what} needs the package {package}; run: pip install {package}")

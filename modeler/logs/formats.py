@@ -1,0 +1,46 @@
+"""Which reader a file is for, by its ending."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from modeler.core.errors import DataError
+from modeler.logs.arrow import read_csv, read_parquet
+from modeler.logs.bags import read_bag
+from modeler.logs.columns import Columns, Wanted
+from modeler.logs.hdf5 import read_hdf5
+from modeler.logs.mat import read_mat
+from modeler.logs.numpy_file import read_numpy
+
+_READERS: Mapping[str, Callable[[Path, Wanted], Columns]] = {
+    ".parquet": read_parquet, ".csv": read_csv, ".mat": read_mat, ".h5": read_hdf5,
+    ".hdf5": read_hdf5, ".mcap": read_bag, ".db3": read_bag, ".bag": read_bag, ".npz": read_numpy,
+    ".npy": read_numpy,
+}  # fmt: skip
+
+BAG = "metadata.yaml"
+"""The file that makes a folder a ROS 2 bag."""
+
+
+def read_columns(path: Path, wanted: Wanted) -> Columns:
+    """The columns of a file, or of the folder of a ROS 2 bag.
+
+    Raises:
+        DataError: there is none, its ending is unknown, its package is missing, or it is damaged.
+    """
+    if path.is_dir():
+        if not (path / BAG).is_file():
+            raise DataError(
+                f"{path}: is a folder without {BAG}; expected a log, or the folder of a ROS 2 bag"
+            )
+        return read_bag(path, wanted)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise DataError(
+            f"{path}: a log ends in .parquet or .csv, or in {', '.join([*_READERS][2:])}, got "
+            f'"{path.suffix or "no suffix"}"; convert or rename it'
+        )
+    if not path.is_file():
+        raise DataError(f"{path}: there is no such file; check the path")
+    if path.stat().st_size == 0:
+        raise DataError(f"{path}: the file is empty; record or copy it again")
+    return reader(path, wanted)

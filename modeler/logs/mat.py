@@ -1,0 +1,55 @@
+"""MAT files of MATLAB as columns: arrays, and fields of structs as `data.q[1]`."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy.io
+
+from modeler.logs.arrays import Held, columns_of
+from modeler.logs.columns import Columns, Wanted, reading
+from modeler.logs.hdf5 import read_mat73
+
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+_DEEPEST = 20  # structs in structs
+
+
+def read_mat(path: Path, wanted: Wanted) -> Columns:
+    """The columns of a MAT file, versions 4 to 7, and 7.3 where h5py is installed."""
+    with reading(path, "MAT file"), path.open("rb") as file:
+        header = file.read(520)
+    if header.startswith((b"MATLAB 7.3", _HDF5)) or _HDF5 in header:
+        return read_mat73(path, wanted)
+    with reading(path, "MAT file"):
+        content = scipy.io.loadmat(path, simplify_cells=True)
+        found, other = [], []
+        for name, value in _values(content):
+            if isinstance(value, np.ndarray) and value.dtype.kind in "iufb":
+                found.append(Held(name, value))
+            elif not isinstance(value, np.ndarray | str | float | int):
+                other.append(name)
+    notes = []
+    if other:
+        notes.append(
+            f"{', '.join(other[:8])} left out: an object that only MATLAB reads; of a timeseries, "
+            "save its Time and Data"
+        )
+    return columns_of(path, "MAT file", found, wanted, notes)
+
+
+def _values(content: Any, name: str = "", depth: int = 0) -> Iterator[tuple[str, Any]]:
+    """Every value and its name: fields after a point, entries of lists counted from 1."""
+    if depth > _DEEPEST:
+        return
+    if isinstance(content, dict):
+        for key, value in content.items():
+            if isinstance(key, str) and not key.startswith("__"):
+                yield from _values(value, f"{name}.{key}" if name else key, depth + 1)
+    elif isinstance(content, list) or (
+        isinstance(content, np.ndarray) and content.dtype.kind == "O" and content.ndim == 1
+    ):
+        for i, value in enumerate(content):
+            yield from _values(value, f"{name}[{i + 1}]", depth + 1)
+    else:
+        yield name, content

@@ -1,0 +1,188 @@
+"""A log as named columns of floats, under our names, or a DataError that says what is wrong."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.contract import JointSpec
+from modeler.core.errors import DataError
+from modeler.logs.arrays import LEAST_ROWS
+from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
+from modeler.logs.formats import read_columns
+from modeler.logs.mapping import Entry, LogMap, near
+from modeler.logs.quantities import si_unit
+from modeler.logs.units import Unit, find_unit
+
+_TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
+_SHOWN = 40  # names of columns that a message lists
+
+
+class Table:
+    """The columns of one log by our names; numbers are converted when they are asked for.
+
+    Attributes:
+        path: of the file.
+        names: our names of mapped columns, and the file's of all others.
+        rows: of every column.
+        notes: what reading left out, one sentence each.
+    """
+
+    def __init__(
+        self, path: Path, mapping: LogMap | None = None, joints: Sequence[JointSpec] = ()
+    ) -> None:
+        self.path = path
+        mapping = mapping or LogMap()
+        self.found: Columns = read_columns(path, Wanted(mapping.topic))
+        self.rows: int = self.found.rows
+        self._joints = joints
+        self._columns: dict[str, Column] = {}
+        self._check()
+        self._entries = mapping.entries(joints)
+        self._taken: dict[str, str] = {}
+        self._taken = self._matched()
+        self._rate = mapping.rate if not self._has_time() else None
+        self._units = {name: self._unit(name) for name in self._own_names()}
+        self.names: tuple[str, ...] = tuple(self._own_names())
+        self.notes: tuple[str, ...] = (*self.found.notes, *self._told())
+
+    def _check(self) -> None:
+        names = [name for name, _ in self.found.columns]
+        self._columns = dict(self.found.columns)
+        if len(self._columns) < len(names):
+            twice = sorted(name for name in self._columns if names.count(name) > 1)
+            raise DataError(
+                f"{self.path}: column {twice[0]} appears {names.count(twice[0])} times; "
+                "keep one of them"
+            )
+        if self.rows < LEAST_ROWS:
+            raise DataError(
+                f"{self.path}: {self.rows} rows; expected at least {LEAST_ROWS}; record a "
+                "longer motion"
+            )
+
+    def _matched(self) -> dict[str, str]:
+        """Our name -> column of the file, of the entries whose column is there.
+
+        Raises:
+            DataError: none of the columns that a strict entry names is there.
+        """
+        found = {}
+        for own, entry in self._entries.items():
+            there = next((name for name in entry.columns if name in self._columns), None)
+            if there is not None:
+                found[own] = there
+        for own, entry in self._entries.items():
+            if entry.strict and own not in found:
+                alike = [o for o, e in self._entries.items() if e.where == entry.where]
+                if not any(other in found for other in alike):
+                    raise DataError(f"{self.path}: {entry.where}: {self._absent(own)}")
+        return found
+
+    def _has_time(self) -> bool:
+        return "time" in self._taken or "time" in self._columns
+
+    def _own_names(self) -> list[str]:
+        used = set(self._taken.values())
+        others = [name for name in self._columns if name not in used and name not in self._taken]
+        return [*self._taken, *(["time"] if self._rate else []), *others]
+
+    def _unit(self, own: str) -> Unit | None:
+        """What a column is converted from; None if it is in SI units."""
+        if own == "time" and self._rate:
+            return None
+        column, entry = self._taken.get(own, own), self._entries.get(own)
+        stated = entry.unit if entry is not None and own in self._taken else None
+        if stated is None and (text := self.found.units.get(column)):
+            stated = find_unit(text)
+            entry = Entry((), where=f"{self.path}: column {column}")
+        return None if stated is None else si_unit(own, entry or Entry(()), stated, self._joints)
+
+    def _told(self) -> list[str]:
+        """Entries of [log] that found nothing, units of the file's own, a time without column."""
+        lines = []
+        for own, entry in self._entries.items():
+            if own not in self._taken and own not in self._columns and own != "time":
+                lines.append(f"no column {entry.columns[0]} for {own}")
+        stated = [
+            f"{own} in {unit.text}"
+            for own, unit in self._units.items()
+            if unit is not None and not (own in self._taken and self._entries[own].unit)
+        ]
+        if stated:
+            lines.append(f"by the units that the file states: {', '.join(stated)}")
+        if self._rate:
+            lines.append(f"no time column: rows counted at {self._rate:g} Hz")
+        return lines
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._units
+
+    def called(self, name: str) -> str:
+        """A column as the user knows it: `t (time)`, or `time` if that is its name in the file."""
+        column = self._taken.get(name, name)
+        if column == name and name in self._entries and name not in self._columns:
+            column = self._entries[name].columns[0]
+        return name if column == name else f"{column} ({name})"
+
+    def source(self, name: str) -> str:
+        """The same, ours first: `tau2`, or `tau2 from moment_b`."""
+        column = self._taken.get(name, name)
+        return name if column == name else f"{name} from {column}"
+
+    def is_numeric(self, name: str) -> bool:
+        """True if the column holds numbers (or nothing at all)."""
+        if name == "time" and self._rate:
+            return True
+        return self._columns[self._taken.get(name, name)].numeric
+
+    def numbers(self, name: str) -> np.ndarray:
+        """The column as floats in SI units, (rows,); null, NaN and infinite entries are NaN.
+
+        Raises:
+            DataError: the column is missing or holds something else than numbers.
+        """
+        if name not in self:
+            raise DataError(f"{self.path}: {self._absent(name)}")
+        if name == "time" and self._rate:
+            return np.arange(self.rows) / self._rate
+        try:
+            values = self._columns[self._taken.get(name, name)].numbers()
+        except NotNumbers as why:
+            raise DataError(f"{self.path}: column {self.called(name)}{why}") from None
+        values[~np.isfinite(values)] = np.nan
+        return self._converted(name, values)
+
+    def _converted(self, name: str, values: np.ndarray) -> np.ndarray:
+        entry, unit = self._entries.get(name), self._units[name]
+        if entry is not None and name in self._taken:
+            if entry.sign * entry.scale != 1.0:
+                values *= entry.sign * entry.scale
+            if entry.offset:
+                values += entry.offset
+        if unit is not None and unit.zero:
+            values += unit.zero
+        if unit is not None and unit.factor != 1.0:
+            with np.errstate(over="ignore"):
+                values *= unit.factor
+        return values
+
+    def measured(self, name: str) -> np.ndarray:
+        """The same of something that was measured: specks are 0, what is beyond all measure NaN."""
+        values = self.numbers(name)
+        values[np.abs(values) < _TINY] = 0.0
+        values[~(np.abs(values) <= _HUGE)] = np.nan
+        return values
+
+    def absent(self, *names: str) -> str:
+        """Columns that are not there, as the user knows them: `q2`, or `position_2 (q2)`."""
+        return " or ".join(self.called(name) for name in names)
+
+    def _absent(self, name: str) -> str:
+        there = [column for column, _ in self.found.columns]
+        entry = self._entries.get(name)
+        wanted = name if entry is None else entry.columns[-1]
+        return (
+            f"no column {self.called(name)}{near(wanted, there)}; the columns are "
+            f"{', '.join(there[:_SHOWN])}; add it or rename the one that holds it"
+        )

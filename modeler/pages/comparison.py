@@ -1,0 +1,224 @@
+"""The page of a comparison: one HTML file that needs no network."""
+
+import math
+import statistics
+from collections.abc import Sequence
+from pathlib import Path
+
+from modeler.compare.comparison import Comparison, JointComparison
+from modeler.compare.overview_picture import overview_picture
+from modeler.compare.pictures import joint_pictures
+from modeler.compare.table import method_lines, or_dash, share_text
+from modeler.compare.verdict import (
+    best_other,
+    best_pattern,
+    headline,
+    joint_verdict,
+    kind_of_residual,
+    looks_like_noise,
+    percent,
+    wrong_scale,
+)
+from modeler.pages.sheet import (
+    Cell,
+    Figure,
+    Judged,
+    Lead,
+    Origin,
+    Section,
+    Sheet,
+    Table,
+    Verdicts,
+    page,
+    write_page,
+)
+
+_TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
+_REGION_PHRASES = {
+    "fast -": "fast in the negative direction",
+    "slow -": "slow in the negative direction",
+    "around zero": "around zero speed",
+    "slow +": "slow in the positive direction",
+    "fast +": "fast in the positive direction",
+}
+_HEAD = (
+    "joint", Cell("relative error", "bar"), "rms residual", "rms torque", "largest residual",
+    Cell("at", "text"), "R\u00b2", "repeatable", "noise", "mean residual", "samples",
+)  # fmt: skip
+
+
+def write_report(
+    path: Path,
+    comparison: Comparison,
+    provenance: Sequence[str] = (),
+    origin: Origin | None = None,
+    following: Sequence[str] = (),
+) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `compare.html`.
+        comparison: from `compare`.
+        provenance: lines on how the data came about (filtering, model, versions), as they are.
+        origin: model, logs, and whether they were held out; robot and logs if it is left out.
+        following: commands to go on with.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    return write_page(path, _sheet(comparison, provenance, origin, following), "compare.html")
+
+
+def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
+    """The page as text; its security policy forbids any network access."""
+    return page(_sheet(comparison, provenance, None, ()))
+
+
+def _sheet(
+    comparison: Comparison, provenance: Sequence[str], origin: Origin | None,
+    following: Sequence[str],
+) -> Sheet:  # fmt: skip
+    prediction = comparison.prediction
+    figure, _, rest = headline(comparison).partition(" of ")
+    return Sheet(
+        title=f"{prediction.robot}: measured against predicted torque",
+        headline=(figure, f"of {rest}" if rest else ""),
+        sections=_sections(comparison),
+        origin=origin or Origin(prediction.robot, prediction.logs),
+        facts=_facts(comparison),
+        next=following,
+        provenance=(*_facts_on_data(comparison), *provenance),
+        command="compare",
+    )
+
+
+def _sections(comparison: Comparison) -> list[Section]:
+    method = " ".join(f"{line}." for line in method_lines(comparison))
+    table = Table(
+        _HEAD,
+        [_table_row(item, comparison) for item in comparison.joints],
+        "Relative error is the norm of measured minus predicted torque over the norm of the "
+        "measured torque, over the samples that count. R\u00b2 compares with the best constant. "
+        + method,
+    )
+    found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
+    if comparison.joints:
+        found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
+    return [*found, *(_joint_section(comparison, item) for item in comparison.joints)]
+
+
+def _facts(comparison: Comparison) -> list[tuple[str, str]]:
+    """The three answers of the first screen."""
+    if not comparison.joints:
+        return []
+    return [
+        ("How good?", _how_good(comparison.joints)),
+        ("Where does it fail?", _where(comparison.joints)),
+        ("Does the residual still have structure?", _what_is_left(comparison.joints)),
+    ]
+
+
+def _how_good(joints: tuple[JointComparison, ...]) -> str:
+    below = sum(item.relative_error < 0.1 for item in joints)
+    middle = percent(statistics.median(item.relative_error for item in joints))
+    text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
+    defined = [item for item in joints if not math.isnan(item.r2)]
+    if defined:
+        worst = min(defined, key=lambda item: item.r2)
+        text += f" Lowest R\u00b2: {worst.r2:.3f} (joint {worst.joint.name})."
+    return text
+
+
+def _where(joints: tuple[JointComparison, ...]) -> str:
+    worst = max(joints, key=lambda item: item.relative_error)
+    window = worst.worst
+    region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
+    return (
+        f"Most on joint {worst.joint.name} ({percent(worst.relative_error)}): "
+        f"{percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({percent(region.time_share)} of the samples); "
+        f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
+    )
+
+
+def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
+    named = []
+    for item in joints:
+        pattern, other = best_pattern(item), best_other(item)
+        if wrong_scale(item) is not None and item.scale is not None:
+            named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
+        elif other is not None:
+            named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
+        elif pattern is not None:
+            named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
+    if named:
+        named.sort(reverse=True)
+        listed = "; ".join(f"{text} ({percent(share)})" for share, text in named[:3])
+        return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
+    if all(looks_like_noise(item) for item in joints):
+        return "No: the residual of every joint looks like noise."
+    return "No pattern in the joints' motion, but not all of it is noise: see below."
+
+
+def _facts_on_data(comparison: Comparison) -> list[str]:
+    prediction = comparison.prediction
+    lines = [f"Robot: {prediction.robot}.", f"Logs: {', '.join(prediction.logs)}."]
+    lines.append(
+        f"Samples: {comparison.samples} of {prediction.time.size} count for at least one joint; "
+        "filtered alike on both sides, never differenced across a gap."
+    )
+    return lines
+
+
+def _judged(comparison: Comparison) -> list[Judged]:
+    lines = []
+    for item in comparison.joints:
+        kind, (first, _, rest) = kind_of_residual(item), joint_verdict(item).partition(": ")
+        lines.append(Judged(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
+    lines += [
+        Judged("", "not judged", f"Joint {name}", f"{reason}.")
+        for name, reason in comparison.unjudged
+    ]
+    return lines
+
+
+def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Cell]:
+    unit = item.joint.effort_unit
+    top = max(other.relative_error for other in comparison.joints)
+    share = item.relative_error / top if top else 0.0
+    return [
+        Cell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
+        Cell(percent(item.relative_error), "bar", share),
+        f"{item.rms:.3g} {unit}",
+        f"{item.measured_rms:.3g} {unit}",
+        f"{item.largest.value:.3g} {unit}",
+        Cell(f"{item.largest.time:.2f} s of {item.largest.log}", "text"),
+        or_dash(item.r2, ".4f"),
+        "-" if item.shares is None else share_text(item.shares.systematic),
+        "-" if item.shares is None else share_text(item.shares.floor),
+        f"{item.bias:+.2g} {unit}",
+        str(item.samples),
+    ]
+
+
+def _log_table(comparison: Comparison) -> list[Table]:
+    """Relative error of each log and joint; nothing for a single log."""
+    if len(comparison.logs) < 2:
+        return []
+    names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
+    rows = [
+        [
+            item.log,
+            str(item.samples),
+            or_dash(item.relative_error, ".1%"),
+            *(or_dash(error, ".1%") for _, error in item.joints),
+        ]
+        for item in comparison.logs
+    ]
+    return [Table(("log", "samples", "all", *names), rows, "Relative error by log.")]
+
+
+def _joint_section(comparison: Comparison, item: JointComparison) -> Section:
+    name = item.joint.name
+    pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
+    return Section(f"Joint {name}", [Lead(joint_verdict(item)), *pictures], f"joint-{name}")

@@ -1,0 +1,130 @@
+"""A picture as plain data, from which the script of a page draws it."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from modeler.pictures.numbers import Numbers
+from modeler.pictures.picture import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+
+
+def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
+    """Panels and series of a picture; arrays by their number.
+
+    Maps of cells (`Heat`) are left out: a page shows them as tables.
+
+    Args:
+        picture: what to draw.
+        numbers: takes the arrays.
+    """
+    rows, heights, widths = plotted(picture)
+    return {
+        "name": picture.name,
+        "height": round(picture.height * sum(heights) / sum(picture.heights)),
+        "shared": picture.shared_time,
+        "heights": list(heights),
+        "widths": list(widths),
+        "rows": [[_panel(panel, numbers) for panel in row] for row in rows],
+    }
+
+
+def plotted(
+    picture: Picture,
+) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
+    """Rows of panels with axes, their heights and the widths of the columns.
+
+    Where maps of cells stand between them, the others are put side by side.
+    """
+    panels = [panel for row in picture.panels for panel in row]
+    if not cells(picture):
+        return picture.panels, picture.heights, picture.widths
+    kept = [panel for panel in panels if not _cells(panel) and _filled(panel)]
+    return ([kept], picture.heights[:1], [1.0] * len(kept)) if kept else ((), (), ())
+
+
+def cells(picture: Picture) -> list[tuple[Panel, Heat]]:
+    """The maps of cells of a picture, each with its panel."""
+    panels = [panel for row in picture.panels for panel in row]
+    return [(panel, s) for panel in panels for s in panel.series if isinstance(s, Heat)]
+
+
+def keys(picture: Picture) -> list[tuple[str, str, str]]:
+    """The legend, of panels with several series: label, colour, kind of mark; each label once."""
+    found: dict[str, tuple[str, str, str]] = {}
+    for panel in (panel for row in plotted(picture)[0] for panel in row):
+        for series in panel.series if len(panel.series) > 1 else ():
+            if not isinstance(series, Heat):
+                mark = (series.label, series.style.color, _mark(series))
+                found.setdefault(series.label, mark)
+        for span in panel.spans:
+            found.setdefault(span.label, (span.label, span.color, "span"))
+    return list(found.values())
+
+
+def _filled(panel: Panel) -> bool:
+    return any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
+
+
+def _cells(panel: Panel) -> bool:
+    return any(isinstance(series, Heat) for series in panel.series)
+
+
+def _mark(series: Series) -> str:
+    if isinstance(series, Curve):
+        return "dashes" if series.style.dash else "line"
+    return "bar" if isinstance(series, Bars | Band) else "dots"
+
+
+def _panel(panel: Panel, numbers: Numbers) -> dict[str, Any]:
+    return {
+        "title": panel.title,
+        "x": panel.x_label,
+        "y": panel.y_label,
+        "log": panel.scale == "log",
+        "zero": panel.zero,
+        "marks": [[float(place), text] for place, text in panel.marks],
+        "shade": _ends(panel.shade),
+        "spans": [[span.color, span.ends.round(4).tolist()] for span in panel.spans],
+        "xrange": _ends(panel.x_range),
+        "yrange": _ends(panel.y_range),
+        "series": [
+            _series(s, numbers, panel.scale == "log")
+            for s in panel.series
+            if not isinstance(s, Heat)
+        ],
+    }
+
+
+def _ends(ends: tuple[float, float] | None) -> list[float] | None:
+    return None if ends is None else [float(ends[0]), float(ends[1])]
+
+
+def _series(
+    series: Curve | Points | Means | Band | Bars, numbers: Numbers, log: bool
+) -> dict[str, Any]:
+    style = series.style
+    found: dict[str, Any] = {
+        "label": series.label,
+        "color": style.color,
+        "width": style.width,
+        "opacity": style.opacity,
+    }
+    if isinstance(series, Bars):
+        base = None if series.base is None else numbers.exact(series.base)
+        return found | {
+            "kind": "bars",
+            "names": list(series.names),
+            "texts": list(series.texts),
+            "y": numbers.exact(series.values),
+            "base": base,
+        }
+    if isinstance(series, Band):
+        places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
+        return found | {"kind": "band", "x": numbers.exact(series.x)} | places
+    along = numbers.exact if log else numbers.seen
+    across = along if isinstance(series, Points) else numbers.exact
+    found |= {"x": across(series.x), "y": along(series.y)}
+    if isinstance(series, Means):
+        return found | {"kind": "means", "error": along(series.error)}
+    if isinstance(series, Points):
+        return found | {"kind": "points"}
+    return found | {"kind": "curve", "dash": style.dash}

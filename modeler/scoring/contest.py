@@ -1,0 +1,183 @@
+"""Several models on the same rows: which predicts each joint best, and is that beyond doubt?"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import stdtr
+
+from modeler.compare.prediction import JointInfo, Prediction, relative_error, unit_errors
+from modeler.core.errors import DataError
+from modeler.scoring.score import FELT
+
+DOUBT = 0.0027
+"""Chance that two models that are equally good are told apart on one joint: three deviations."""
+
+BLOCKS = 24
+"""Of time, at most: long enough that what models leave has forgotten itself at their ends."""
+
+SHORTEST = 1.0
+"""s, of a block; where there are fewer than `LEAST` of them nothing is beyond doubt."""
+
+LEAST = 6
+
+
+@dataclass(frozen=True)
+class JointContest:
+    """One joint; m models.
+
+    Attributes:
+        joint: it.
+        errors: (m,) ||measured - predicted|| / ||measured||.
+        rms: (m,) of the residual, N m or N.
+        best: index of the model that is better than every other beyond doubt; None: nobody is.
+        chance: two-sided, that the best and its nearest rival are equally good; 1 where nothing
+            can be told.
+    """
+
+    joint: JointInfo
+    errors: tuple[float, ...]
+    rms: tuple[float, ...]
+    best: int | None
+    chance: float
+
+
+@dataclass(frozen=True, eq=False)
+class Contest:
+    """Models side by side, m of them.
+
+    Attributes:
+        names: of the models.
+        predictions: of each, on the same rows.
+        samples: rows that count for at least one joint.
+        pooled: (m,) relative errors over all rows as numbers, as `compare` has it.
+        by_unit: (m,) relative errors by unit.
+        joints: those with rows and a torque.
+    """
+
+    names: tuple[str, ...]
+    predictions: tuple[Prediction, ...]
+    samples: int
+    pooled: tuple[float, ...]
+    by_unit: tuple[Mapping[str, float], ...]
+    joints: tuple[JointContest, ...]
+
+    def wins(self, model: int) -> list[str]:
+        """Joints that the model predicts best, beyond doubt."""
+        return [item.joint.name for item in self.joints if item.best == model]
+
+    def as_dicts(self) -> list[dict[str, Any]]:
+        """The `models` of `compare --json`: errors of each, and where it is the best."""
+        return [
+            {
+                "model": name,
+                "relative_error": _defined(self.pooled[k]),
+                "by_unit": {unit: _defined(e) for unit, e in self.by_unit[k].items()},
+                "joints": {
+                    item.joint.name: {
+                        "relative_error": item.errors[k],
+                        "rms": item.rms[k],
+                        "unit": item.joint.effort_unit,
+                        "best": item.best == k,
+                        "chance": item.chance,
+                    }
+                    for item in self.joints
+                },
+                "best_on": self.wins(k),
+            }
+            for k, name in enumerate(self.names)
+        ]
+
+
+def contest(names: Sequence[str], predictions: Sequence[Prediction]) -> Contest:
+    """Who is better on which joint.
+
+    S_b and T_b are the summed squared residuals of two models on one joint over block b of time, S
+    and T those over all B blocks. log(S / T) is judged by Student's t with B - 1 degrees of
+    freedom against its standard error, whose square is B / (B - 1) sum_b (S_b / S - T_b / T)^2:
+    blocks are paired, and a block that makes most of a difference is no proof. The best of m models
+    beats m - 1 others, so the chance of an error is shared among them (Bonferroni).
+
+    Args:
+        names: of the models.
+        predictions: of each, on the same rows, from `predict_together`.
+
+    Raises:
+        DataError: fewer than two models.
+    """
+    if len(names) < 2 or len(names) != len(predictions):
+        raise DataError(f"got {len(predictions)} models to set side by side; expected two or more")
+    block = _blocks(predictions[0])
+    first = predictions[0]
+    return Contest(
+        names=tuple(names),
+        predictions=tuple(predictions),
+        samples=int(first.used.any(axis=1).sum()),
+        pooled=tuple(relative_error(prediction) for prediction in predictions),
+        by_unit=tuple(unit_errors(prediction) for prediction in predictions),
+        joints=tuple(
+            _joint(info, j, predictions, block)
+            for j, info in enumerate(first.joints)
+            if all(p.measured[p.used[:, j], j].any() for p in predictions)
+        ),
+    )
+
+
+def _joint(
+    info: JointInfo, j: int, predictions: Sequence[Prediction], block: np.ndarray
+) -> JointContest:
+    used = predictions[0].used[:, j]
+    left = [(p.measured - p.predicted)[used, j] for p in predictions]
+    size = [float(np.linalg.norm(p.measured[used, j])) for p in predictions]
+    norms = [float(np.linalg.norm(e)) for e in left]
+    errors = tuple(norm / whole for norm, whole in zip(norms, size, strict=True))
+    top = int(np.argmin(errors))
+    sums = [np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)]
+    rivals = [k for k in range(len(predictions)) if k != top]
+    chances = [_chance(sums[k], sums[top]) for k in rivals]
+    worth = all(errors[top] < (1.0 - FELT) * errors[k] for k in rivals)
+    return JointContest(
+        joint=info,
+        errors=errors,
+        rms=tuple(norm / math.sqrt(len(left[0])) for norm in norms),
+        best=top if worth and max(chances) < DOUBT / len(rivals) else None,
+        chance=max(chances),
+    )
+
+
+def _chance(other: np.ndarray, best: np.ndarray) -> float:
+    """Two-sided chance that two models that are equally good differ so much.
+
+    Args:
+        other: (blocks,) squared residuals.
+        best: (blocks,) those of the better model.
+    """
+    seen = (other > 0.0) | (best > 0.0)
+    count, sums = int(seen.sum()), (float(other.sum()), float(best.sum()))
+    if count < LEAST or min(sums) <= 0.0:
+        return 1.0 if sums[0] <= 0.0 or count < LEAST else 0.0
+    shares = other[seen] / sums[0] - best[seen] / sums[1]
+    spread = math.sqrt(float(shares @ shares) * count / (count - 1))
+    if spread <= 0.0:
+        return 1.0 if sums[0] <= sums[1] else 0.0
+    return float(2.0 * stdtr(count - 1, -math.log(sums[0] / sums[1]) / spread))
+
+
+def _blocks(prediction: Prediction) -> np.ndarray:
+    """(n,) number of the block of time of each row, none in two logs."""
+    runs = np.unique(prediction.run)
+    spans = {r: prediction.time[prediction.run == r] for r in runs}
+    length = max(SHORTEST, sum(float(np.ptp(time)) for time in spans.values()) / BLOCKS)
+    number, count = np.zeros(prediction.time.size, dtype=int), 0
+    for r, time in spans.items():
+        pieces = max(1, round(float(np.ptp(time)) / length))
+        share = (time - time.min()) / (float(np.ptp(time)) or 1.0)
+        number[prediction.run == r] = count + np.minimum((share * pieces).astype(int), pieces - 1)
+        count += pieces
+    return number
+
+
+def _defined(value: float) -> float | None:
+    return value if math.isfinite(value) else None

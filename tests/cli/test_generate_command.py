@@ -1,0 +1,133 @@
+"""`modeler generate MODEL --out DIR`: every kind of model, and what is refused."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from modeler.api import derive, generate, load, recompile
+from modeler.cli import main
+from modeler.core.errors import ManifestError
+from modeler.fit import Addition, Verdict, fitted_spec, load_model, save_model
+from modeler.fit.parameter import ParameterEstimate
+from tests.codegen.fitted_library import Functions
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A folder with the model of a fit."""
+    folder = tmp_path_factory.mktemp("generate")
+    log, model = folder / "log.parquet", folder / "arm.model.json"
+    for words in (
+        f"simulate two-link --duration 8 --rate 200 --out {log}",
+        f"fit two-link {log} --out {model}",
+    ):
+        assert main(words.split()) == 0
+    return model
+
+
+@pytest.fixture(scope="module")
+def fitted(place):
+    return load_model(place)
+
+
+def changed(model, **more):
+    """The model with another estimate."""
+    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, **more))
+
+
+def run(capsys, *words):
+    capsys.readouterr()
+    status = main([str(word) for word in words])
+    return status, *capsys.readouterr()
+
+
+def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
+    status, out, err = run(capsys, "generate", place, "--out", tmp_path / "c",
+                           "--json", tmp_path / "c.json")  # fmt: skip
+    assert (status, err) == (0, "")
+    told = json.loads((tmp_path / "c.json").read_text())
+    emitted = generate(fitted)
+    assert {name: (tmp_path / "c" / name).read_text() for name in told["files"]} == emitted.files
+    made = Functions(emitted)
+    assert told["fitted_signature"] == made.text("fitted_signature")
+    assert told["usable"] is True and told["doubts"] == []
+    assert f"with the fitted values, signature {told['fitted_signature']}:" in out
+    assert "two_link_fitted_gravity: g(q) = tau(q, 0, 0) without effects (5 additions" in out
+    assert "TWO_LINK_COULOMB_WIDTH_1, TWO_LINK_COULOMB_WIDTH_2" in out
+    q, qd, qdd = np.random.default_rng(1).normal(0.0, 2.0, (3, 20, 2))
+    expected = recompile(fitted).inverse_dynamics(q, qd, qdd, fitted.beta)
+    got = made("fitted_inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd})
+    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    assert made.spec.signature() == fitted.spec.signature()
+
+
+def test_a_robot_has_no_values(capsys, tmp_path):
+    status, out, _ = run(capsys, "generate", "two-link", "--out", tmp_path / "c",
+                         "--json", tmp_path / "c.json")  # fmt: skip
+    assert status == 0 and "fitted" not in out
+    assert "fitted_signature" not in json.loads((tmp_path / "c.json").read_text())
+    assert generate(derive(load("two-link"))).spec.fitted is None
+
+
+@pytest.mark.parametrize("usable", [False, None])
+def test_a_model_that_is_not_usable_is_written_and_told(fitted, usable, capsys, tmp_path):
+    verdict = None
+    if usable is False:
+        doubts = ("joint 2 is not described", "joint 1 is */ strange")
+        verdict = Verdict(False, "nothing", "not usable: joint 2 is not described", doubts)
+    save_model(tmp_path / "m.json", changed(fitted, verdict=verdict))
+    status, _, err = run(capsys, "generate", tmp_path / "m.json", "--out", tmp_path / "c")
+    header = (tmp_path / "c" / "two_link_fitted.h").read_text()
+    assert status == 0
+    if usable is False:
+        assert err == "modeler: the fit of this model is not usable: joint 2 is not described\n"
+        assert "* WARNING. The fit of this model is not usable: joint 2 is not desc" in header
+        assert "* Doubt: joint 1 is * / strange" in header
+    else:
+        assert "* WARNING. The fit of this model is one that nobody has judged" in header
+
+
+def test_the_header_says_what_the_values_are_of(fitted):
+    load_ = ParameterEstimate("M2_load", "kg", 1.5, 0.01, True, "estimated")
+    processing = dataclasses.replace(fitted.fit.processing, delay=0.0025)
+    step = Addition("spring", "2", {}, 0.1, 0.1, (), fitted.robot_text)
+    parameters = list(fitted.fit.parameters)
+    parameters[2] = dataclasses.replace(parameters[2], value=0.0, sigma=None, status="set aside")
+    model = changed(fitted, loads=(load_,), processing=processing, parameters=tuple(parameters))
+    emitted = generate(dataclasses.replace(model, history=(step,)))
+    text = " ".join(emitted.files["two_link_fitted.h"].replace("\n *", " ").split())
+    assert "Values by the method weighted, " in text
+    assert "Effects added since the first fit: spring (joint 2)." in text
+    assert "The torques of the logs stood 2.5 ms before the motion" in text
+    assert "Without the load that some logs carried: M2_load 1.5 kg." in text
+    table = emitted.files["two_link_fitted.c"]
+    assert "0.0, /* TWO_LINK_BETA_MY1 [kg m], set aside: the logs do not tell it */" in table
+
+
+def test_drive_gains_of_the_robot_file_go_along(fitted):
+    joints = tuple(dataclasses.replace(j, drive_gain=k) for j, k in
+                   zip(fitted.spec.joints, (35.0, 12.0), strict=True))  # fmt: skip
+    spec = dataclasses.replace(fitted.spec, joints=joints)
+    assert fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == (35.0, 12.0)
+    spec = dataclasses.replace(fitted.spec, joints=(joints[0], fitted.spec.joints[1]))
+    assert fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == ()
+
+
+def test_values_that_belong_to_another_robot_are_refused(fitted):
+    moon = dataclasses.replace(fitted, robot_text=fitted.robot_text.replace("9.81", "1.62"))
+    with pytest.raises(ManifestError, match=r"made by another version .* fit it again$"):
+        generate(moon)
+
+
+def test_what_is_no_model_is_refused_in_one_line(place, capsys, tmp_path):
+    (tmp_path / "log.json").write_text("{}")
+    for words, told in (
+        ((place, "--effects", "viscous"), "modeler: --effects: of a robot file only; a model has"),
+        ((tmp_path / "log.json",), "JSON, but not a model file; expected the output of"),
+        ((tmp_path / "none.json",), "cannot be read (No such file or directory); check the path"),
+    ):
+        status, out, err = run(capsys, "generate", *words, "--out", tmp_path / "c")
+        assert (status, out, err.count("\n")) == (1, "", 1) and told in err
+    assert not (tmp_path / "c").exists()

@@ -1,0 +1,142 @@
+"""Fitted modules of robots with any values, and their C functions made callable by ctypes."""
+
+import ctypes
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
+
+import numpy as np
+
+from modeler.base import base_parameters
+from modeler.codegen import emit
+from modeler.compiled.build import build_library
+from modeler.core.contract import Emitted, FittedParameter, FittedSpec, ModuleSpec
+from modeler.robot import builtin_text, robot_from_text
+from modeler.robot.edit import with_effects
+from modeler.symbolic import derive_model
+from tests.modules import Module, module
+
+SLOW = """
+name = "slow-arm"
+gravity = [0, 0, -9.81]
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0,       0,   "q1", 0.3],
+  ["2", "1", 0, "pi/2",  0.4, "q2", 0],
+  ["3", "2", 1, "-pi/2", 0,   0,    "q3"],
+]
+[effects]
+viscous = "all"
+coulomb = "all"
+presliding = [{joint = "1", d = 0.01}]
+stribeck = [{joint = "2", vs = 0.1, d = 1.0}]
+temperature_friction = ["2"]
+joint_ripple = [{joint = "3", m = 8.0}]
+"""
+"""Two axes that turn and one that slides; effects that read signals, positions and shapes."""
+
+
+@cache
+def robot_module(name: str) -> Module:
+    """A built-in robot, "slow-arm", or "rubbing": a five-bar whose passive joints rub."""
+    if name not in ("slow-arm", "rubbing"):
+        return module(name)
+    rubbing = dict.fromkeys(("viscous", "coulomb", "passive_friction"), "all")
+    text = SLOW if name == "slow-arm" else with_effects(builtin_text("five-bar"), rubbing)
+    model = derive_model(robot_from_text(text, name))
+    base = base_parameters(model)
+    return Module(model, base, emit(model, base))
+
+
+def fitted_of(spec: ModuleSpec, seed: int = 4) -> FittedSpec:
+    """Values of any size; friction is none that drives."""
+    random = np.random.default_rng(seed)
+    parameters = []
+    for base in spec.base:
+        value = float(random.normal())
+        value = abs(value) if base.column_of.startswith(("Fs", "Fv")) else value
+        parameters.append(FittedParameter(base.name, base.unit, value, 0.1))
+    return FittedSpec(
+        "weighted", True, "usable: yes", (), ("Values of a test.",), tuple(parameters)
+    )
+
+
+def with_values(name: str, fitted: FittedSpec | None = None) -> Emitted:
+    """The module of a robot with these values, or with any."""
+    made = robot_module(name)
+    return emit(made.model, made.base, fitted or fitted_of(made.emitted.spec))
+
+
+class Functions:
+    """The compiled functions of an emitted module, one sample a call."""
+
+    def __init__(self, emitted: Emitted, **widths: float) -> None:
+        """Compile; widths by the end of their macro's name, `COULOMB_WIDTH_1=0.1`."""
+        self.spec = emitted.spec
+        macro = self.spec.prefix.upper()
+        defined = [f"-D{macro}_{name}={value}" for name, value in widths.items()]
+        with _flags(defined):
+            path = build_library({name: emitted.files[name] for name in self.spec.sources})
+        self._library = ctypes.CDLL(str(path))
+        assert self.spec.fitted is not None
+        known = (*self.spec.functions, *self.spec.fitted.functions)
+        self._known = {f.name.removeprefix(f"{self.spec.prefix}_"): f for f in known}
+
+    @property
+    def roles(self) -> list[str]:
+        """Names of the functions with values, without the robot's."""
+        return [role for role in self._known if role.startswith("fitted_")]
+
+    def text(self, role: str) -> str:
+        """What a function without arguments says."""
+        function = getattr(self._library, f"{self.spec.prefix}_{role}")
+        function.restype = ctypes.c_char_p
+        return function().decode()
+
+    def numbers(self, name: str, count: int) -> np.ndarray:
+        """A constant array."""
+        array = (ctypes.c_double * count).in_dll(self._library, f"{self.spec.prefix}_{name}")
+        return np.array(array)
+
+    def __call__(self, role: str, given: Mapping[str, np.ndarray]) -> np.ndarray:
+        """The output over the samples; what the function reads is taken from `given`."""
+        function = self._known[role]
+        arrays = [given[argument.name] for argument in function.inputs]
+        call = getattr(self._library, function.name)
+        pointer = ctypes.POINTER(ctypes.c_double)
+        found = np.full((len(given["q"]), *function.outputs[0].shape), np.nan)
+        for i, out in enumerate(found):
+            rows = [np.ascontiguousarray(a if a.ndim == 1 else a[i]) for a in arrays]
+            status = call(*(a.ctypes.data_as(pointer) for a in (*rows, out)))
+            assert not function.status or status == 0
+        return found
+
+
+@contextmanager
+def _flags(defined: list[str]) -> Iterator[None]:
+    before = os.environ.get("CFLAGS")
+    os.environ["CFLAGS"] = " ".join([before or "-O1 -ffp-contract=off", *defined])
+    try:
+        yield
+    finally:
+        os.environ.pop("CFLAGS")
+        if before is not None:
+            os.environ["CFLAGS"] = before
+
+
+def motion(name: str, samples: int = 12, seed: int = 6) -> dict[str, np.ndarray]:
+    """Random states of the robot by the names of the arguments; those of loops close."""
+    made = robot_module(name)
+    n, random = len(made.emitted.spec.joints), np.random.default_rng(seed)
+    q = random.uniform(-2.0, 2.0, (samples, n))
+    x = q
+    if made.model.closure is not None:
+        home = np.array(made.model.closure.home)
+        q = home[list(made.model.closure.given)] + random.uniform(-0.1, 0.1, (samples, n))
+        x = home[list(made.model.closure.platform or ())]
+        x = x + random.uniform(-0.1, 0.1, (samples, len(x)))
+    v, a = random.normal(0.0, 1.0, (2, samples, n))
+    s = random.uniform(0.1, 0.9, (samples, len(made.emitted.spec.signals)))
+    return {"q": q, "qd": v, "qdd": a, "s": s, "x": x, "xd": v, "xdd": a}

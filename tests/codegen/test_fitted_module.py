@@ -1,0 +1,156 @@
+"""The folder of a fitted model: manifest and signatures, names, C and C++ without a warning."""
+
+import dataclasses
+import json
+import subprocess
+
+import pytest
+
+from modeler.base import base_parameters
+from modeler.codegen import emit, write_emitted
+from modeler.codegen.names import enumerators
+from modeler.compiled import load_folder
+from modeler.core.contract import module_from_json
+from modeler.robot import robot_from_text
+from modeler.symbolic import derive_model
+from tests.codegen.fitted_library import Functions, fitted_of, robot_module, with_values
+from tests.modules import STRICT, compiler
+
+CPP = ["-x", "c++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+
+CLASHING = """
+name = "arm"
+gravity = ["-g", 0, 0]
+[symbols]
+g = 9.81
+JOINTS = 0.4
+BETA_ZZ1R = 0.2
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0, 0,           "q1", 0],
+  ["2", "1", 0, 0, "JOINTS",    "q2", 0],
+  ["3", "2", 0, 0, "BETA_ZZ1R", "q3", 0],
+]
+[effects]
+coulomb = "all"
+joint_ripple = [{joint = "1", m = 8.0}, {joint = "1", m = 9.0}]
+"""
+"""Symbols that are called like macros and constants of the header; a joint with two ripples."""
+
+
+@pytest.mark.parametrize("name", ["slow-arm", "orthoglide-2003"])
+@pytest.mark.parametrize("cc", ["gcc", "clang", "g++", "clang++"])
+def test_every_file_compiles_as_c_and_as_cpp_without_a_warning(cc, name, tmp_path):
+    emitted = with_values(name)
+    write_emitted(emitted, tmp_path)
+    units = [tmp_path / file for file in emitted.spec.sources if file.endswith(".c")]
+    assert tmp_path / f"{emitted.spec.prefix}_fitted.c" in units
+    flags = CPP if cc.endswith("++") else STRICT
+    subprocess.run([compiler(cc), *flags, "-fsyntax-only", "-I", tmp_path, *units], check=True)
+
+
+def test_a_program_in_cpp_links_with_the_c_compiled_as_either(tmp_path):
+    emitted = with_values("slow-arm")
+    write_emitted(emitted, tmp_path)
+    (tmp_path / "main.cc").write_text(
+        '#include "slow_arm_fitted.h"\n'
+        "int main() {\n"
+        "    double q[3] = {0.1, 0.2, 0.3}, tau[3], twin[3];\n"
+        "    slow_arm_fitted_gravity(q, tau);\n"
+        "    slow_arm_gravity(q, slow_arm_beta, twin);\n"
+        "    const double difference = tau[1] - twin[1];\n"
+        "    return !(difference < 1e-12 && difference > -1e-12) || tau[1] == 0.0;\n"
+        "}\n"
+    )
+    units = [tmp_path / file for file in emitted.spec.sources if file.endswith(".c")]
+    for compile_c in ([compiler("gcc"), "-std=c99"], [compiler("g++"), "-x", "c++"]):
+        subprocess.run([*compile_c, "-c", *units], check=True, cwd=tmp_path)
+        objects = [tmp_path / f"{unit.stem}.o" for unit in units]
+        program = [compiler("g++"), "main.cc", *objects, "-lm", "-o", "main"]
+        subprocess.run(program, check=True, cwd=tmp_path)
+        subprocess.run([tmp_path / "main"], check=True)
+
+
+def test_places_of_parameters_have_names_of_their_own(tmp_path):
+    model = derive_model(robot_from_text(CLASHING, "arm"))
+    base = base_parameters(model)
+    emitted = emit(model, base, fitted_of(emit(model, base).spec))
+    write_emitted(emitted, tmp_path)
+    spec = emitted.spec
+    beta = enumerators("arm", "beta", [each.name for each in spec.base])
+    chi = enumerators("arm", "chi", [each.name for each in spec.standard])
+    assert {"ARM_BETA_ZZ1R", "ARM_BETA_Rjc1_2"} <= {*beta} and "ARM_CHI_ZZ1" in chi
+    checks = [
+        f"typedef char check_{name}[{name} == {place} ? 1 : -1];"
+        for names in (beta, chi)
+        for place, name in enumerate(names)
+    ]
+    (tmp_path / "check.c").write_text("\n".join(['#include "arm.h"', *checks, ""]))
+    for cc, flags in (("gcc", STRICT), ("g++", CPP)):
+        units = [tmp_path / "check.c", tmp_path / "arm.c", tmp_path / "arm_fitted.c"]
+        subprocess.run([compiler(cc), *flags, "-fsyntax-only", *units], check=True)
+
+
+def test_values_hold_for_the_lengths_that_they_were_fitted_with(tmp_path):
+    emitted = with_values("two-link")
+    write_emitted(emitted, tmp_path)
+    for unit, status in (("two_link.c", 0), ("two_link_fitted.c", 1)):
+        command = [compiler("gcc"), "-std=c99", "-DTWO_LINK_GEO_L1=0.41", "-fsyntax-only"]
+        done = subprocess.run([*command, tmp_path / unit], capture_output=True, text=True)
+        assert done.returncode == status
+    assert "TWO_LINK_GEO_L1: the values were fitted with another; fit again" in done.stderr
+
+
+def test_the_manifest_has_the_values_and_the_robots_signature(tmp_path):
+    """The plain module is in it, letter by letter, and known by the same signature."""
+    plain, emitted = robot_module("two-link").emitted, with_values("two-link")
+    write_emitted(emitted, tmp_path)
+    assert load_folder(tmp_path).spec == emitted.spec
+    text = emitted.files["manifest.json"]
+    assert module_from_json(text, "here") == emitted.spec
+    assert emitted.spec.signature() == plain.spec.signature()
+    assert all(emitted.files[name] == plain.files[name] for name in plain.spec.sources)
+    raw, before = json.loads(text), json.loads(plain.files["manifest.json"])
+    fitted = raw.pop("fitted")
+    assert raw == before
+    assert fitted["parameters"][0] == {
+        "name": "ZZ1R", "unit": "kg m2", "value": emitted.spec.fitted.parameters[0].value,
+        "sigma": 0.1, "essential": True,
+    }  # fmt: skip
+    names = [function["name"] for function in fitted["functions"]]
+    assert names[0] == "two_link_fitted_inverse_dynamics" and len(names) == 5
+    assert not any(a["name"] == "beta" for f in fitted["functions"] for a in f["inputs"])
+
+
+def test_the_signature_of_the_values_tells_them_apart():
+    some = fitted_of(robot_module("two-link").emitted.spec)
+    last = some.parameters[-1]
+    nudged = dataclasses.replace(last, value=last.value * (1 + 2e-16) + 1e-16)
+    assert nudged.value != last.value
+    other = dataclasses.replace(some, parameters=(*some.parameters[:-1], nudged))
+    doubted = dataclasses.replace(some, usable=False, verdict="not usable: no")
+    made = [with_values("two-link", each) for each in (some, other, doubted, some)]
+    found = [each.spec.fitted.signature for each in made]
+    assert len(set(found)) == 3 and found[0] == found[3]
+    assert made[0].files == made[3].files
+    answered = Functions(made[0])
+    assert answered.text("fitted_signature") == found[0]
+    assert answered.text("signature") == made[0].spec.signature()
+
+
+def test_drive_gains_are_constants_where_every_joint_has_one():
+    some = fitted_of(robot_module("two-link").emitted.spec)
+    made = with_values("two-link", dataclasses.replace(some, gains=(12.5, 0.75)))
+    assert Functions(made).numbers("drive_gain", 2).tolist() == [12.5, 0.75]
+    assert "drive_gain" not in with_values("two-link", some).files["two_link_fitted.h"]
+
+
+@pytest.mark.parametrize("name", ["slow-arm", "two-link"])
+def test_the_text_is_plain_and_short(name):
+    emitted = with_values(name)
+    for file in emitted.spec.sources:
+        text = emitted.files[file]
+        assert text.isascii() and "\r" not in text and text.endswith("\n")
+        assert max(map(len, text.splitlines())) <= 100, file
+        assert "\n\n\n" not in text, file

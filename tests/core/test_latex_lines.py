@@ -1,0 +1,84 @@
+"""Broken formulas keep their value and fit, says a reader that shares nothing with the writer."""
+
+import numpy as np
+import pytest
+
+from modeler.core.latex import latex_name, latex_text
+from modeler.core.latex_lines import Equation, broken, display, width
+from tests.base.formulas import written_value
+
+LETTERS = {"a": 0.7, r"\mathit{MX}_{31c}": -1.3, r"\theta_{2}": 0.4, "D_{4}": 2.1, "s_{1-2}": 0.6}
+
+
+def formula(rng: np.random.Generator, depth: int, factor: bool = False) -> tuple[str, float]:
+    """A random formula with its value."""
+    kind = rng.integers(6) if depth else 0
+    if kind in (0, 1):
+        names = rng.choice(list(LETTERS), 3)
+        return r"\,".join(names), float(np.prod([LETTERS[name] for name in names]))
+    if kind in (2, 3):
+        signs = rng.choice([1, -1], 4)
+        parts = [formula(rng, depth - 1, factor=True) for _ in signs]
+        pieces = zip(signs, parts, strict=True)
+        text = "".join(f" {'+' if sign > 0 else '-'} {part}" for sign, (part, _) in pieces)
+        value = sum(sign * value for sign, (_, value) in zip(signs, parts, strict=True))
+        text = text.removeprefix(" + ")
+        return (rf"\left({text}\right)" if factor else text.strip()), float(value)
+    inside, value = formula(rng, depth - 1)
+    if kind == 4:
+        below, other = formula(rng, depth - 1)
+        return rf"\frac{{{inside}}}{{{below} + 50}}", value / (other + 50)
+    square = rf"\left({inside}\right)^{{2}}"
+    return rf"a\,{square}\,\sqrt{{{square} + 9}}", float(0.7 * value**2 * np.sqrt(value**2 + 9))
+
+
+@pytest.mark.parametrize("room", [120.0, 345.0])
+def test_lines_fit_and_mean_the_same(room: float) -> None:
+    rng, opened = np.random.default_rng(7), 0
+    for _ in range(150):
+        text, value = formula(rng, 3)
+        lines = broken(text, room)
+        joined = " ".join(lines)
+        assert all(width(line) <= room for line in lines), text
+        assert written_value(text, LETTERS) == pytest.approx(value, rel=1e-9, abs=1e-9)
+        assert written_value(joined, LETTERS) == pytest.approx(value, rel=1e-9, abs=1e-9), joined
+        opened += r"\bigl(" in joined
+    assert opened > 20
+
+
+def test_what_fits_stays_as_it_is() -> None:
+    text = r"\left( a + b \right) \text{ as in } \tfrac{1}{2}"
+    assert broken(text) == [text]
+
+
+def test_what_cannot_be_opened_stays_whole() -> None:
+    """A higher root, and the bars of a size; broken before and behind them."""
+    wide = " + ".join(["a"] * 12)
+    text = rf"b + \sqrt[3]{{{wide}}} + \left|{wide}\right| - \frac{{1}}{{{wide}}}"
+    assert broken(text, 100.0)[:3] == ["b", rf"+ \sqrt[3]{{{wide}}}", rf"+ \left|{wide}\right|"]
+    assert broken(text, 100.0)[3].startswith(r"- 1\,\bigl(a + a")
+
+
+def test_numbers_stand_at_the_last_line() -> None:
+    equation = Equation("x", (" + ".join([r"\mathit{MX}_{31}"] * 20),))
+    page = display([equation, Equation("y", ("1",))], numbered=True)
+    assert page.count(r"\notag") == page.count(r"&\quad {}+") == page.count("\\\\\n") - 1 > 0
+    assert r"\notag" not in display([equation])
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("omega_1", r"\mathit{omega\_1}"), ("omega1", r"\omega_{1}"), ("Omega", r"\Omega"),
+        ("Alpha", r"\mathit{Alpha}"), ("PHI2", r"\mathit{PHI}_{2}"), ("mu2_3", r"\mu_{2\_3}"),
+    ],
+)  # fmt: skip
+def test_names(name: str, expected: str) -> None:
+    assert latex_name(name) == expected
+
+
+def test_text_has_no_sign_that_tex_reads() -> None:
+    assert latex_text("R&D_1 100 % {a} ~ \\ é") == (
+        r"R\&D\_1 100 \% \{a\} \textasciitilde{} \textbackslash{} é"
+    )
+    assert latex_text("ń \u03b1 \u2013") == "n [U+03B1] --"

@@ -1,0 +1,254 @@
+"""An emitted folder is installed by make and by CMake, found by name or by signature, and linked."""
+
+import os
+import re
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from modeler.codegen import write_emitted
+from modeler.codegen.package import package_version
+from tests.modules import compiler, module
+
+CONSUMER = """cmake_minimum_required(VERSION 3.13)
+project(consumer LANGUAGES CXX)
+find_package(emps {wanted})
+message(STATUS "found <${{emps_FOUND}}> <${{emps_SIGNATURE}}>")
+add_executable(consumer consumer.cpp)
+target_link_libraries(consumer emps::emps)
+"""
+
+PROGRAM = """#include "emps.h"
+#include <cstdio>
+#include <cstring>
+
+int main()
+{
+    const double zero[EMPS_JOINTS] = {0.0}, one[EMPS_JOINTS] = {1.0};
+    const double beta[EMPS_BASE_PARAMETERS] = {100.0, 0.0};
+    double tau[EMPS_JOINTS];
+
+    emps_inverse_dynamics(zero, zero, one, beta, tau);
+    std::printf("%s %g", emps_signature(), tau[0]);
+    return std::strcmp(emps_signature(), EMPS_SIGNATURE);
+}
+"""
+
+CLEAN = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS", "DESTDIR")}
+
+
+@cache
+def other() -> dict[str, str]:
+    """The folder of a robot of the same name, with another signature."""
+    emitted = module("emps").emitted
+    signature = emitted.spec.signature()
+    new = signature[::-1]
+    versions = package_version(signature), package_version(new)
+    return {
+        name: text.replace(signature, new).replace(*versions)
+        for name, text in emitted.files.items()
+    }
+
+
+def signature() -> str:
+    return module("emps").emitted.spec.signature()
+
+
+def run(*command: object, where: Path, fails: bool = False, **more: str) -> str:
+    """What a command prints."""
+    words = [str(word) for word in command]
+    environment = {**CLEAN, **more}
+    ran = subprocess.run(
+        words, cwd=where, env=environment, capture_output=True, text=True, check=False
+    )
+    assert (ran.returncode != 0) == fails, f"{words}\n{ran.stdout}{ran.stderr}"
+    return ran.stdout + ran.stderr
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    compiler("make"), compiler("g++")
+    write_emitted(module("emps").emitted, tmp_path / "emps_c")
+    (tmp_path / "consumer").mkdir()
+    (tmp_path / "consumer" / "consumer.cpp").write_text(PROGRAM)
+    return tmp_path / "emps_c"
+
+
+def install_by_make(folder: Path, prefix: Path) -> None:
+    run("make", "install", f"PREFIX={prefix}", where=folder)
+
+
+def install_by_cmake(folder: Path, prefix: Path, shared: bool) -> None:
+    build = folder / f"build-{shared}"
+    run("cmake", "-S", ".", "-B", build, f"-DBUILD_SHARED_LIBS={int(shared)}", where=folder)
+    run("cmake", "--build", build, where=folder)
+    run("ctest", "--test-dir", build, where=folder)
+    run("cmake", "--install", build, "--prefix", prefix, where=folder)
+
+
+def files(prefix: Path) -> set[str]:
+    return {p.relative_to(prefix).as_posix() for p in prefix.rglob("*") if not p.is_dir()}
+
+
+def consume(place: Path, prefix: Path, shared: bool, wanted: str = "REQUIRED") -> None:
+    """A C++ program that finds the package by CMake, and runs."""
+    (place / "CMakeLists.txt").write_text(CONSUMER.format(wanted=wanted))
+    build = place / "build"
+    shutil.rmtree(build, ignore_errors=True)
+    told = run("cmake", "-S", ".", "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
+               f"-DBUILD_SHARED_LIBS={int(shared)}", where=place)  # fmt: skip
+    assert f"found <1> <{signature()}>" in told
+    run("cmake", "--build", build, where=place)
+    assert run(build / "consumer", where=place) == f"{signature()} 100"
+    needed = run("ldd", build / "consumer", where=place)
+    assert (f"libemps_model.so.{signature()}" in needed) == shared
+
+
+def not_found(place: Path, prefix: Path, wanted: str) -> str:
+    (place / "CMakeLists.txt").write_text(CONSUMER.format(wanted=wanted))
+    shutil.rmtree(place / "build", ignore_errors=True)
+    return run("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}", where=place,
+               fails=True)  # fmt: skip
+
+
+def test_make_installs_what_cmake_and_pkg_config_find_and_takes_it_away_again(folder, tmp_path):
+    compiler("cmake"), compiler("pkg-config")
+    prefix, place = tmp_path / "a prefix", tmp_path / "consumer"
+    prefix.mkdir()
+    (prefix / "mine").write_text("")
+    install_by_make(folder, prefix)
+    assert files(prefix) >= {"include/emps/emps.h", "lib/libemps_model.a", "lib/libemps_model.so",
+                             f"lib/libemps_model.so.{signature()}"}  # fmt: skip
+    for shared in (False, True):
+        consume(place, prefix, shared)
+    moved = tmp_path / "moved"
+    prefix.rename(moved)  # nothing in it says where it was
+    consume(place, moved, shared=True, wanted="REQUIRED COMPONENTS shared")
+    check_pkg_config(place, moved)
+    run("make", "uninstall", f"PREFIX={moved}", where=folder)
+    assert files(moved) == {"mine"}
+
+
+def check_pkg_config(place: Path, prefix: Path) -> None:
+    path = {"PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}
+    flags = run("pkg-config", "--cflags", "--libs", "emps", where=place, **path).split()
+    rpath = f"-Wl,-rpath,{prefix / 'lib'}"
+    run("g++", "-Wall", "-Werror", "consumer.cpp", *flags, rpath, "-o", "program", where=place)
+    assert run("./program", where=place) == f"{signature()} 100"
+    version = package_version(signature())
+    assert run("pkg-config", "--modversion", "emps", where=place, **path).strip() == version
+    told = run("pkg-config", "--variable=signature", "emps", where=place, **path)
+    assert told.strip() == signature()
+    run("pkg-config", "--exists", f"emps = {version}", where=place, **path)
+    run("pkg-config", "--exists", "emps = 1.1.2.3", where=place, fails=True, **path)
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_cmake_installs_either_kind(folder, tmp_path, shared):
+    compiler("cmake"), compiler("pkg-config")
+    prefix, place = tmp_path / "prefix", tmp_path / "consumer"
+    install_by_cmake(folder, prefix, shared)
+    consume(place, prefix, shared)
+    consume(place, prefix, shared, f"{package_version(signature())} EXACT REQUIRED")
+    kinds = ("static", "shared")
+    told = not_found(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}")
+    assert f"no library of signature {signature()} here that is {kinds[not shared]}" in told
+    (pc,) = prefix.rglob("emps.pc")
+    path = {"PKG_CONFIG_PATH": str(pc.parent)}
+    includes = run("pkg-config", "--cflags", "emps", where=place, **path).strip()
+    assert (Path(includes.removeprefix("-I")) / "emps.h").is_file()
+
+
+def test_the_library_beside_is_found_where_the_first_has_another_signature(folder, tmp_path):
+    """By the number that stands for the signature; by the interface alone any will do."""
+    compiler("cmake")
+    another, prefix, place = tmp_path / "other", tmp_path / "prefix", tmp_path / "consumer"
+    another.mkdir()
+    for name, text in other().items():
+        (another / name).write_text(text)
+    install_by_make(another, tmp_path / "first")
+    install_by_make(folder, prefix)
+    version = package_version(signature())
+    both = f"{tmp_path / 'first'};{prefix}"
+    consume(place, both, False, f"{version} REQUIRED")
+    for wanted in (version, "2"):
+        told = not_found(place, tmp_path / "first", f"{wanted} REQUIRED")
+        assert package_version(signature()[::-1]) in told  # "considered but not accepted"
+
+
+def test_a_program_never_gets_the_library_of_another_signature(folder, tmp_path):
+    """The newer one is installed over the older: its file has another name, and both stay."""
+    prefix, place = tmp_path / "prefix", tmp_path / "consumer"
+    install_by_make(folder, prefix)
+    lib = prefix / "lib"
+    link = ["-I", prefix / "include" / "emps", "-L", lib, f"-Wl,-rpath,{lib}", "-lemps_model"]
+    run("g++", "consumer.cpp", *link, "-o", "old", where=place)
+    for name, text in other().items():
+        (folder / name).write_text(text)
+    run("make", "clean", where=folder)
+    install_by_make(folder, prefix)
+    run("g++", "consumer.cpp", *link, "-o", "new", where=place)
+    assert run("./old", where=place) == f"{signature()} 100"
+    assert run("./new", where=place) == f"{signature()[::-1]} 100"
+    (lib / f"libemps_model.so.{signature()}").unlink()
+    told = run("./old", where=place, fails=True)
+    assert f"libemps_model.so.{signature()}" in told
+
+
+def test_a_kind_that_was_left_by_another_signature_is_not_taken(folder, tmp_path):
+    """CMake installs one kind; the other, older one stays beside it."""
+    compiler("cmake")
+    prefix, place = tmp_path / "prefix", tmp_path / "consumer"
+    install_by_cmake(folder, prefix, shared=False)
+    for name, text in other().items():
+        (folder / name).write_text(text)
+    install_by_cmake(folder, prefix, shared=True)
+    assert "that is static" in not_found(place, prefix, "REQUIRED COMPONENTS static")
+
+
+def test_a_destination_goes_before_the_prefix(folder, tmp_path):
+    run("make", "install", "PREFIX=/opt/robots", f"DESTDIR={tmp_path / 'stage'}", where=folder)
+    staged = tmp_path / "stage" / "opt" / "robots"
+    assert (staged / "include" / "emps" / "emps.h").is_file()
+    for text in (staged / "lib").rglob("emps*"):
+        assert str(tmp_path) not in text.read_text() if text.is_file() else True
+    run("make", "uninstall", "PREFIX=/opt/robots", f"DESTDIR={tmp_path / 'stage'}", where=folder)
+    assert not files(staged)
+
+
+def test_the_users_compiler_and_flags_win(folder):
+    told = run("make", "shared", f"CC={compiler('clang')}", "CFLAGS=-O1 -g", where=folder)
+    commands = re.findall(r"^clang .*", told, flags=re.MULTILINE)
+    assert len(commands) == 5 and all("-O1 -g" in c and "-O2" not in c for c in commands)
+
+
+def test_the_check_of_the_folder_notices_a_library_that_is_not_its_own(folder):
+    assert f"emps {signature()}:\nthree ways to the torques agree" in run(
+        "make", "check", where=folder
+    )
+    header = (folder / "emps.h").read_text()
+    (folder / "emps.h").write_text(header.replace(signature(), "0" * 16))
+    told = run("make", "check", where=folder, fails=True)
+    assert f"the library is {signature()},\nthe header {'0' * 16}" in told
+
+
+def test_the_check_of_the_folder_notices_torques_that_do_not_agree(folder):
+    """As flags that change arithmetic would make them."""
+    code = (folder / "emps.c").read_text()
+    (folder / "emps.c").write_text(code.replace("tau[0] = ", "tau[0] = 1.000001*", 1))
+    assert "do not agree" in run("make", "check", where=folder, fails=True)
+
+
+@pytest.mark.parametrize("name", ["wrist", "sr400-tree", "orthoglide-2003", "five-bar"])
+def test_every_kind_of_robot_passes_its_own_check(name, tmp_path):
+    compiler("make")
+    write_emitted(module(name).emitted, tmp_path)
+    strict = "CFLAGS=-O1 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
+    assert "agree to" in run("make", "check", strict, where=tmp_path)
+
+
+def test_a_version_is_made_of_the_signature():
+    assert package_version("12345678abcd0000") == "1.4660.22136.43981"

@@ -1,0 +1,92 @@
+"""Every format gives the fit of its Parquet twin, whatever its names and units are."""
+
+import numpy as np
+import pytest
+
+from modeler.api import read_logs
+from modeler.core.errors import DataError
+from modeler.logs import Table
+from tests.logs import writers
+from tests.logs.writers import MAPPING, ROS, under
+
+FORMATS = {
+    "mat": (writers.mat, "run.mat", under("data.", MAPPING)),
+    "mat 7.3": (writers.mat73, "run.mat", under("data.", MAPPING)),
+    "hdf5": (writers.hdf5, "run.h5", under("arm/", MAPPING)),
+    "npz": (writers.npz, "run.npz", MAPPING),
+    "mcap": (writers.mcap, "run.mcap", ROS),
+    "bag": (writers.bag, "run", ROS),
+    "bag, mcap": (lambda path, table: writers.bag(path, table, "mcap"), "run", ROS),
+    "bag 1": (writers.bag1, "run.bag", ROS),
+}
+
+
+@pytest.fixture(params=FORMATS)
+def twin(request, case, tmp_path):
+    """A file of each format, and its mapping."""
+    write, name, mapping = FORMATS[request.param]
+    return write(tmp_path / name, case.table), mapping
+
+
+def test_every_format_gives_the_fit_of_its_twin(case, twin):
+    path, mapping = twin
+    assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-12, abs=1e-12)
+
+
+def test_a_window_takes_the_same_rows_of_every_format(case, twin):
+    path, mapping = twin
+    (log,) = read_logs(case.compiled, [f"{path}@1:2.5"], mapping)
+    rows = (case.table["time"] > 0.9999) & (case.table["time"] < 2.4999)
+    assert log.rows == rows.sum()
+    assert log.q[:, 2] == pytest.approx(case.table["q3"][rows], rel=1e-14)
+
+
+def test_an_array_may_be_chosen_by_its_group(case, tmp_path):
+    path = writers.mat(tmp_path / "run.mat", case.table)
+    (log,) = read_logs(case.compiled, [path], {**MAPPING, "topic": "data"})
+    assert log.rows == len(case.table["time"])
+    with pytest.raises(DataError, match="topic other: no group of that name; the groups are data"):
+        read_logs(case.compiled, [path], {**MAPPING, "topic": "other"})
+
+
+def test_what_is_no_column_is_told(case, tmp_path):
+    path = writers.mat(tmp_path / "run.mat", case.table)
+    (log,) = read_logs(case.compiled, [path], under("data.", MAPPING))
+    assert "pose (4 x 4) left out: no columns of" in log.notes[0]
+
+
+def test_units_that_a_file_states_are_used_and_told(case, tmp_path):
+    path = writers.hdf5(tmp_path / "run.h5", case.table)
+    mapping = under("arm/", MAPPING) | {"q<j>": "arm/pos[{n}]"}
+    (log,) = read_logs(case.compiled, [path], mapping)
+    assert log.q[:, 0] == pytest.approx(case.table["q1"], rel=1e-14)
+    assert "by the units that the file states: q1 in deg, q3 in deg" in log.notes
+
+
+def test_other_topics_hold_their_last_message(case, tmp_path):
+    path = writers.mcap(tmp_path / "run.mcap", case.table)
+    mapping = ROS | {"temperature1": "motor/heat.temperature"}
+    table = Table(path, _map(case, mapping), case.compiled.spec.joints)
+    heat = table.measured("temperature1")
+    assert np.isnan(heat[:50]).all()
+    assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
+    (log,) = read_logs(case.compiled, [path], mapping)
+    joined = [note for note in log.notes if note.startswith("/motor/heat joined to that clock")]
+    assert len(joined) == 1 and "at most 0.099 s old" in joined[0]
+    assert log.notes[0].startswith("rows are the messages of /joint_states")
+
+
+def test_of_several_topics_one_is_chosen(case, tmp_path):
+    path = writers.bag(tmp_path / "run", case.table, extra_topic="/other/joint_states")
+    with pytest.raises(DataError, match=r"2 topics may hold the motion: .*--map topic=/"):
+        read_logs(case.compiled, [path], ROS)
+    (log,) = read_logs(case.compiled, [path], {**ROS, "topic": "/joint_states"})
+    assert log.tau[:, 0] == pytest.approx(case.table["tau1"], rel=1e-14)
+    with pytest.raises(DataError, match="topic /x: no messages of it; the topics are /"):
+        read_logs(case.compiled, [path], {**ROS, "topic": "/x"})
+
+
+def _map(case, mapping):
+    from modeler.api import log_map
+
+    return log_map(case.compiled, mapping)

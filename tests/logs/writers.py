@@ -1,0 +1,220 @@
+"""Logs as other people's programs write them."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import scipy.io
+
+JOINTS = ("waist", "shoulder", "elbow")
+"""What the logs call the joints 1, 2, 3."""
+
+Table = Mapping[str, np.ndarray]
+"""Ours: time, q1.., tau1.., SI."""
+
+START = 1_700_000_000_123_456_789  # ns, an hour of some day
+
+
+def joined(table: Table, prefix: str) -> np.ndarray:
+    return np.column_stack([table[f"{prefix}{j}"] for j in (1, 2, 3)])
+
+
+class Run(dict[str, np.ndarray]):
+    """A run in our columns and SI units, and the same numbers as other people log them.
+
+    `other` is in ms, degrees, one joint the other way, and mN m; ours are what these mean.
+    """
+
+    def __init__(self, table: Table) -> None:
+        q = np.rad2deg(joined(table, "q")) * [1.0, -1.0, 1.0]
+        tau = joined(table, "tau") * 1e3
+        self.other = {"t": table["time"] * 1e3, "pos": q, "load": tau}
+        super().__init__(time=self.other["t"] * 1e-3)
+        q = np.deg2rad(q) * [1.0, -1.0, 1.0]
+        self.update({f"q{j + 1}": q[:, j] for j in range(3)})
+        self.update({f"tau{j + 1}": tau[:, j] * 1e-3 for j in range(3)})
+
+
+MAPPING = {
+    "time": "t [ms]",
+    "q<j>": "pos[{n}] [deg]",
+    "q2": {"column": "pos[2]", "unit": "deg", "sign": -1},
+    "tau<j>": {"column": "load[{n}]", "unit": "mN m"},
+}
+
+
+def under(head: str, mapping: Mapping[str, object]) -> dict[str, object]:
+    """The mapping with a name in front of every column."""
+    found: dict[str, object] = {}
+    for own, entry in mapping.items():
+        if isinstance(entry, str):
+            found[own] = head + entry
+        else:
+            found[own] = {**entry, "column": head + entry["column"]}  # type: ignore[dict-item]
+    return found
+
+
+def parquet(path: Path, table: Table) -> Path:
+    pq.write_table(pa.table({name: pa.array(values) for name, values in table.items()}), path)
+    return path
+
+
+def mat(path: Path, table: Run) -> Path:
+    """A struct `data` of (n, 1) and (n, 3) arrays, and things that are no columns."""
+    other = table.other | {"t": table.other["t"][:, None]}
+    content = {"data": other, "fs": 500.0, "who": "me", "pose": np.eye(4)}
+    scipy.io.savemat(path, content, do_compression=True)
+    return path
+
+
+def mat73(path: Path, table: Run) -> Path:
+    """As MATLAB writes -v7.3: HDF5 after a block, arrays by columns, classes as attributes."""
+    h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
+    with h5py.File(path, "w", userblock_size=512) as file:
+        group = file.create_group("data")
+        group.attrs["MATLAB_class"] = np.bytes_("struct")
+        for name, values in table.other.items():
+            values = values[:, None] if values.ndim == 1 else values
+            item = group.create_dataset(name, data=values.T, chunks=True, compression="gzip")
+            item.attrs["MATLAB_class"] = np.bytes_("double")
+        text = file.create_dataset("who", data=np.array([[109], [101]], dtype=np.uint16))
+        text.attrs["MATLAB_class"] = np.bytes_("char")
+    with path.open("r+b") as raw:
+        raw.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM")
+    return path
+
+
+def hdf5(path: Path, table: Run) -> Path:
+    """A group `arm`; the current of the unit is an attribute of the positions."""
+    h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
+    with h5py.File(path, "w") as file:
+        for name, values in table.other.items():
+            file[f"arm/{name}"] = values
+        file["arm/pos"].attrs["units"] = "deg"
+        file["version"] = 3
+    return path
+
+
+def npz(path: Path, table: Run) -> Path:
+    np.savez(path, **{name: values.T for name, values in table.other.items()})
+    return path
+
+
+ROS = {
+    "names": dict(zip("123", JOINTS, strict=True)),
+    "q<j>": "joint_states.position[{name}]",
+    "tau<j>": "joint_states.effort[{name}]",
+}
+
+
+def stamps(table: Table) -> list[int]:
+    return [START + round(t * 1e9) for t in table["time"]]
+
+
+ORDERS = ((0, 1, 2), (2, 0, 1))
+"""Of the joints in messages: drivers sort them as they like."""
+
+
+def states(table: Table):
+    """(stamp, names, positions, efforts) of every message."""
+    q, tau = joined(table, "q"), joined(table, "tau")
+    for k, stamp in enumerate(stamps(table)):
+        order = list(ORDERS[k % 2])
+        yield stamp, [JOINTS[i] for i in order], q[k, order], tau[k, order]
+
+
+def mcap(path: Path, table: Run) -> Path:
+    """By the library of the format: joint states, and a slower temperature."""
+    reason = "NOT CHECKED: needs mcap-ros2-support; pip install mcap-ros2-support"
+    writer_of = pytest.importorskip("mcap_ros2.writer", reason=reason)
+    with path.open("wb") as file:
+        writer = writer_of.Writer(file)
+        joint = writer.register_msgdef("sensor_msgs/msg/JointState", _JOINT_STATE)
+        heat = writer.register_msgdef("sensor_msgs/msg/Temperature", _TEMPERATURE)
+        text = writer.register_msgdef("std_msgs/msg/String", "string data")
+        writer.write_message("/rosout", text, {"data": "hello"}, START)
+        for k, (stamp, names, q, tau) in enumerate(states(table)):
+            header = {"stamp": _stamp(stamp), "frame_id": ""}
+            message = {"header": header, "name": names, "position": q.tolist(), "velocity": [],
+                       "effort": tau.tolist()}  # fmt: skip
+            writer.write_message("/joint_states", joint, message, stamp + 50_000)
+            if k % 100 == 50:
+                message = {"header": header, "temperature": 20.0 + k, "variance": 0.0}
+                writer.write_message("/motor/heat", heat, message, stamp + 60_000)
+        writer.finish()
+    return path
+
+
+def bag(path: Path, table: Run, storage: str = "sqlite3", extra_topic: str = "") -> Path:
+    """A ROS 2 bag as a folder; with another robot's joint states if a topic is given for them."""
+    reason = "NOT CHECKED: needs rosbags; pip install rosbags"
+    rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    kind = "sensor_msgs/msg/JointState"
+    JointState = store.types[kind]
+    plugin = rosbag2.StoragePlugin.MCAP if storage == "mcap" else rosbag2.StoragePlugin.SQLITE3
+    with rosbag2.Writer(path, version=9, storage_plugin=plugin) as writer:
+        topics = ["/joint_states", *([extra_topic] if extra_topic else [])]
+        connections = [writer.add_connection(topic, kind, typestore=store) for topic in topics]
+        for stamp, names, q, tau in states(table):
+            message = JointState(
+                header=_header(store, stamp), name=names, position=q, velocity=np.zeros(0),
+                effort=tau,
+            )  # fmt: skip
+            for connection in connections:
+                writer.write(connection, stamp + 50_000, store.serialize_cdr(message, kind))
+    return path
+
+
+def bag1(path: Path, table: Run) -> Path:
+    """A bag of ROS 1."""
+    reason = "NOT CHECKED: needs rosbags; pip install rosbags"
+    rosbag1 = pytest.importorskip("rosbags.rosbag1", reason=reason)
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS1_NOETIC)
+    kind = "sensor_msgs/msg/JointState"
+    with rosbag1.Writer(path) as writer:
+        connection = writer.add_connection("/joint_states", kind, typestore=store)
+        for k, (stamp, names, q, tau) in enumerate(states(table)):
+            message = store.types[kind](
+                header=_header(store, stamp, seq=k), name=names, position=q, velocity=np.zeros(0),
+                effort=tau,
+            )  # fmt: skip
+            writer.write(connection, stamp + 50_000, store.serialize_ros1(message, kind))
+    return path
+
+
+def _header(store, stamp: int, **more):
+    time = store.types["builtin_interfaces/msg/Time"](**_stamp(stamp, "nanosec"))
+    return store.types["std_msgs/msg/Header"](stamp=time, frame_id="", **more)
+
+
+def _stamp(stamp: int, part: str = "nanosec") -> dict[str, int]:
+    return {"sec": stamp // 10**9, part: stamp % 10**9}
+
+
+_HEADER = """================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+_JOINT_STATE = f"""std_msgs/Header header
+string[] name
+float64[] position
+float64[] velocity
+float64[] effort
+{_HEADER}"""
+_TEMPERATURE = f"""std_msgs/Header header
+float64 temperature
+float64 variance
+{_HEADER}"""
