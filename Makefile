@@ -9,12 +9,13 @@ BIN := .venv/bin
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint regenerate clean
+.PHONY: help demo test lint docs regenerate clean
 
 help:
 	@echo 'make demo         install, then a hidden effect found and added, on two built-in robots: pages in demo/'
 	@echo 'make test         install, then ruff, mypy and every test (JOBS=2 processes; TESTS=tests/fit some)'
 	@echo 'make lint         ruff and mypy only'
+	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
 	@echo 'make clean        remove all that these commands made, .venv included'
 	@echo 'PYTHON=...        the Python to install with; default: the first of $(PYTHONS)'
@@ -29,6 +30,10 @@ lint: .venv/.installed-test
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
 	$(BIN)/python -m mypy
+
+docs: .venv/.installed-docs
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+	@echo 'built: build/site/index.html'
 
 regenerate: .venv/.installed-test
 	$(BIN)/python -m pytest -q --regenerate
@@ -47,6 +52,10 @@ clean:
 
 .venv/.installed-test: .venv/.installed
 	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e '.[test]'
+	@touch $@
+
+.venv/.installed-docs: .venv/.installed
+	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e '.[docs]'
 	@touch $@
 
 define find_compiler

@@ -54,11 +54,17 @@ def test_exceptions_are_still_needed() -> None:
         assert all((PACKAGE / place).exists() for place in places)
 
 
+OURS = ("test", "docs")
+"""Extras of those who work on the project."""
+
+
 def test_what_is_imported_is_what_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     declared = _names(project["dependencies"])
     groups = project["optional-dependencies"]
-    extras = {name for group, lines in groups.items() if group != "test" for name in _names(lines)}
+    extras = {
+        name for group, lines in groups.items() if group not in OURS for name in _names(lines)
+    }
     imported = imported_packages(PACKAGE)
     assert declared <= imported <= declared | extras
     assert extras <= imported

@@ -35,6 +35,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/physical-parameters.md",
        "docs/reproduce.md",
        "docs/excitation.md",
+       "docs/controller.md",
        )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]

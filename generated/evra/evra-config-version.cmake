@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.51822.34701.14290) only what has the signature ca6e878d37d23223.
-set(PACKAGE_VERSION 1.51822.34701.14290)
+# find_package(evra 1.11342.39357.55289) only what has the signature 2c4e99bdd7f9b272.
+set(PACKAGE_VERSION 1.11342.39357.55289)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -17,6 +17,9 @@
 extern "C" {
 #endif
 
+/* What orthoglide_2003_signature() of the library that belongs to this header returns. */
+#define ORTHOGLIDE_2003_SIGNATURE "1382f595e1cf94e7"
+
 #define ORTHOGLIDE_2003_JOINTS 3
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163
 #define ORTHOGLIDE_2003_BASE_PARAMETERS 43

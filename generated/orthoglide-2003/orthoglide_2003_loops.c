@@ -34,7 +34,7 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "802d4417b58c0d2b";
+    return "1382f595e1cf94e7";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

@@ -17,6 +17,9 @@
 extern "C" {
 #endif
 
+/* What orthoglide_2012_signature() of the library that belongs to this header returns. */
+#define ORTHOGLIDE_2012_SIGNATURE "2ed765a85c8050d4"
+
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196
 #define ORTHOGLIDE_2012_BASE_PARAMETERS 53

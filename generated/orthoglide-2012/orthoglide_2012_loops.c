@@ -34,7 +34,7 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2012_signature(void)
 {
-    return "12a73eaa74ae35f6";
+    return "2ed765a85c8050d4";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

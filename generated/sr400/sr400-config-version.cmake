@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.37622.20367.47052) only what has the signature 92f64f8fb7ccf08e.
-set(PACKAGE_VERSION 1.37622.20367.47052)
+# find_package(sr400 1.49177.62479.45531) only what has the signature c019f40fb1db97f3.
+set(PACKAGE_VERSION 1.49177.62479.45531)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

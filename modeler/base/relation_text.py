@@ -38,7 +38,7 @@ def _sum(terms: list[str]) -> str:
 
 def _text_term(term: Term) -> str:
     """Numerator, parameter, denominator; a quotient of numbers alone stands in front."""
-    sign, size = _sign(term.coefficient)
+    sign, size = split_sign(term.coefficient)
     if size == 1:
         return sign + term.parameter
     top, bottom = sympy.fraction(size)
@@ -52,7 +52,7 @@ def _text_term(term: Term) -> str:
 
 
 def _latex_term(term: Term) -> str:
-    sign, size = _sign(term.coefficient)
+    sign, size = split_sign(term.coefficient)
     name = latex_name(term.parameter)
     if size == 1:
         return sign + name
@@ -61,7 +61,7 @@ def _latex_term(term: Term) -> str:
     return f"{sign}\\left({text}\\right) {name}" if size.is_Add else f"{sign}{text} {name}"
 
 
-def _sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
+def split_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
     """The sign to write in front, and what stays: sums keep theirs unless all terms are minus."""
     negative = (
         all(arg.could_extract_minus_sign() for arg in coefficient.args)

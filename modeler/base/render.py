@@ -118,8 +118,13 @@ def _sampling(sampling: Sampling) -> dict[str, Any]:
 
 def proof_text(proof: Proof) -> str:
     """The proof in a few lines."""
-    paragraphs = [f"proof: {proof.kind}. {proof.statement}"]
-    paragraphs += [
+    return "\n".join(textwrap.fill(text, _WIDTH) for text in proof_paragraphs(proof))
+
+
+def proof_paragraphs(proof: Proof) -> list[str]:
+    """The proof, a paragraph for each of its parts."""
+    return [
+        f"proof: {proof.kind}. {proof.statement}",
         _independence_text(proof.certificate),
         f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
         f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
@@ -127,7 +132,6 @@ def proof_text(proof: Proof) -> str:
         *([] if proof.sampling is None else [_sampling_text(proof.sampling, proof.seed)]),
         f"base torque against standard torque: {proof.agreement:.1e} of the largest",
     ]
-    return "\n".join(textwrap.fill(text, _WIDTH) for text in paragraphs)
 
 
 def _independence_text(found: Certificate) -> str:

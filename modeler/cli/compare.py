@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import Mapped, read_logs, recompile
+from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.contest import models_of, run_contest
-from modeler.cli.given import check_logs, given
 from modeler.compare import Comparison, compare, verdict, write_pictures
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
@@ -18,6 +18,8 @@ from modeler.observation import Log
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
 from modeler.pages.comparison import write_report
+from modeler.pages.following import after_compare
+from modeler.pages.sheet import Origin
 
 _TRAINING = "training only: "
 
@@ -43,13 +45,23 @@ def run_compare(args: argparse.Namespace) -> Json:
         say(fault.line)
     if args.report is not None:
         with working("drawing the page"):
-            place = write_report(Path(args.report), comparison, lines)
+            place = _page(args, model, comparison, lines)
         say(f"written: {place}")
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
             written = write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
     return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
+
+
+def _page(
+    args: argparse.Namespace, model: IdentifiedModel, comparison: Comparison, lines: list[str]
+) -> Path:
+    held = not any(line.startswith(_TRAINING) for line in lines)
+    fitted = [log.name for log in model.logs]
+    following = after_compare(args.model, fitted, args.logs, held)
+    origin = Origin(args.model, comparison.prediction.logs, held)
+    return write_report(Path(args.report), comparison, lines, origin, [following])
 
 
 def judged(
@@ -66,7 +78,7 @@ def judged(
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
         f"{model.fit.error_told('{:.2f} %')}"
     ]
-    lines += [*model.warning, *_training(model, read), *observation.report.summary()]
+    lines += [*model.warning, *_training(model, read), *observation.report.lines()]
     found = findings_of_prediction(compiled, observation, model.beta)
     lines += [fault.line for fault in found if fault.certain]
     return compare(prediction), lines, found

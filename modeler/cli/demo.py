@@ -8,15 +8,18 @@ from modeler.api import compile_model, derive, fit, generate, load, observe, rea
 from modeler.cli.add import waterfall
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.diagnose import lines
 from modeler.compare import verdict, write_pictures
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose
+from modeler.diagnose.lines import lines
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
 from modeler.pages.additions import write_additions
 from modeler.pages.comparison import write_report
+from modeler.pages.following import after_add, after_compare, after_diagnosis
+from modeler.pages.index import write_index
 from modeler.pages.report import write_diagnosis
+from modeler.pages.sheet import Origin
 from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulate.settings import check_settings
 
@@ -41,7 +44,10 @@ _STORIES = (
 def run_demo(args: argparse.Namespace) -> Json:
     """Runs both stories."""
     check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
-    return {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
+    told = {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
+    if (index := write_index(Path(args.out), "modeler demo")) is not None:
+        say(f"all pages: {index}")
+    return told
 
 
 def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
@@ -67,7 +73,7 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
         found = diagnose(model, compiled, logs.fitted, logs.held_out, progress=bar)
     for line in lines(found):
         say(f"   {line}")
-    write_diagnosis(out / "diagnosis.html", found)
+    _diagnosed(out, found, (train, held_out))
     better = _improved(model, compiled, found, logs, out)
     say(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
     say(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
@@ -90,9 +96,21 @@ def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: P
     for line in (*comparison.summary().splitlines(), *verdict(comparison)):
         say(f"   {line}")
     with working("drawing the page"):
-        write_report(out / "compare.html", comparison, provenance)
+        place, fitted = str(out / "model.json"), [str(out / "train.parquet")]
+        write_report(
+            out / "compare.html", comparison, provenance,
+            Origin(place, comparison.prediction.logs, held_out=True),
+            [after_compare(place, fitted, [str(log)], held_out=True)],
+        )  # fmt: skip
     with progress("drawing pictures") as bar:
         write_pictures(out / "pictures", comparison, bar)
+
+
+def _diagnosed(out: Path, found: Diagnosis, logs: tuple[Path, Path]) -> None:
+    place, (train, held) = str(out / "model.json"), map(str, logs)
+    origin = Origin(place, [log.name for log in logs], held_out=True)
+    following = after_diagnosis(place, [train], [held], found)
+    write_diagnosis(out / "diagnosis.html", found, (), origin, following)
 
 
 def _improved(
@@ -105,5 +123,8 @@ def _improved(
     for line in (*waterfall(better), *left_out):
         say(f"   {line}")
     if better.history:
-        write_additions(out / "improved.html", better.spec.robot, better.history, left_out)
+        held = better.history[-1].held_out
+        origin = Origin(str(out / "improved.json"), held, held_out=True)
+        following = after_add(origin.model, [str(out / name) for name in held])
+        write_additions(out / "improved.html", better, left_out, origin, following)
     return better

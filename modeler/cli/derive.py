@@ -4,12 +4,21 @@ import argparse
 import dataclasses
 import textwrap
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
 from modeler.base import BaseParameters
 from modeler.base.numeric import random_states, regressor_values
-from modeler.base.render import as_json, as_latex, as_markdown, as_text, proof_text
+from modeler.base.relation_formula import relation_formula
+from modeler.base.render import (
+    as_json,
+    as_latex,
+    as_markdown,
+    as_text,
+    proof_paragraphs,
+    proof_text,
+)
 from modeler.cli.closed_forms import check_loops, check_request, say_closed_forms
 from modeler.cli.console import Json, working
 from modeler.cli.parsers.derive import Form
@@ -17,6 +26,7 @@ from modeler.cli.robots import robot_of, robot_with_effects
 from modeler.cli.words import Words
 from modeler.core.errors import RobotError
 from modeler.derivation import Derivation, derive
+from modeler.pages.derivation import Derived, write_derivation
 from modeler.robot import Robot
 from modeler.symbolic import LinkColumn, SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
@@ -48,10 +58,31 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.formulas(_FORMS[args.format](base))
     words.say()
     words.say(proof_text(base.proof))
-    words.say(f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque")
+    words.say(_agreement(opinion))
     result |= say_closed_forms(args, derivation, words)
+    if args.page is not None:
+        words.say(f"written: {_page(args, derivation, opinion)}")
     words.end()
     return result
+
+
+def _page(args: argparse.Namespace, derivation: Derivation, opinion: float) -> Path:
+    base = derivation.base
+    units = (base.columns[parameter.column].unit for parameter in base.parameters)
+    relations = [relation_formula(parameter) for parameter in base.parameters]
+    derived = Derived(
+        relations=list(zip(relations, units, strict=True)),
+        standard=len(base.columns),
+        counts=base.counts(),
+        unidentifiable=base.unidentifiable,
+        tied=_tied_lines(derivation.model),
+        proof=(base.proof.kind, [*proof_paragraphs(base.proof), _agreement(opinion)]),
+    )
+    return write_derivation(Path(args.page), derivation.robot, derived, args.robot)
+
+
+def _agreement(opinion: float) -> str:
+    return f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque"
 
 
 def _opened(args: argparse.Namespace) -> Robot:

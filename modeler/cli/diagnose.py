@@ -8,11 +8,13 @@ from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.diagnose.sentences import blind_spots
+from modeler.diagnose.lines import lines
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.observation.apart import check_apart
+from modeler.pages.following import after_diagnosis
 from modeler.pages.report import write_diagnosis
+from modeler.pages.sheet import Origin
 from modeler.robot import robot_from_text
 from modeler.robot.place import near
 
@@ -36,11 +38,18 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     written = []
     if args.report is not None:
         with working("drawing"):
-            written = [write_diagnosis(Path(args.report), diagnosis, _provenance(model, args))]
+            written = [_page(args, diagnosis, _provenance(model, args))]
     wrote = (f"written: {place}" for place in written)
     for line in (*lines(diagnosis), *model.warning, *wrote):
         say(line)
     return diagnosis.to_json()
+
+
+def _page(args: argparse.Namespace, diagnosis: Diagnosis, lines: Sequence[str]) -> Path:
+    logs = [Path(place).name for place in (*args.logs, *args.holdout)]
+    following = after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
+    origin = Origin(args.model, logs, bool(diagnosis.held_out))
+    return write_diagnosis(Path(args.report), diagnosis, lines, origin, following)
 
 
 def _provenance(model: IdentifiedModel, args: argparse.Namespace) -> list[str]:
@@ -51,21 +60,6 @@ def _provenance(model: IdentifiedModel, args: argparse.Namespace) -> list[str]:
         f"logs explained: {shown}",
         *model.warning,
     ]
-
-
-def lines(diagnosis: Diagnosis) -> list[str]:
-    """The diagnosis as text."""
-    found = list(diagnosis.sentences)
-    source = "held out" if diagnosis.held_out else "cross-validated"
-    found.append("")
-    found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
-                 f"{diagnosis.band:g} Hz)")  # fmt: skip
-    for name, joint in diagnosis.joints.items():
-        found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
-    blind = [what for what, _ in blind_spots(diagnosis)]
-    if blind:
-        found.append(f"these logs cannot show: {', '.join(blind)}")
-    return found
 
 
 def _check_effects(given: Sequence[str], catalogue: Sequence[Effect]) -> None:

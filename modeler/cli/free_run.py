@@ -6,8 +6,8 @@ from pathlib import Path
 
 from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.given import check_logs, given
-from modeler.compare.pictures import write_each
+from modeler.api.given import check_logs, given
+from modeler.pictures.files import write_files
 from modeler.core.errors import DataError
 from modeler.fit import load_model
 from modeler.freerun import Asked, free_run
@@ -29,7 +29,7 @@ def run_free_run(args: argparse.Namespace) -> Json:
         say(line)
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
-            written = write_each(Path(args.pictures), free_run_pictures(found), bar)
+            written = write_files(Path(args.pictures), free_run_pictures(found), bar)
         say(f"written: {len(written)} files in {args.pictures}")
     return found.to_json()
 

@@ -33,7 +33,8 @@ def _model(args: argparse.Namespace) -> IdentifiedModel | None:
         return None
     if args.effects is not None:
         raise DataError(
-            "--effects: of a robot file only; a model has the effects it was fitted with"
+            f"--effects: got it with {args.robot}, a model, which has the effects that it was "
+            "fitted with; leave --effects out, or fit the robot with them"
         )
     return load_model(args.robot)
 

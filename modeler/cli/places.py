@@ -165,6 +165,12 @@ class PictureFolder(OutputFolder):
     writes = ("overview.*", "joint_*_time.*", "joint_*_residual.*", "joint_*_free_run.*")
 
 
+class LogPictures(OutputFolder):
+    """Of the pictures of a log."""
+
+    writes = ("clock.*", "channels_*.*")
+
+
 class DemoFolder(OutputFolder):
     """Of `modeler demo`: a folder for each story."""
 

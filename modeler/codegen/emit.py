@@ -146,17 +146,18 @@ def _fitted_unit(
     check_values(base, fitted)
     functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
-    turning = {width.speed: width.constant for width in found}
+    turning = {speed: width.constant for speed, width in found.items()}
+    every = tuple(dict.fromkeys(found.values()))
     blocks = [(f, _block(f, module.places, turning)) for f in functions]
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
-        widths=tuple(width.macro for width in found),
+        widths=tuple(width.macro for width in every),
         functions=function_specs(prefix, blocks, module.blocks),
         code="",
         signature="",
     )
-    values = values | fitted_texts(module.spec, fitted, found)
+    values = values | fitted_texts(module.spec, fitted, every)
     values |= {
         "functions": written,
         "inner": [f for f in written if f.internal],

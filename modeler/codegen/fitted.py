@@ -7,7 +7,7 @@ stay those of the regressors, phi beta, which fits and their checks rely on.
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -31,21 +31,17 @@ _TREE = "fitted_tree"
 
 @dataclass(frozen=True)
 class Width:
-    """The width over which dry friction of a joint turns.
+    """The width over which dry friction of a joint, or of its motor, turns.
 
     Attributes:
-        joint: its row in the table.
         macro: that says it.
         constant: C constant that the macro initialises.
         unit: "rad/s" or "m/s".
-        speed: node of the joint's speed, or the motor's.
     """
 
-    joint: str
     macro: str
     constant: str
     unit: str
-    speed: int
 
 
 def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
@@ -101,28 +97,25 @@ def _closed(closed: Closed) -> Closed:
     return dataclasses.replace(closed, tree=_TREE, reads=reads)
 
 
-def widths(prefix: str, model: SymbolicModel, functions: Sequence[Function]) -> tuple[Width, ...]:
-    """One for every joint or motor of whose speed the functions read the sign.
+def widths(prefix: str, model: SymbolicModel, functions: Sequence[Function]) -> Mapping[int, Width]:
+    """{speed: its width} of the joints and motors of whose speed the functions read the sign.
 
-    Joints that always move alike have one speed, and the width of the first of them. A sign of
-    anything else than such a speed leaps where it did.
+    Joints that always move alike have one speed, and the width of the first of them; a joint and
+    its motor have one width. A sign of anything else than such a speed leaps where it did.
     """
     read = {node.args[0] for node in _nodes(model, functions) if node.op == "sign"}
     found: dict[int, Width] = {}
     for column in model.columns:
         for part in column.parts if isinstance(column, ShaftColumn) else ():
             speed = abs(along(model, part.shaft, "qd").ref)
-            if speed not in read or speed in found:
-                continue
-            joint = model.robot.joints[part.row]
-            found[speed] = Width(
-                joint.name,
-                f"{prefix.upper()}_COULOMB_WIDTH_{joint.name}",
-                f"{prefix}_width_{joint.name}",
-                f"{joint.unit}/s",
-                speed,
-            )
-    return tuple(found.values())
+            if speed in read and speed not in found:
+                joint = model.robot.joints[part.row]
+                found[speed] = Width(
+                    f"{prefix.upper()}_COULOMB_WIDTH_{joint.name}",
+                    f"{prefix}_width_{joint.name}",
+                    f"{joint.unit}/s",
+                )
+    return found
 
 
 def _nodes(model: SymbolicModel, functions: Sequence[Function]) -> list[Node]:

@@ -1,4 +1,4 @@
-"""What makes an emitted folder a package: its version, what is installed, the texts of the build."""
+"""What makes an emitted folder a package: its version, what is installed, texts of the build."""
 
 import re
 from collections.abc import Mapping
@@ -62,7 +62,7 @@ def package_files(
         **values,
         "package": _package(spec, code),
         "examples": examples,
-        "programs": (f"{prefix}_check", *examples),
+        "programs": ("self_check", *examples),
         "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
         "every": _functions(spec),
         "home": _home(spec),
@@ -76,7 +76,7 @@ def package_files(
         f"{prefix}.pc.in": "package.pc.in",
         f"{prefix}-config.cmake": "config.cmake",
         f"{prefix}-config-version.cmake": "config-version.cmake",
-        f"{prefix}_check.c": "check.c",
+        "self_check.c": "self_check.c",
         "README.md": "README.md",
     }
     texts = {name: render(template, **given) for name, template in names.items()}

@@ -43,16 +43,16 @@ def _caption(comparison: Comparison) -> str:
     methods = {item.shares.method for item in comparison.joints if item.shares is not None}
     how = "; ".join(METHODS[name] for name in METHODS if name in methods)
     return (
-        "Top left: unexplained share of each joint's torque. Top right: in which velocity region "
-        "the squared residual sits, and in brackets the share of the samples there; fast is beyond "
-        "40 %, around zero within 5 % of the joint's own top speed. Middle: the variance of the "
-        "torque, and that of what is left alone. "
+        "Relative error: unexplained share of each joint's own torque or force. Variance: of it, "
+        "and of what is left alone. "
         + (f"Repeatable is {how}; noise is the rest. " if how else "")
-        + "Bottom: share of the residual variance that a curve over that coordinate predicts on "
-        "motion not used to fit it; noise gives 0. Coordinates move together, so shares overlap. A "
-        "cell (bottom right) that beats that of the joint itself points to a motor that turns with "
-        "several joints: its friction follows the speed of the motor, and that is a sum of joint "
-        "speeds."
+        + "Where: in which velocity region the squared residual sits, and in brackets the share of "
+        "the samples there; fast is beyond 40 %, around zero within 5 % of the joint's own top "
+        "speed. Follows: share of the residual variance that a curve over that coordinate predicts "
+        "on motion not used to fit it; noise gives 0. Coordinates move together: shares overlap. "
+        "Where the velocity of another joint or motor beats that of the joint itself, look for a "
+        "motor that turns with several joints: its friction follows the speed of the motor, and "
+        "that is a sum of joint speeds."
     )
 
 

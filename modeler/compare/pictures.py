@@ -1,15 +1,14 @@
 """All pictures of a comparison, and as files."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from modeler.compare.comparison import Comparison, JointComparison
 from modeler.compare.overview_picture import overview_picture
 from modeler.compare.residual_picture import residual_picture
 from modeler.compare.time_picture import time_picture
-from modeler.core.files import write_atomically
-from modeler.pictures.draw_matplotlib import images
-from modeler.pictures.picture import Picture, picture_csv
+from modeler.pictures.files import write_files
+from modeler.pictures.picture import Picture
 
 
 def joint_pictures(comparison: Comparison, item: JointComparison) -> tuple[Picture, ...]:
@@ -39,22 +38,4 @@ def write_pictures(
     Raises:
         ModelerError: the folder cannot be written.
     """
-    return write_each(folder, all_pictures(comparison), progress)
-
-
-def write_each(
-    folder: Path,
-    pictures: Sequence[Picture],
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Path, ...]:
-    """Write these pictures as PNG, SVG and CSV; as `write_pictures`."""
-    written = []
-    for number, picture in enumerate(pictures, start=1):
-        files = {**images(picture), "csv": picture_csv(picture).encode()}
-        for kind, content in files.items():
-            place = Path(folder) / f"{picture.name}.{kind}"
-            write_atomically(place, content)
-            written.append(place)
-        if progress is not None:
-            progress(number / len(pictures))
-    return tuple(written)
+    return write_files(folder, all_pictures(comparison), progress)

@@ -41,9 +41,10 @@ def _remarks(model: IdentifiedModel) -> list[str]:
     if added:
         told.append(f"Effects added since the first fit: {', '.join(added)}.")
     if fit.processing.delay:
+        side = "before" if fit.processing.delay > 0.0 else "after"
         told.append(
-            f"The torques of the logs stood {1e3 * fit.processing.delay:.3g} ms before the motion "
-            "that they belong to; the values are without that delay."
+            f"The torques of the logs stood {1e3 * abs(fit.processing.delay):.3g} ms {side} the "
+            "motion that they belong to; the values are without that delay."
         )
     if fit.loads:
         loads = ", ".join(f"{load.name} {load.value:.6g} {load.unit}" for load in fit.loads)

@@ -34,12 +34,12 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
             )
         return read_bag(path, wanted)
     reader = _READERS.get(path.suffix.lower())
-    if reader is None:
+    if reader is None and (path.suffix or path.exists()):
         raise DataError(
             f"{path}: a log ends in .parquet or .csv, or in {', '.join([*_READERS][2:])}, got "
             f'"{path.suffix or "no suffix"}"; convert or rename it'
         )
-    if not path.is_file():
+    if reader is None or not path.is_file():
         raise DataError(f"{path}: there is no such file; check the path")
     if path.stat().st_size == 0:
         raise DataError(f"{path}: the file is empty; record or copy it again")

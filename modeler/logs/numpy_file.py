@@ -13,8 +13,8 @@ def read_numpy(path: Path, wanted: Wanted) -> Columns:
 
     Arrays of Python objects are refused: reading them would run what the file says.
     """
-    with reading(path, "numpy file"):
-        content = np.load(path, allow_pickle=False)
+    with reading(path, "numpy file"), path.open("rb") as file:
+        content = np.load(file, allow_pickle=False)
         if isinstance(content, np.ndarray):
             name = "" if content.dtype.names else path.stem
             arrays = with_fields(name, content)

@@ -5,7 +5,19 @@ from collections.abc import Sequence
 from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
 from modeler.logs.mapping import Entry
-from modeler.logs.units import ANGLE, CURRENT, FORCE, HEAT, LENGTH, NONE, TIME, TORQUE, Powers, Unit
+from modeler.logs.units import (
+    ANGLE,
+    CURRENT,
+    FORCE,
+    HEAT,
+    LENGTH,
+    NONE,
+    TIME,
+    TORQUE,
+    VOLTAGE,
+    Powers,
+    Unit,
+)
 
 _MOTION = {"q": 0, "qc": 0, "qd": 1, "qdd": 2}  # times that time is divided by
 
@@ -19,8 +31,8 @@ def si_unit(own: str, entry: Entry, unit: Unit, joints: Sequence[JointSpec]) -> 
     wanted, what, example = _wanted(own, joints)
     if wanted is None:
         return unit
-    if own.startswith("current") and unit.powers == NONE:
-        return unit
+    if wanted == CURRENT and unit.powers in (NONE, VOLTAGE):
+        return unit  # drive units: what the drive gain is of
     found = unit.as_quantity(wanted)
     if found is None:
         also = "; a current is called current<j>" if unit.powers == CURRENT else ""
@@ -41,7 +53,7 @@ def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, 
         turns = joint.unit == "rad"
         kind = f"of joint {joint.name}, which is {joint.kind}"
         if own == f"current{joint.name}":
-            return CURRENT, f"a current {kind}", "mA, A, %"
+            return CURRENT, f"a current {kind}", "mA, A, V, %"
         if own == f"tau{joint.name}" and joint.effort_unit == "N m":
             return TORQUE, f"a torque {kind}", "N m, mN m, kg cm, lb in"
         if own == f"tau{joint.name}":

@@ -29,11 +29,15 @@ class Table:
     """
 
     def __init__(
-        self, path: Path, mapping: LogMap | None = None, joints: Sequence[JointSpec] = ()
+        self,
+        path: Path,
+        mapping: LogMap | None = None,
+        joints: Sequence[JointSpec] = (),
+        any_topic: bool = False,
     ) -> None:
         self.path = path
         mapping = mapping or LogMap()
-        self.found: Columns = read_columns(path, Wanted(mapping.topic))
+        self.found: Columns = read_columns(path, Wanted(mapping.topic, any_topic))
         self.rows: int = self.found.rows
         self._joints = joints
         self._columns: dict[str, Column] = {}
@@ -124,6 +128,16 @@ class Table:
         if column == name and name in self._entries and name not in self._columns:
             column = self._entries[name].columns[0]
         return name if column == name else f"{column} ({name})"
+
+    def unit(self, name: str) -> str:
+        """What a column is known to be converted from; "" if nobody said."""
+        unit = self._units[name]
+        return "" if unit is None else unit.text
+
+    def in_unit(self, name: str, values: np.ndarray) -> np.ndarray:
+        """SI values of a column in the unit that it is known to be in."""
+        unit = self._units[name]
+        return values if unit is None else values / unit.factor - unit.zero
 
     def source(self, name: str) -> str:
         """The same, ours first: `tau2`, or `tau2 from moment_b`."""

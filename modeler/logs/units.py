@@ -23,10 +23,12 @@ CURRENT: Powers = (0, 0, 0, 0, 1, 0)
 HEAT: Powers = (0, 0, 0, 0, 0, 1)
 FORCE: Powers = (1, 1, -2, 0, 0, 0)
 TORQUE: Powers = (2, 1, -2, 0, 0, 0)
+VOLTAGE: Powers = (2, 1, -3, 0, -1, 0)
 
 _KINDS: Mapping[Powers, str] = {
     NONE: "a plain number", LENGTH: "a length", MASS: "a mass", TIME: "a time", ANGLE: "an angle",
     CURRENT: "a current", HEAT: "a temperature", FORCE: "a force", TORQUE: "a torque",
+    VOLTAGE: "a voltage",
 }  # fmt: skip
 
 
@@ -87,7 +89,7 @@ _TABLE: Mapping[str, Unit] = MappingProxyType({
     "rev": _unit(2.0 * math.pi, ANGLE), "turn": _unit(2.0 * math.pi, ANGLE),
     "arcmin": _unit(math.pi / 10800.0, ANGLE), "arcsec": _unit(math.pi / 648000.0, ANGLE),
     "rpm": _unit(math.pi / 30.0, (0, 0, -1, 1, 0, 0)),
-    "A": _unit(1.0, CURRENT),
+    "A": _unit(1.0, CURRENT), "V": _unit(1.0, VOLTAGE),
     "N": _unit(1.0, FORCE), "Nm": _unit(1.0, TORQUE), "kgf": _unit(GRAVITY, FORCE),
     "kp": _unit(GRAVITY, FORCE), "lbf": _unit(_POUND * GRAVITY, FORCE),
     "ozf": _unit(_POUND / 16.0 * GRAVITY, FORCE),
@@ -98,7 +100,7 @@ _TABLE: Mapping[str, Unit] = MappingProxyType({
 _PREFIXES = {
     "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
 }  # fmt: skip
-_PREFIXED = {"m", "g", "s", "rad", "deg", "A", "N", "Nm", "Hz"}
+_PREFIXED = {"m", "g", "s", "rad", "deg", "A", "V", "N", "Nm", "Hz"}
 _FACTOR = re.compile(r"\s*([*/·.]?)\s*([A-Za-zµμ°%]+|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?:\^?(-?\d))?")
 
 EXAMPLES = "deg, rev, rpm, deg/s, mm, ms, us, N m, mN m, kN, kg cm, lb in, mA, A, rev/8192"

@@ -23,8 +23,7 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     Args:
         path: a file of any format of `modeler.logs`.
         spec: the robot's manifest; it names the joints.
-        mapping: which column of the file is which of these, and in which unit; else the file has
-            these names and SI units.
+        mapping: names and units of the file's columns; without it they are ours and SI.
 
     Raises:
         DataError: the file cannot be read, a needed column is missing or not numeric, time does
@@ -37,14 +36,13 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     q = np.column_stack([_position(table, joint, spec) for joint in spec.joints])
     torques = [_torque(table, joint, spec) for joint in spec.joints]
     tau = np.column_stack([values for values, _ in torques])
-    qd = _optional(table, "qd", spec, notes)
     log = Log(
         name=path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
         q=q,
         tau=tau,
-        qd=qd,
+        qd=_optional(table, "qd", spec, notes),
         qdd=_optional(table, "qdd", spec, notes),
         commanded=_optional(table, "qc", spec, notes),
         segment=_segment(table),

@@ -1,30 +1,41 @@
-"""The page of a model's history: the error after every effect that was added."""
+"""The page of a model's history: the error after every effect that was added, and the values."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from modeler.diagnose.sentences import percent
-from modeler.fit import Addition
-from modeler.pages.sheet import Code, Figure, Items, Origin, Section, Sheet, write_page
-from modeler.pictures.picture import BLUE, ORANGE, Bars, Panel, Picture, Style
+from modeler.effects import Effect, effect_named
+from modeler.fit import Addition, IdentifiedModel
+from modeler.pages.sheet import (
+    Block,
+    Cell,
+    Code,
+    Figure,
+    Items,
+    Lead,
+    Origin,
+    Section,
+    Sheet,
+    Table,
+    write_page,
+)
+from modeler.pages.values import added_names, chosen, joints_table, shapes_table, values_table
+from modeler.pages.waterfall_picture import joints_picture, step_name, waterfall_picture
+from modeler.robot import robot_from_text
 
 
 def write_additions(
     path: Path,
-    robot: str,
-    history: Sequence[Addition],
+    model: IdentifiedModel,
     left_out: Sequence[str] = (),
     origin: Origin | None = None,
     following: Sequence[str] = (),
 ) -> Path:
-    """Write the page of a model's history: the error after every effect that was added.
+    """Write the page of a model's history: the error after every effect, joint by joint; values.
 
     Args:
         path: an `.html` file, or a folder, which then gets `improved.html`.
-        robot: name.
-        history: of the model.
+        model: with its history.
         left_out: effects that were not added, and why.
         origin: model, logs, and whether some were held out.
         following: commands to go on with.
@@ -32,54 +43,128 @@ def write_additions(
     Raises:
         ModelerError: the place cannot be written.
     """
+    history, robot = model.history, model.spec.robot
     held, last = history[-1].held_out, history[-1].error
     fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
-    sections = [Section("The error falls", [Figure(waterfall_picture(history))])]
-    if left_out:
-        sections.append(Section("Left out", [Items([("", line) for line in left_out])]))
-    sections.append(
-        Section("To do this again, in this order", [Code(_again(step)) for step in history[1:]])
-    )
+    several = len(history[-1].joints) > 1
     sheet = Sheet(
         title=f"{robot}: effects added",
-        headline=(percent(last), f"error left of {percent(history[0].error)}"),
-        sections=sections,
+        headline=(percent(last), f"error left of {percent(history[0].error)}"
+                  + (", rms over the joints" if several else "")),
+        sections=_sections(model, left_out),
         origin=origin or Origin(robot, held, bool(held)),
-        facts=[("Effects", ", ".join(s.effect for s in history[1:])), ("Data", fact)],
+        facts=_facts(model, fact, left_out),
         next=following,
+        provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
         command="add",
-    )
+    )  # fmt: skip
     return write_page(path, sheet, "improved.html")
+
+
+def _facts(
+    model: IdentifiedModel, data: str, left_out: Sequence[str]
+) -> list[tuple[str, str]]:  # fmt: skip
+    history = model.history
+    facts = [("Effects", ", ".join(s.effect for s in history[1:]) or "none"), ("Data", data)]
+    if len(history) > 1:
+        start, end = (_errors(step) for step in (history[0], history[-1]))
+        most = max(end, key=lambda name: start.get(name, 0.0) - end[name], default=None)
+        if most is not None:
+            facts.append(("Gains most", f"joint {most}: {percent(start.get(most, 0.0))} \u2192 "
+                          f"{percent(end[most])}"))  # fmt: skip
+    if left_out:
+        facts.append(("Refused", f"{len(left_out)}, see below"))
+    if model.fit.verdict is not None:
+        facts.append(("The new fit", model.fit.verdict.line))
+    return facts
+
+
+def _errors(step: Addition) -> dict[str, float]:
+    """By joint, with the effect."""
+    return {name: after for name, (_, after) in step.joints.items()}
+
+
+def _sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
+    history = model.history
+    sections = [Section("The error falls", [Figure(waterfall_picture(history))])]
+    if history[-1].joints:
+        units = {joint.name: joint.effort_unit for joint in model.spec.joints}
+        sections.append(Section("Joint by joint", [
+            _by_joint(history), Figure(joints_picture(history, units), titled=False),
+        ]))  # fmt: skip
+    sections.append(Section("What was added", _added(model)))
+    if left_out:
+        sections.append(Section("What was refused, and why", [_refused(left_out)]))
+    sections.append(Section("All values", [
+        joints_table(model.fit),
+        values_table(model.fit.parameters, model.spec.base,
+                     "SI units; sigma is one standard deviation. The bar is full at 30 %."),
+    ]))  # fmt: skip
+    again = [Code(_again(step)) for step in history[1:]]
+    if again:
+        sections.append(Section("To do this again, in this order", again))
+    return sections
+
+
+def _by_joint(history: Sequence[Addition]) -> Table:
+    """Errors before, and after each addition."""
+    names = list(history[-1].joints)
+    rows: list[list[str | Cell]] = []
+    for name in names:
+        errors = [_errors(step).get(name) for step in history]
+        top = max((e for e in errors if e is not None), default=0.0) or 1.0
+        cells = [
+            Cell("-", "bar") if e is None
+            else Cell(percent(e) + (" *" if name in step.changed else ""), "bar", e / top)
+            for e, step in zip(errors, history, strict=True)
+        ]  # fmt: skip
+        rows.append([name, *cells])
+    return Table(
+        ["joint", *(Cell(step_name(step), "bar") for step in history)], rows,
+        "Relative error of each joint, in parts of its own rms torque or force, on "
+        + (f"the held-out logs {', '.join(history[-1].held_out)}" if history[-1].held_out
+           else "parts of the fitted logs, each left out in turn")
+        + ". * a change beyond chance, paired over blocks of time.",
+    )  # fmt: skip
+
+
+def _added(model: IdentifiedModel) -> list[Block]:
+    catalogue = robot_from_text(model.robot_text, "robot").catalogue
+    steps = [step for step in model.history if step.effect]
+    if not steps:
+        return [Lead("Nothing: the model is as it was fitted.")]
+    found = {step.effect: effect_named(step.effect, catalogue) for step in steps}
+    blocks: list[Block] = [
+        Items([(f"{step_name(step)[2:]}:", effect.title)
+               for step in steps if (effect := found[step.effect]) is not None])
+    ]  # fmt: skip
+    own = chosen(model.fit.parameters, added_names(model))
+    if own:
+        caption = (
+            "SI units; sigma is one standard deviation, and knows that shapes were fitted too."
+        )
+        blocks.append(values_table(own, model.spec.base, caption))
+    shapes = shapes_table([(s, _units(s, found[s.effect], model)) for s in steps])
+    return blocks if shapes is None else [*blocks, shapes]
+
+
+def _units(step: Addition, effect: Effect | None, model: IdentifiedModel) -> dict[str, str]:
+    """Of the shapes of a step, by name; "" for a plain number."""
+    linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
+    shapes = [] if effect is None else [shape for form in effect.forms for shape in form.shapes]
+    units = {shape.name: shape.unit(linear) for shape in shapes}
+    return {name: "" if units.get(name, "1") == "1" else units[name] for name in step.shapes}
+
+
+def _refused(left_out: Sequence[str]) -> Items:
+    """The effect bold, the reason behind it."""
+    lines = []
+    for line in left_out:
+        what, _, why = line.removeprefix("left out: ").partition(" (")
+        lines.append((f"{what}:", why.removesuffix(")")) if why else ("", line))
+    return Items(lines)
 
 
 def _again(step: Addition) -> str:
     joint = f" --joint {step.joint}" if step.joint else ""
     return f"modeler add MODEL {step.effect}{joint} LOG... --out MODEL"
-
-
-def waterfall_picture(history: Sequence[Addition]) -> Picture:
-    """Held-out and training error after every effect."""
-    names = tuple(
-        (f"+ {s.effect}" + (f" @{s.joint}" if s.joint else "")) if s.effect else "as fitted"
-        for s in history
-    )
-    held = np.array([100.0 * s.error for s in history])
-    fitted = np.array([100.0 * s.training_error for s in history])
-    label = "error on held-out logs [%]" if history[-1].held_out else "error on fitted logs [%]"
-    panels = (
-        Panel("held out", "", label,
-              (Bars("held out", names, held, tuple(f"{e:.2f}" for e in held), Style(BLUE)),)),
-        Panel("fitted", "", "error on fitted logs [%]",
-              (Bars("fitted", names, fitted, tuple(f"{e:.2f}" for e in fitted), Style(ORANGE)),)),
-    )  # fmt: skip
-    return Picture(
-        name="waterfall",
-        title="Error after every effect",
-        caption="Relative error, root mean square over the joints. Left the error that counts: "
-        "motion that was never fitted. `modeler add MODEL undo LOG... --out MODEL` takes the last "
-        "one back.",
-        panels=(panels,),
-        heights=(1.0,),
-        widths=(0.5, 0.5),
-        height=380,
-    )

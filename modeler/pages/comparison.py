@@ -97,9 +97,10 @@ def _sections(comparison: Comparison) -> list[Section]:
     table = Table(
         _HEAD,
         [_table_row(item, comparison) for item in comparison.joints],
-        "Relative error is the norm of measured minus predicted torque over the norm of the "
-        "measured torque, over the samples that count. R\u00b2 compares with the best constant. "
-        + method,
+        "Relative error is the norm of measured minus predicted torque (force) over the norm of "
+        "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
+        "with the best constant. Sigma is the rms standard deviation of the prediction by the "
+        "covariance of the fit. " + method,
     )
     found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.compare.overlay_picture import overlay_picture
-from modeler.compare.pictures import write_each
 from modeler.pages.sheet import (
     Cell,
     Figure,
@@ -15,6 +14,7 @@ from modeler.pages.sheet import (
     Table,
     write_page,
 )
+from modeler.pictures.files import write_files
 from modeler.pictures.picture import Picture
 from modeler.scoring.contest import DOUBT, Contest, JointContest
 from modeler.scoring.contest_text import contest_sentences, headline_of, percent
@@ -66,7 +66,7 @@ def write_overlays(
     Raises:
         ModelerError: the folder cannot be written.
     """
-    return write_each(folder, [_picture(found, item) for item in found.joints], progress)
+    return write_files(folder, [_picture(found, item) for item in found.joints], progress)
 
 
 def _fact(found: Contest, k: int) -> str:
@@ -105,7 +105,7 @@ def _picture(found: Contest, item: JointContest) -> Picture:
 
 def _errors(found: Contest) -> Table:
     top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
-    rows = [
+    rows: list[list[str | Cell]] = [
         [
             Cell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
             *(Cell(percent(e), "bar", e / top) for e in item.errors),
@@ -126,7 +126,7 @@ def _errors(found: Contest) -> Table:
 
 
 def _sizes(found: Contest) -> Table:
-    rows = [
+    rows: list[list[str | Cell]] = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in found.joints
     ]

@@ -8,7 +8,9 @@ import numpy as np
 from modeler.compare.band import DEVIATIONS
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import Step
+from modeler.diagnose.sentences import percent
 from modeler.pages.bins import bins_of
+from modeler.pages.sheet import Cell, Table
 from modeler.pages.shown import Shown
 from modeler.pages.view import View, view_of
 from modeler.pictures.picture import (
@@ -19,7 +21,6 @@ from modeler.pictures.picture import (
     SKY,
     VERMILLION,
     Band,
-    Bars,
     Curve,
     Means,
     Panel,
@@ -174,29 +175,20 @@ def rivals_of(step: Step) -> list[Judged]:
     return [rival for rival in step.rivals if rival.candidate.joint == step.pick.joint]
 
 
-def rivals_picture(step: Step) -> Picture:
-    """What the best effects on the same joint explain within the logs, side by side."""
+def rivals_table(step: Step) -> Table:
+    """What the best effects on the same joint explain within the logs, below one another."""
     items = [step.judged, *rivals_of(step)[:7]]
-    names = tuple(
-        i.candidate.effect.id.replace("_", "\n")
-        + (f"\n@{i.candidate.joint}" if i.candidate.joint else "")
-        for i in items
-    )
-    gains = np.array([100.0 * max(0.0, i.gain) for i in items])
-    bars = Bars("gain", names, gains, tuple(f"{g:.0f}" for g in gains), Style(BLUE))
-    return Picture(
-        name=f"rivals_{step.pick.effect.id}_{step.pick.joint or 'robot'}",
-        title="Why not another effect",
-        caption=(
-            "Share of the error variance of its own joints that each effect explains within these "
-            "logs, cross-validated. Only effects on the same joint are rivals; one on another "
-            "joint is perhaps the next to be found."
-        ),
-        panels=((Panel("", "", "explained [%]", (bars,)),),),
-        heights=(1.0,),
-        widths=(1.0,),
-        height=340,
-    )
+    rows: list[list[str | Cell]] = [
+        [item.candidate.effect.id, Cell(percent(gain), "bar", gain)]
+        for item in items
+        for gain in [max(0.0, item.gain)]
+    ]
+    return Table(
+        ["Why not another effect", Cell("explains", "bar")], rows,
+        "Share of the error variance of its own joints that each effect explains within these "
+        "logs, cross-validated. Only effects on the same joint are rivals; one on another joint is "
+        "perhaps the next to be found.",
+    )  # fmt: skip
 
 
 def scatter(

@@ -119,7 +119,7 @@ def tangled(model: IdentifiedModel) -> list[tuple[str, str, float]]:
 
 
 def _pairs(pairs: Sequence[tuple[str, str, float]]) -> Table:
-    rows = [[a, Cell(b, "text"), f"{value:+.3f}"] for a, b, value in pairs]
+    rows: list[list[str | Cell]] = [[a, Cell(b, "text"), f"{value:+.3f}"] for a, b, value in pairs]
     return Table(
         ("parameter", Cell("and", "text"), "correlation"), rows,
         "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair better "

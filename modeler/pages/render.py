@@ -57,7 +57,9 @@ def _environment() -> jinja2.Environment:
         lstrip_blocks=True,
         autoescape=True,
     )
-    made.globals.update(asset=_asset, plotly=_plotly, cells=cells, keys=keys)
+    made.globals.update(
+        asset=_asset, plotly=_plotly, cells=cells, keys=keys, json=script_json, about=None
+    )
     made.filters["share"] = _share
     return made
 

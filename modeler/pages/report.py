@@ -4,10 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.diagnose import Diagnosis, Finding
+from modeler.diagnose.search import Step
 from modeler.diagnose.sentences import blind_spots, percent, unit, where
 from modeler.effects import effect_named
 from modeler.pages.event_pictures import play_picture, push_picture
-from modeler.pages.evidence import evidence_picture, rivals_picture
+from modeler.pages.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.pages.sheet import (
     Block,
     Cell,
@@ -21,6 +22,7 @@ from modeler.pages.sheet import (
     write_page,
 )
 from modeler.pages.shown import figures, shown
+from modeler.pages.torque_picture import torque_picture
 
 
 def write_diagnosis(
@@ -90,24 +92,58 @@ def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
 
 
 def _runner_up(diagnosis: Diagnosis) -> str:
-    if not diagnosis.rivals:
+    """Of the same joint: an effect on another one is no rival."""
+    first = diagnosis.effects[0]
+    rivals = [gain_of for gain_of in diagnosis.rivals if gain_of[1] == first.joint]
+    if not rivals:
         return "nothing"
-    effect, joint, gain = diagnosis.rivals[0]
+    effect, joint, gain = rivals[0]
     share = percent(max(0.0, gain))
     return f"nothing; the runner-up is {effect} on {where(joint)}, {share} within these logs"
 
 
+def by_error(diagnosis: Diagnosis) -> list[Finding]:
+    """All that was found, refinements too, the largest error before first."""
+    found = [*diagnosis.effects, *diagnosis.refinements]
+    return sorted(found, key=lambda finding: -finding.error_before)
+
+
 def _sections(diagnosis: Diagnosis) -> list[Section]:
-    found = [Section("Effects", [_table(diagnosis)]), Section("Joints", [_joints(diagnosis)])]
-    for step in diagnosis.search.steps:
-        item = shown(diagnosis.search, step)
-        blocks: list[Block] = [Lead(figures(item)), Figure(evidence_picture(item))]
-        if step is diagnosis.search.steps[0]:
-            blocks.append(Figure(rivals_picture(step)))
-        found.append(Section(_name(step.pick.effect.id, step.pick.joint), blocks))
+    found = [Section("Effects", _table(diagnosis)), Section("Joints", [_joints(diagnosis)])]
+    order = [(finding.effect, finding.joint) for finding in by_error(diagnosis)]
+    steps = sorted(
+        diagnosis.search.steps,
+        key=lambda step: order.index(step.pick.key) if step.pick.key in order else len(order),
+    )
+    ids: list[str] = []
+    for step in steps:
+        own = _id(*step.pick.key)
+        ids.append(own)  # two ripples of a joint differ by their orders only
+        again = ids.count(own)
+        found.append(_shown(diagnosis, step, own if again == 1 else f"{own}-{again}"))
     found += _events(diagnosis)
     found.append(Section("What these logs cannot show", [_blind(diagnosis)]))
     return found
+
+
+def _shown(diagnosis: Diagnosis, step: Step, own: str) -> Section:
+    """One effect: what it explains, before and after, and what else could stand for it."""
+    item = shown(diagnosis.search, step)
+    effect, joint = step.pick.effect.id, step.pick.joint
+    blocks: list[Block] = [
+        Lead(figures(item)), Figure(torque_picture(item)), Figure(evidence_picture(item)),
+    ]  # fmt: skip
+    if rivals_of(step):
+        blocks.append(rivals_table(step))
+    else:
+        blocks.append(
+            Lead(f"No other effect of the catalogue explains anything of {where(joint)}.")
+        )
+    return Section(_name(effect, joint), blocks, own)
+
+
+def _id(effect: str, joint: str | None) -> str:
+    return f"effect-{effect}-{joint or 'robot'}"
 
 
 def _events(diagnosis: Diagnosis) -> list[Section]:
@@ -129,28 +165,40 @@ def _name(effect: str, joint: str | None) -> str:
     return f"{effect}, {where(joint)}"
 
 
-def _table(diagnosis: Diagnosis) -> Block:
-    findings = [*diagnosis.effects, *diagnosis.refinements]
+def _table(diagnosis: Diagnosis) -> list[Block]:
+    findings = by_error(diagnosis)
     if not findings:
-        return Lead(diagnosis.sentences[0])
+        return [Lead(diagnosis.sentences[0])]
     head = (
-        "effect", Cell("joint", "text"), Cell("values", "text"), "error before", "error after",
+        "effect", Cell("joint", "text"), Cell("values", "values"), "error before", "error after",
         Cell("gain", "bar"), Cell("why", "why"),
     )  # fmt: skip
-    return Table(head, [_row(finding) for finding in findings])
+    drawn = {step.pick.key for step in diagnosis.search.steps}
+    rows = [_row(finding, (finding.effect, finding.joint) in drawn) for finding in findings]
+    return [Table(head, rows, _ERRORS)]
 
 
-def _row(finding: Finding) -> list[str | Cell]:
+_ERRORS = (
+    "The largest error first. Errors are those of the joint that is named, in parts of its own rms "
+    "torque or force; of an effect that several joints feel, of all of them, each in units of what "
+    "is left of it, so that N m and N are never added. Before and after: without the effect and "
+    "with it, all others that were named before it in the model. Gain: share of the residual's "
+    "variance that is gone."
+)
+
+
+def _row(finding: Finding, drawn: bool) -> list[str | Cell]:
     values = "; ".join(
         f"{name} = {value:.4g}"
         + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
         + unit(finding, name)
         for name, value in finding.parameters.items()
     )
+    name = finding.effect + (" (refinement)" if finding.refines else "")
     return [
-        finding.effect + (" (refinement)" if finding.refines else ""),
+        Cell(name, "text", link=_id(finding.effect, finding.joint) if drawn else ""),
         Cell(finding.joint or "all", "text"),
-        Cell(values, "text"),
+        Cell(values, "values"),
         percent(finding.error_before),
         percent(finding.error_after),
         Cell(percent(finding.gain), "bar", max(0.0, finding.gain)),
@@ -177,7 +225,8 @@ def _joints(diagnosis: Diagnosis) -> Table:
     return Table(
         head,
         rows,
-        "Shares of the torque's variance with the effects in. Systematic is what smooth functions "
+        "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
+        "the effects in. Systematic is what smooth functions "
         "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
     )
 

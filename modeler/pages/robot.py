@@ -13,6 +13,7 @@ def robot_html(skeleton: Skeleton, posture: Posture) -> str:
     return render(
         "robot",
         title=f"{robot.name}: skeleton",
+        about={"command": "show", "title": f"{robot.name}: skeleton", "verdict": robot.title},
         robot=robot,
         notes=" ".join(robot.notes.split()),
         posture=posture.note,

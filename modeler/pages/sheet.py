@@ -4,8 +4,11 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from modeler.core.files import page_place, write_atomically
+from modeler.core.formula import Formula
+from modeler.pages.index import write_index
 from modeler.pages.render import render
 from modeler.pictures.picture import Picture
 
@@ -90,6 +93,14 @@ class Figure:
 
 
 @dataclass(frozen=True)
+class Formulas:
+    """Formulas below one another, each in pieces between which a line may break, and its unit."""
+
+    rows: Sequence[tuple[Sequence[Formula], str]]
+    block: str = "formulas"
+
+
+@dataclass(frozen=True)
 class Code:
     """Commands or text to copy, as it is."""
 
@@ -97,7 +108,7 @@ class Code:
     block: str = "code"
 
 
-Block = Table | Lead | Items | Verdicts | Figure | Code
+Block = Table | Lead | Items | Verdicts | Figure | Formulas | Code
 
 
 @dataclass(frozen=True)
@@ -152,20 +163,35 @@ class Sheet:
 
 def page(sheet: Sheet) -> str:
     """The page as text; its security policy forbids any network access."""
-    return render("sheet", sheet=sheet)
+    return render("sheet", sheet=sheet, about=_about(sheet))
+
+
+def _about(sheet: Sheet) -> dict[str, Any]:
+    """What the index of a folder says of the page."""
+    return {
+        "command": sheet.command,
+        "title": sheet.title,
+        "figure": sheet.headline[0],
+        "verdict": sheet.headline[1],
+        "model": sheet.origin.model,
+        "logs": list(sheet.origin.logs),
+        "held_out": sheet.origin.held_out,
+    }
 
 
 def write_page(path: Path, sheet: Sheet, name: str) -> Path:
     """Write the page; returns the path of the file written.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `name`.
+        path: an `.html` file, or a folder, which then gets `name` and an index of its pages.
         sheet: what it says.
         name: of the file in a folder.
 
     Raises:
         ModelerError: the place cannot be written.
     """
-    path = page_place(Path(path), name)
-    write_atomically(path, page(sheet))
-    return path
+    place = page_place(Path(path), name)
+    write_atomically(place, page(sheet))
+    if place != Path(path):
+        write_index(place.parent)
+    return place

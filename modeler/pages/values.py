@@ -1,6 +1,6 @@
 """Tables of fitted values: parameters with sigma, what each is the sum of, errors by joint."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from modeler.core.contract import BaseSpec, TermSpec
 from modeler.diagnose.values import told_spread
@@ -22,20 +22,20 @@ def values_table(
         caption: below the table.
     """
     sums = {b.name: relation(b) for b in base}
-    rows = [
+    rows: list[list[str | Cell]] = [
         [
             p.name,
             "set aside" if p.sigma is None else f"{p.value:.5g}",
-            "" if p.sigma is None else told_spread(p.value, p.sigma, p.interval).strip() or "0",
+            "" if p.sigma is None else _plain(told_spread(p.value, p.sigma, p.interval)) or "0",
             _share(p),
             Cell(p.unit, "text"),
-            Cell(sums.get(p.name, ""), "text"),
+            Cell(sums.get(p.name, ""), "values"),
         ]
         for p in parameters
     ]
     head = (
         "parameter", "value", "sigma", Cell("% sigma", "bar"), Cell("unit", "text"),
-        Cell("is the sum of", "text"),
+        Cell("is the sum of", "values"),
     )  # fmt: skip
     return Table(head, rows, caption)
 
@@ -76,7 +76,7 @@ def _share(parameter: ParameterEstimate) -> Cell:
 def joints_table(fit: FitResult) -> Table:
     """Errors by joint on the logs that were fitted, each in parts of the joint's own torque."""
     top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
-    rows = [
+    rows: list[list[str | Cell]] = [
         [
             joint.name,
             Cell("-", "bar") if joint.relative_error is None
@@ -101,31 +101,40 @@ def added_names(model: IdentifiedModel) -> set[str]:
     return {b.name for b in model.spec.base if b.column_of in own}
 
 
-def shapes_table(history: Sequence[Addition], units: dict[tuple[str, str], str]) -> Table | None:
+def shapes_table(steps: Sequence[tuple[Addition, Mapping[str, str]]]) -> Table | None:
     """Shapes of the effects that were added; None if they have none.
 
     Args:
-        history: of a model.
-        units: by effect and name of the shape; "" for a plain number.
+        steps: of a model's history, each with the units of its shapes by name.
     """
-    rows = [
+    rows: list[list[str | Cell]] = [
         [
             step.effect,
             Cell(step.joint or "all", "text"),
             Cell(name, "text"),
             f"{value:.5g}",
-            told_spread(value, step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name))
-            .strip() or "-",
-            Cell(units.get((step.effect, name), ""), "text"),
+            _spread(step, name),
+            Cell(units[name], "text"),
         ]
-        for step in history
+        for step, units in steps
         for name, value in step.shapes.items()
-    ]  # fmt: skip
+    ]
     if not rows:
         return None
-    head = ("effect", Cell("joint", "text"), Cell("shape", "text"), "value", "sigma",
-            Cell("unit", "text"))  # fmt: skip
+    head = (
+        "effect", Cell("joint", "text"), Cell("shape", "text"), "value", "sigma",
+        Cell("unit", "text"),
+    )  # fmt: skip
     return Table(head, rows, "Shapes enter the torque not as factors; they were searched for.")
+
+
+def _spread(step: Addition, name: str) -> str:
+    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
+    return _plain(told_spread(step.shapes[name], sigma, interval)) or "-"
+
+
+def _plain(spread: str) -> str:
+    return spread.strip().removeprefix("+- ").removeprefix("(").removesuffix(")")
 
 
 def chosen(

@@ -53,7 +53,7 @@ def keys(picture: Picture) -> list[tuple[str, str, str]]:
     for panel in (panel for row in plotted(picture)[0] for panel in row):
         for series in panel.series if len(panel.series) > 1 else ():
             if not isinstance(series, Heat):
-                mark = (series.label, series.style.color, _mark(series))
+                mark = (series.label, _shade(series), _mark(series))
                 found.setdefault(series.label, mark)
         for span in panel.spans:
             found.setdefault(span.label, (span.label, span.color, "span"))
@@ -66,6 +66,15 @@ def _filled(panel: Panel) -> bool:
 
 def _cells(panel: Panel) -> bool:
     return any(isinstance(series, Heat) for series in panel.series)
+
+
+def _shade(series: Curve | Points | Means | Band | Bars) -> str:
+    """The colour; of a band, whose ground shines through, mixed with white."""
+    style = series.style
+    if not isinstance(series, Band):
+        return style.color
+    parts = (int(style.color[k : k + 2], 16) for k in (1, 3, 5))
+    return "#" + "".join(f"{round(255 - style.opacity * (255 - part)):02x}" for part in parts)
 
 
 def _mark(series: Series) -> str:

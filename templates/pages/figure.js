@@ -2,7 +2,7 @@
 // `width` the pixels that there are. Panels stand on the grid that the picture states; below one
 // another where that leaves them too narrow.
 const NARROW = 280, GRID = "#e4e4e4", TEXT = "#222";
-const LEFT = 62, RIGHT = 14, TOP = 34, BOTTOM = 46, BETWEEN = 74, BESIDE = 72, SHARED = 34;
+const LEFT = 62, RIGHT = 14, TOP = 34, BAR = 18, BOTTOM = 46, BETWEEN = 74, BESIDE = 72, SHARED = 34;
 
 // Names of joints and effects are text: nothing in them is a tag.
 const plain = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/\n/g, "<br>");
@@ -19,6 +19,8 @@ const wrapped = (text, width) => {
 
 // Where each panel stands: [panel, left, right, top, bottom], pixels; and the height of it all.
 const places = (picture, width) => {
+  const names = picture.rows.flat().flatMap((panel) => panel.series.flatMap((s) => s.names || []));
+  const extra = 15 * (Math.max(1, ...names.map((name) => name.split("\n").length)) - 1);
   const columns = picture.rows[0].length, room = width - RIGHT;
   const whole = picture.widths.reduce((a, b) => a + b), gaps = LEFT + (columns - 1) * BESIDE;
   const wide = picture.widths.map((share) => (room - gaps) * share / whole);
@@ -33,14 +35,14 @@ const places = (picture, width) => {
       const lines = wrapped(panel.title, room - LEFT).split("\n").length;
       top += 16 * (lines - 1);
       found.push([panel, LEFT, room, top, top + tall]);
-      top += tall + BETWEEN;
+      top += tall + BETWEEN + extra;
     }
     return { found, height: top - BETWEEN + BOTTOM, apart: true };
   }
-  const between = picture.shared ? SHARED : BETWEEN;
-  const inner = picture.height - TOP - BOTTOM - (picture.rows.length - 1) * between;
+  const between = picture.shared ? SHARED : BETWEEN + extra, rows = picture.rows.length;
+  const inner = picture.height - TOP - BAR - BOTTOM - extra - (rows - 1) * between;
   const sum = picture.heights.reduce((a, b) => a + b);
-  let top = TOP;
+  let top = TOP + BAR; // the buttons of plotly.js stand above the titles
   picture.rows.forEach((row, i) => {
     const tall = inner * picture.heights[i] / sum;
     let left = LEFT;

@@ -96,6 +96,20 @@ DAMAGED = [
     row("model: twice, no log", "refused", "compare m.json m.json", "m.json", ".csv"),
 ]  # fmt: skip
 
+GENERATE = "generate bad.json --out c"
+
+EMITTED = [
+    row("model: its C", "works", "generate m.json --out c"),
+    model("its C, a value that was changed", "refused", set_at(*VALUE, to=9.0), CHANGED,
+          run=GENERATE),
+    model("its C, cut off", "refused", text(lambda t: t[: len(t) // 2]), "bad.json", run=GENERATE),
+    model("its C, of another robot text", "refused",
+          set_at("robot_text", to=lambda t: t.replace("9.81", "1.62")), CHANGED, run=GENERATE),
+    row("model: its C with other effects", "refused", "generate m.json --effects offset --out c",
+        "--effects"),
+    row("model: a log for C", "refused", "generate a.csv --out c", "a.csv"),
+]  # fmt: skip
+
 EDITED = [
     model("kind", "refused", set_at("kind", to="modeler fit"), "bad.json", "not a model file"),
     model("kind missing", "refused", gone("kind"), "bad.json", "not a model file"),
@@ -195,4 +209,4 @@ EDITED = [
           run="add bad.json undo a.csv --out n.json", of="added.json"),
 ]  # fmt: skip
 
-ROWS = [*DAMAGED, *EDITED]
+ROWS = [*DAMAGED, *EMITTED, *EDITED]

@@ -11,8 +11,9 @@ import pytest
 from modeler.cli import main
 from tests.browser.chromium import Chromium
 
-SIZES = [(1280, 900), (400, 800)]
+SIZES = [(1400, 900), (400, 800)]
 
+NAMES = ["diagnosis", "added", "compared"]
 OKABE_ITO = {"#000000", "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"}
 GREYS = {"#9a9a9a"}
 
@@ -25,6 +26,7 @@ class Pages:
     diagnosed: dict[str, Any]
     added: Path
     waterfall: list[dict[str, Any]]
+    compared: Path
 
 
 @pytest.fixture(scope="module")
@@ -41,9 +43,11 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Pages:
     assert main([*words, "--report", place["d.html"], "--json", place["d.json"]]) == 0
     words = ["add", place["m.json"], "load_friction", "--joint", "2", *logs, "--out", place["m2"]]
     assert main([*words, "--report", place["a.html"], "--json", place["a.json"]]) == 0
+    words = ["compare", place["m.json"], logs[2], "--report", str(folder / "c.html")]
+    assert main(words) == 0
     diagnosed = json.loads((folder / "d.json").read_text())
     waterfall = json.loads((folder / "a.json").read_text())["waterfall"]
-    return Pages(folder / "d.html", diagnosed, folder / "a.html", waterfall)
+    return Pages(folder / "d.html", diagnosed, folder / "a.html", waterfall, folder / "c.html")
 
 
 def shown(browser: Chromium, page: Path, size: tuple[int, int]) -> str:
@@ -93,8 +97,27 @@ def test_the_waterfall_is_all_there(browser: Chromium, pages: Pages, size: tuple
     assert "modeler add MODEL load_friction --joint 2 LOG... --out MODEL" in text
 
 
+_TEXTS = (
+    "[...document.querySelectorAll('body *')].filter((e) => e.getBoundingClientRect().width > 0 &&"
+    " !['SCRIPT', 'STYLE'].includes(e.tagName) &&"
+    " [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()))"
+)
+_SMALL = (  # letters of less than 12 pixels
+    f"{_TEXTS}.filter((e) => parseFloat(getComputedStyle(e).fontSize) < 12)"
+    ".map((e) => e.textContent.slice(0, 30))"
+)
+_COVERED = (  # titles of panels and keys that lie on one another
+    "[...document.querySelectorAll('figure')].flatMap((figure) => {"
+    " const boxes = [...figure.querySelectorAll('.annotation-text, .keys button')]"
+    ".map((e) => [e.textContent, e.getBoundingClientRect()]);"
+    " return boxes.flatMap(([a, p], i) => boxes.slice(i + 1).filter(([, q]) =>"
+    " p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1)"
+    ".map(([b]) => `${a} / ${b}`)); })"
+)
+
+
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", ["diagnosis", "added"])
+@pytest.mark.parametrize("name", NAMES)
 def test_a_page_works_alone_at_any_width(
     browser: Chromium, pages: Pages, name: str, size: tuple[int, int]
 ) -> None:
@@ -108,6 +131,11 @@ def test_a_page_works_alone_at_any_width(
     assert wide <= room == size[0]  # tables and pictures are pushed aside, never the page
     headline = browser.value("document.querySelector('.headline').getBoundingClientRect().bottom")
     assert 0 < headline < size[1]  # the verdict is on the first screen
+    command = browser.value("document.querySelector('.next code').getBoundingClientRect().bottom")
+    assert headline < command < size[1]  # and so is the next command
+    assert browser.value(_SMALL) == []
+    assert browser.value(_COVERED) == []
+    assert page.stat().st_size < 1_000_000
     drawn = browser.value(
         "[...document.querySelectorAll('.plot')].map((p) => ["
         "p.querySelectorAll('.main-svg .trace path').length,"
@@ -118,7 +146,31 @@ def test_a_page_works_alone_at_any_width(
         assert marks > 0 and width >= 320
 
 
-@pytest.mark.parametrize("name", ["diagnosis", "added"])
+@pytest.mark.parametrize("size", SIZES)
+def test_a_page_is_legible_in_the_dark(
+    browser: Chromium, pages: Pages, size: tuple[int, int]
+) -> None:
+    """Every text at least 4.5 : 1 against what it stands on; pictures stay on white."""
+    dark = {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}
+    browser.ask("Emulation.setEmulatedMedia", dark)
+    try:
+        shown(browser, pages.compared, size)
+        found = browser.value(
+            f"{_TEXTS}.filter((e) => !e.closest('svg') && !e.closest('.cells')).map((e) => {{"
+            " let b = e; while (b && /, 0\\)$/.test(getComputedStyle(b).backgroundColor))"
+            " b = b.parentElement;"
+            " return [getComputedStyle(e).color, getComputedStyle(b || document.body)"
+            ".backgroundColor]; })"
+        )
+    finally:
+        browser.ask("Emulation.setEmulatedMedia", {"features": []})
+    assert len(found) > 50 and any(luminance(ground) < 0.1 for _, ground in found)
+    for color, ground in {tuple(pair) for pair in found}:
+        high, low = sorted((luminance(color), luminance(ground)), reverse=True)
+        assert (high + 0.05) / (low + 0.05) >= 4.5, (color, ground)
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_the_numbers_of_every_picture_can_be_downloaded(
     browser: Chromium, pages: Pages, tmp_path: Path, name: str
 ) -> None:
@@ -142,7 +194,7 @@ def luminance(color: str) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-@pytest.mark.parametrize("name", ["diagnosis", "added"])
+@pytest.mark.parametrize("name", NAMES)
 def test_colours_are_told_apart(browser: Chromium, pages: Pages, name: str) -> None:
     """Series in colours of Okabe and Ito, or grey; text at least 4.5 : 1 on white."""
     shown(browser, getattr(pages, name), SIZES[0])
@@ -153,7 +205,8 @@ def test_colours_are_told_apart(browser: Chromium, pages: Pages, name: str) -> N
     )
     assert series and {color.lower() for color in series} <= OKABE_ITO | GREYS
     texts = browser.value(
-        "[...document.querySelectorAll('h1,h2,h3,p,li,b,td,th,caption,figcaption,a,.plot text')]"
+        "[...document.querySelectorAll('h1,h2,h3,p,li,b,table:not(.cells) td,th,caption,figcaption,"
+        "a,.plot text')]"
         ".filter((e) => e.textContent.trim() && e.getBoundingClientRect().width > 0)"
         ".map((e) => { const s = getComputedStyle(e);"
         " return e.closest('svg') ? s.fill : s.color; })"
@@ -162,7 +215,7 @@ def test_colours_are_told_apart(browser: Chromium, pages: Pages, name: str) -> N
     assert min(1.05 / (luminance(color) + 0.05) for color in set(texts)) >= 4.5
 
 
-@pytest.mark.parametrize("name", ["diagnosis", "added"])
+@pytest.mark.parametrize("name", NAMES)
 def test_no_page_speaks_of_statistics(browser: Chromium, pages: Pages, name: str) -> None:
     text = shown(browser, getattr(pages, name), SIZES[0]).lower()
     text += str(browser.value("document.title")).lower()

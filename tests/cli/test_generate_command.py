@@ -89,9 +89,10 @@ def test_a_model_that_is_not_usable_is_written_and_told(fitted, usable, capsys, 
         assert "* WARNING. The fit of this model is one that nobody has judged" in header
 
 
-def test_the_header_says_what_the_values_are_of(fitted):
+@pytest.mark.parametrize(("delay", "told"), [(0.0025, "2.5 ms before"), (-0.001, "1 ms after")])
+def test_the_header_says_what_the_values_are_of(fitted, delay, told):
     load_ = ParameterEstimate("M2_load", "kg", 1.5, 0.01, True, "estimated")
-    processing = dataclasses.replace(fitted.fit.processing, delay=0.0025)
+    processing = dataclasses.replace(fitted.fit.processing, delay=delay)
     step = Addition("spring", "2", {}, 0.1, 0.1, (), fitted.robot_text)
     parameters = list(fitted.fit.parameters)
     parameters[2] = dataclasses.replace(parameters[2], value=0.0, sigma=None, status="set aside")
@@ -100,7 +101,7 @@ def test_the_header_says_what_the_values_are_of(fitted):
     text = " ".join(emitted.files["two_link_fitted.h"].replace("\n *", " ").split())
     assert "Values by the method weighted, " in text
     assert "Effects added since the first fit: spring (joint 2)." in text
-    assert "The torques of the logs stood 2.5 ms before the motion" in text
+    assert f"The torques of the logs stood {told} the motion that they belong to" in text
     assert "Without the load that some logs carried: M2_load 1.5 kg." in text
     table = emitted.files["two_link_fitted.c"]
     assert "0.0, /* TWO_LINK_BETA_MY1 [kg m], set aside: the logs do not tell it */" in table
@@ -124,7 +125,10 @@ def test_values_that_belong_to_another_robot_are_refused(fitted):
 def test_what_is_no_model_is_refused_in_one_line(place, capsys, tmp_path):
     (tmp_path / "log.json").write_text("{}")
     for words, told in (
-        ((place, "--effects", "viscous"), "modeler: --effects: of a robot file only; a model has"),
+        (
+            (place, "--effects", "viscous"),
+            "a model, which has the effects that it was fitted with; leave --ef",
+        ),
         ((tmp_path / "log.json",), "JSON, but not a model file; expected the output of"),
         ((tmp_path / "none.json",), "cannot be read (No such file or directory); check the path"),
     ):

@@ -34,7 +34,6 @@ READING = {  # what each command reads; outputs come after it
     "excite": "excite arm.toml --choose 1 --from a.parquet b.csv",
     "fit": "fit arm.toml a.parquet b.csv@0:4 --payload-log load.parquet --out new.json",
     "compare": "compare m.json a.parquet@2:",
-    "free-run": "free-run m.json a.parquet@2:",
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
     "add": "add m.json spring a.parquet --holdout other.parquet@:3 --out new.json",
     "effects": "effects --robot arm.toml",
@@ -44,7 +43,6 @@ READING = {  # what each command reads; outputs come after it
     "demo": "demo --out new",
     "physical": "physical arm.toml",
     "show": "show arm.toml",
-    "completion": "completion bash",
 }
 
 

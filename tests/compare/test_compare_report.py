@@ -17,7 +17,7 @@ import pytest
 from known_defects import first_joint, prediction
 
 from modeler.cli.places import PictureFolder
-from modeler.compare import Comparison, compare, write_pictures
+from modeler.compare import Comparison, JointInfo, compare, write_pictures
 from modeler.compare.pictures import all_pictures
 from modeler.compare.residual_picture import binned_means
 from modeler.core.errors import ModelerError
@@ -215,7 +215,11 @@ def test_page_without_a_judged_joint() -> None:
 def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
     assert write_report(tmp_path / "page.html", small) == tmp_path / "page.html"
     assert write_report(tmp_path / "folder", small) == tmp_path / "folder" / "compare.html"
-    assert sorted(path.name for path in tmp_path.rglob("*.html")) == ["compare.html", "page.html"]
+    assert sorted(path.name for path in tmp_path.rglob("*.html")) == [
+        "compare.html",
+        "index.html",
+        "page.html",
+    ]
     (tmp_path / "plain").write_text("a file")
     with pytest.raises(ModelerError, match="cannot be written"):
         write_report(tmp_path / "plain", small)
@@ -297,3 +301,18 @@ def test_binned_means_cover_the_truth() -> None:
         inside += int(np.sum(np.abs(mean) <= error))
         bins += centre.size
     assert 0.9 < inside / bins < 0.985
+
+
+def test_the_page_of_six_noisy_joints_stays_small() -> None:
+    """White noise compresses least: no robot of six joints has a larger page than this one."""
+    three = prediction(rows=20_000)
+    names = ("q", "qd", "qdd", "measured", "predicted", "used")
+    twice = {name: np.hstack([getattr(three, name)] * 2) for name in names}
+    noise = np.random.default_rng(1).normal(size=twice["measured"].shape)
+    joints = tuple(JointInfo(str(k), "rad", "N m") for k in range(1, 7))
+    six = dataclasses.replace(
+        three, joints=joints, **{**twice, "measured": twice["measured"] + noise}
+    )
+    page = report_html(compare(six))
+    assert len(figures(page)) == 1 + 2 * 6
+    assert len(page.encode()) < 1_000_000

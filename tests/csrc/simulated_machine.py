@@ -1,20 +1,23 @@
 """A simulated machine that a program of ours drives over pipes, and the C folder of its fit."""
 
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from modeler.api import IdentifiedModel, compile_model, derive, fit, generate, observe
+from modeler.api import compile_model, derive, fit, generate, observe
+from modeler.codegen import emit, write_emitted
+from modeler.core.contract import FittedParameter, FittedSpec
 from modeler.robot import Robot
-from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
+from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.simulate.hidden_draw import complete_effects
 from modeler.simulate.integrate import steps_per_tick, tick_function
 from modeler.simulate.limits import motion_limits
 from modeler.simulate.native import FastFunction
 from modeler.simulate.parameters import plant_parameters
-from modeler.simulate.run import _closed_task, _postures, _task
+from modeler.simulate.run import _closed_task, _needed, _postures, _task
 from modeler.simulate.sensors import encoder_resolution, quantised
 
 
@@ -28,20 +31,33 @@ class Driven(NamedTuple):
 
 
 class Machine:
-    """The physics of modeler's simulator, one control tick a call; it shares nothing with the C."""
+    """The physics of modeler's simulator, one control tick a call; it shares nothing with the C.
+
+    Attributes:
+        reference: the commanded motion.
+        joints: how many.
+        moved: (n, joints) the motion about its mean.
+        torque: rms torque that the motion needs, of the joint that needs least.
+        standard: true standard parameters by name.
+        hidden: effects beside them, all their values known.
+    """
 
     def __init__(self, robot: Robot, settings: SimulationSettings) -> None:
         every = motion_limits(robot, settings.limits)
         parameters = plant_parameters(robot, every, settings.parameter_seed)
         make = _closed_task if robot.loops else _task
-        self.settings = settings
-        self.task = make(robot, parameters, every, settings, settings.hidden)
+        self.hidden = complete_effects(robot, parameters, every, settings)
+        self.standard = parameters.standard
+        self.task = make(robot, parameters, every, settings, self.hidden)
         self.reference = self.task.reference
         self.resolution = encoder_resolution(robot.coordinates, settings)
         plant, tick = self.task.plant, 1 / settings.rate
         steps = steps_per_tick(plant, self.task.limits, tick, _postures(self.task))
         self._advance = FastFunction(tick_function(plant, tick, steps))
-        self._n = len(plant.joints)
+        self.joints = len(plant.joints)
+        self.moved = self.reference.q - self.reference.q.mean(axis=0)
+        needed = _needed(self.task)
+        self.torque = float(np.min(rms(needed)))
 
     def drive(
         self,
@@ -57,7 +73,7 @@ class Machine:
                 is told.
             push: s -> torques from outside, (joints,).
         """
-        n, ticks = self._n, self.reference.time.size
+        n, ticks = self.joints, self.reference.time.size
         plant, start = self.task.plant, self.reference.q[0]
         x = np.concatenate([start, np.zeros(n), self.task.along[0]])
         tau = np.zeros(n)
@@ -92,18 +108,28 @@ def observed(command: Sequence[object], rows: np.ndarray) -> np.ndarray:
     return np.array([[float(word) for word in line.split()] for line in ran.stdout.splitlines()])
 
 
-def fitted_folder(
-    modelled: Robot, real: Robot, folder: Path, hidden: tuple[HiddenEffect, ...] = ()
-) -> IdentifiedModel:
-    """The C of a model fitted to a simulated log of the real robot, written to the folder."""
-    settings = SimulationSettings(duration=12.0, rate=500.0, seed=1, hidden=hidden)
+def fitted_folder(robot: Robot, folder: Path) -> None:
+    """The C of a model fitted to a simulated log, written to the folder."""
     log = folder.with_suffix(".parquet")
-    write_log(log, simulate(real, settings))
-    derivation = derive(modelled)
+    write_log(log, simulate(robot, SimulationSettings(duration=12.0, rate=500.0, seed=1)))
+    derivation = derive(robot)
     emitted = generate(derivation)
     model = fit(derivation, emitted, observe(compile_model(emitted), [log]))
     generate(model, folder)
-    return model
+
+
+def true_folder(robot: Robot, standard: Mapping[str, float], folder: Path) -> None:
+    """The C with base parameters of true standard ones, written to the folder."""
+    derivation = derive(robot)
+    spec = generate(derivation).spec
+    chi = np.array([standard[parameter.name] for parameter in spec.standard])
+    beta = compile_model(generate(derivation)).base_parameters(chi)
+    known = tuple(
+        FittedParameter(base.name, base.unit, float(value), 0.0)
+        for base, value in zip(spec.base, beta, strict=True)
+    )
+    values = FittedSpec("weighted", True, "usable: true values", (), (), known)
+    write_emitted(emit(derivation.model, derivation.base, values), folder)
 
 
 def rms(values: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""An emitted folder is installed by make and by CMake, found by name or by signature, and linked."""
+"""An emitted folder is installed by make and CMake, found by name or by signature, and linked."""
 
 import os
 import re

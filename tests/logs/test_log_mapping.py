@@ -22,9 +22,9 @@ FACTORS = {
     "m": 1.0, "mm": 1e-3, "um": known.micro, "in": known.inch, "ft/min": known.foot / 60,
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "A": 1.0, "mA": 1e-3,
     "N m": 1.0, "Nm": 1.0, "N*m": 1.0, "N·m": 1.0, "N.m": 1.0, "mN m": 1e-3, "kN": 1e3,
-    "kgf cm": known.kgf * 0.01, "lbf in": known.lbf * known.inch, 
-    "ozf in": known.lbf / 16 * known.inch, "rev/8192": 2 * known.pi / 8192,
-    "0.1 deg": known.degree / 10, "rad/s": 1.0, "%": 0.01,
+    "kgf cm": known.kgf * 0.01, "lbf in": known.lbf * known.inch,
+    "ozf in": known.lbf / 16 * known.inch,
+    "rev/8192": 2 * known.pi / 8192, "0.1 deg": known.degree / 10, "rad/s": 1.0, "%": 0.01,
 }  # fmt: skip
 
 
@@ -120,7 +120,7 @@ WRONG = [
     ({"topic": 3}, r"R, topic: got 3"),
     ({"rate": 0}, r"R: rate is 0; expected the samples in a second"),
     ({"names": ["a"]}, r"R, names: got \['a'\]; expected a table such as"),
-    (["q1=ab:deg"], r"--map, q1: no column ab \(q1\) \(did you mean a or b\?\); the columns"),
+    (["q1=ab:deg"], r"--map, q1: no column ab \(q1\) \(did you mean . or .\?\); the columns"),
     (["q<j>=pos{j}"], r"--map, q<j>: no column pos1 \(q1\)"),
     (["q1"], r"--map q1: expected NAME=COLUMN\[:UNIT\]"),
     (["rate=fast"], r"--map rate=fast: got fast; expected a number"),

@@ -20,6 +20,8 @@ def test_plotly_js_is_the_one_that_is_named() -> None:
     assert {path.name for path in folder.iterdir()} == VENDORED.keys()
     for name, checksum in VENDORED.items():
         assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == checksum, name
+    docs = (ROOT / "docs" / "pages.md").read_text(encoding="utf-8")
+    assert all(checksum in docs for checksum in VENDORED.values()) and "| 4.1.1 |" in docs
     head = (folder / "plotly-basic.min.js").read_text(encoding="utf-8")[:200]
     assert "basic - minified) v4.1.1" in head and "MIT license" in head
 
@@ -77,7 +79,7 @@ def test_a_planted_tag_is_found(text: str) -> None:
 
 def test_only_what_we_made_is_printed_as_it_is() -> None:
     """`| safe` in templates: assets, packed scripts and numbers, JSON, and our own drawing."""
-    own = {"asset(", "content", "drawings.block()", "drawings.content(", "plotly()", "svg"}
+    own = {"asset(", "json(", "content", "drawings.block()", "drawings.content(", "plotly()", "svg"}
     for path in (ROOT / "templates" / "pages").glob("*.jinja"):
         text = path.read_text(encoding="utf-8")
         for expression in re.findall(r"\{\{-?\s*([^{}]*?)\s*\|\s*safe", text):

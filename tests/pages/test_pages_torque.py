@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.pages.evidence import evidence_picture, rivals_of, rivals_picture
+from modeler.pages.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.pages.law_band import covariance_of
 from modeler.pages.shown import Shown, shown
 from modeler.pages.torque_picture import torque_picture, worst_stretch
@@ -53,8 +53,9 @@ def test_rivals_are_of_the_same_joint(item: Shown) -> None:
         (r for r in step.rivals if r.candidate.joint != step.pick.joint), None
     )  # the search has some, the page does not
     assert other is not None
-    names = rivals_picture(step).panels[0][0].series[0].names
-    assert all(name.endswith(f"@{step.pick.joint}") for name in names)
+    rows = rivals_table(step).rows
+    own = [step.pick.effect.id, *(r.candidate.effect.id for r in rivals_of(step)[:7])]
+    assert [row[0] for row in rows] == own
 
 
 @pytest.mark.parametrize("hold", [1, 10])

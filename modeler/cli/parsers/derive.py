@@ -43,6 +43,9 @@ def add_derive(commands: Commands) -> None:
         "--report", metavar="FILE.md", type=Output, help="write the page of the coefficients"
     )
     parser.add_argument(
+        "--page", metavar="FILE.html", type=Output, help="write a page: table, relations, proof"
+    )
+    parser.add_argument(
         "--open", action="store_true", help="cut the loops: the tree, as counted leg by leg"
     )
     add_json(parser, "write the result for machines")

@@ -1,4 +1,4 @@
-/* SR400, 6R arm with a parallelogram, cut open
+/* One leg of the Orthoglide, cut open
  *
  * Checks the library as it was compiled for this machine: header and library belong together, and
  * torques that are computed in three ways agree. Prints one line; returns 0 if all is well.
@@ -8,10 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "sr400_tree.h"
+#include "orthoglide_leg_tree.h"
 
-#define N SR400_TREE_JOINTS
-#define C SR400_TREE_BASE_PARAMETERS
+#define N ORTHOGLIDE_LEG_TREE_JOINTS
+#define C ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS
 #define STATES 5
 #define TOLERANCE 1e-9 /* of the sum of the sizes of what is added up */
 
@@ -31,12 +31,12 @@ static double difference(int state)
     }
     for (int k = 0; k < C; k++)
         beta[k] = 1.0 + 0.1 * k;
-    sr400_tree_base_regressor(q, qd, qdd, phi);
-    sr400_tree_inverse_dynamics(q, qd, qdd, beta, tau);
-    sr400_tree_inertia_matrix(q, beta, M);
-    sr400_tree_gravity(q, beta, g);
-    sr400_tree_coriolis(q, qd, beta, c);
-    sr400_tree_friction(qd, beta, f);
+    orthoglide_leg_tree_base_regressor(q, qd, qdd, phi);
+    orthoglide_leg_tree_inverse_dynamics(q, qd, qdd, beta, tau);
+    orthoglide_leg_tree_inertia_matrix(q, beta, M);
+    orthoglide_leg_tree_gravity(q, beta, g);
+    orthoglide_leg_tree_coriolis(q, qd, beta, c);
+    orthoglide_leg_tree_friction(qd, beta, f);
     for (int i = 0; i < N; i++) {
         double linear = 0.0, parts = g[i] + c[i] + f[i];
         double size = fabs(g[i]) + fabs(c[i]) + fabs(f[i]) + fabs(tau[i]);
@@ -61,10 +61,11 @@ static double difference(int state)
 int main(void)
 {
     double worst = 0.0;
+    const char *const signature = orthoglide_leg_tree_signature();
 
-    if (strcmp(sr400_tree_signature(), SR400_TREE_SIGNATURE) != 0) {
-        printf("sr400_tree: the library is %s, the header %s\n", sr400_tree_signature(),
-               SR400_TREE_SIGNATURE);
+    if (strcmp(signature, ORTHOGLIDE_LEG_TREE_SIGNATURE) != 0) {
+        printf("orthoglide_leg_tree: the library is %s,\n", signature);
+        printf("the header %s\n", ORTHOGLIDE_LEG_TREE_SIGNATURE);
         return 1;
     }
     for (int state = 0; state < STATES; state++) {
@@ -72,11 +73,11 @@ int main(void)
 
         worst = fmax(worst, found);
     }
+    printf("orthoglide_leg_tree %s:\n", signature);
     if (worst > TOLERANCE) {
-        printf("sr400_tree %s: three ways to the torques do not agree; other compiler flags?\n",
-               sr400_tree_signature());
+        printf("three ways to the torques do not agree; other compiler flags?\n");
         return 1;
     }
-    printf("sr400_tree %s: three ways to the torques agree to %.1e\n", sr400_tree_signature(), worst);
+    printf("three ways to the torques agree to %.1e\n", worst);
     return 0;
 }

@@ -1,0 +1,96 @@
+"""Reference of the commands, from their parsers: what `--help` says, as pages."""
+
+import argparse
+
+from docsite.markdown import block, cell, code, table
+from modeler.cli.parsers import parser
+
+
+def command_pages() -> dict[str, str]:
+    """{"commands/derive.md": text} of every command, and an index of them."""
+    parsers = commands()
+    pages = {f"commands/{name}.md": _page(name, found) for name, found in parsers.items()}
+    return {"commands/index.md": _index(parsers), **pages}
+
+
+def commands() -> dict[str, argparse.ArgumentParser]:
+    """{name: parser} in the order of `modeler --help`."""
+    return dict(_subparsers(parser()))
+
+
+def _subparsers(found: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    for action in found._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            return dict(action.choices)
+    return {}
+
+
+def _summaries() -> dict[str, str]:
+    """{name: the line of `modeler --help`}."""
+    action = next(a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
+    return {choice.dest: choice.help or "" for choice in action._choices_actions}
+
+
+def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
+    told = _summaries()
+    rows = [
+        (f"[`modeler {name}`]({name}.md)", cell(told.get(name, "")), code(_example(found)))
+        for name, found in parsers.items()
+    ]
+    head = ("command", "does", "example")
+    return f"# Commands\n\n{cell(parser().description or '')}\n\n{table(head, rows)}"
+
+
+def _page(name: str, found: argparse.ArgumentParser) -> str:
+    parts = [f"# modeler {name}", "", cell(found.description or ""), ""]
+    if example := _example(found):
+        parts += ["Example:", "", block(example, "sh")]
+    parts += _arguments(found)
+    for inner, child in _subparsers(found).items():
+        parts += [f"## modeler {name} {inner}", "", cell(child.description or ""), ""]
+        parts += [block(_example(child), "sh"), *_arguments(child)]
+    return "\n".join([*parts, "## As the command prints it", "", block(_help(found), "text")])
+
+
+def _help(found: argparse.ArgumentParser) -> str:
+    """The help at 96 letters a line, wherever the site is built."""
+    found.formatter_class = lambda prog: argparse.HelpFormatter(prog, width=96)
+    return found.format_help()
+
+
+def _example(found: argparse.ArgumentParser) -> str:
+    return (found.epilog or "").removeprefix("example:").removeprefix("examples:").strip()
+
+
+def _arguments(found: argparse.ArgumentParser) -> list[str]:
+    """A table of each group of arguments."""
+    parts = []
+    for group in found._action_groups:
+        rows = [_row(found, action) for action in group._group_actions if _told(action)]
+        if rows:
+            title = (group.title or "arguments").capitalize()
+            parts += [f"## {title}", "", table(("argument", "meaning"), rows)]
+    return parts
+
+
+def _told(action: argparse.Action) -> bool:
+    return action.help != argparse.SUPPRESS and not isinstance(action, argparse._SubParsersAction)
+
+
+def _row(found: argparse.ArgumentParser, action: argparse.Action) -> tuple[str, str]:
+    names = action.option_strings or [_value(action)]
+    value = _value(action) if action.option_strings and action.nargs != 0 else ""
+    told = found._get_formatter()._expand_help(action) if action.help else ""
+    return ", ".join(code(f"{name} {value}".strip()) for name in names), cell(told)
+
+
+def _value(action: argparse.Action) -> str:
+    """What stands for the value: METAVAR, {a,b}, with dots for several."""
+    if action.metavar is not None:
+        name = action.metavar if isinstance(action.metavar, str) else " ".join(action.metavar)
+    elif action.choices is not None:
+        name = "{" + ",".join(map(str, action.choices)) + "}"
+    else:
+        name = action.dest.upper()
+    marks = {"?": f"[{name}]", "*": f"[{name} ...]", "+": f"{name} [{name} ...]"}
+    return marks.get(str(action.nargs), name)

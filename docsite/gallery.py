@@ -1,0 +1,133 @@
+"""Gallery of the built-in robots: picture, table, base parameters, size of the C."""
+
+import tomllib
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+
+from docsite.markdown import block, cell, code, table
+from modeler.base.render import as_markdown
+from modeler.derivation import Derivation, derive, generate
+from modeler.robot import builtin_names, builtin_text, read_robot
+from modeler.show import picture_bytes
+from modeler.showing import show
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """A robot as the gallery shows it.
+
+    Attributes:
+        name: of the built-in robot.
+        title: as in its file.
+        page: Markdown.
+        picture: PNG.
+        joints: number of coordinates.
+        base: number of base parameters.
+        lines: of C, headers and the runtime included.
+    """
+
+    name: str
+    title: str
+    page: str
+    picture: bytes
+    joints: int
+    base: int
+    lines: int
+
+
+def exhibit(name: str) -> Exhibit:
+    """All that the gallery says of a built-in robot; takes seconds for the largest."""
+    robot = read_robot(name)
+    derivation, shown = derive(robot), show(robot)
+    sizes, functions = _emitted(derivation)
+    text = builtin_text(name)
+    parts = [
+        f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "",
+        f"![{name}]({name}.png){{ width=420 }}", "", _counts(derivation), "",
+        "## Table", "", _mdh(text), "",
+        "## Base parameters", "", as_markdown(derivation.base), "",
+        "## C", "", _sum(sizes), "", table(("file", "lines", "bytes"), _rows(sizes)), "",
+        table(("function", "additions", "multiplications"), functions), "",
+        "## File", "", block(text, "toml"),
+    ]  # fmt: skip
+    return Exhibit(
+        name,
+        robot.title,
+        "\n".join(parts),
+        picture_bytes(shown.skeleton, shown.posture, ".png"),
+        len(robot.coordinates),
+        derivation.base.rank,
+        sum(lines for lines, _ in sizes.values()),
+    )
+
+
+def gallery_index(exhibits: Sequence[Exhibit]) -> str:
+    """The page that shows all robots."""
+    rows = [
+        (
+            f"[![{found.name}]({found.name}.png){{ width=120 }}]({found.name}.md)",
+            f"[{found.name}]({found.name}.md)", cell(found.title),
+            str(found.joints), str(found.base), str(found.lines),
+        )
+        for found in exhibits
+    ]  # fmt: skip
+    head = ("picture", "name", "robot", "coordinates", "base parameters", "lines of C")
+    return (
+        "# Robots\n\nThe built-in robots, as `modeler robots` lists them. Any command takes their "
+        "names; their files are beginnings of files of your own. Pictures are those of `modeler "
+        f"show --png`, sizes those of `modeler generate`.\n\n{table(head, rows)}"
+    )
+
+
+def exhibits() -> list[Exhibit]:
+    """All built-in robots, as many at a time as there are processors."""
+    with ProcessPoolExecutor() as pool:
+        return list(pool.map(exhibit, builtin_names()))
+
+
+def _notes(text: str) -> str:
+    notes = tomllib.loads(text).get("notes", "")
+    return cell(" ".join(str(notes).split()))
+
+
+def _counts(derivation: Derivation) -> str:
+    base = derivation.base
+    kinds = ", ".join(f"{n} {cell(kind)}" for kind, n in base.counts().items() if n)
+    return (
+        f"{len(base.columns)} standard parameters, {base.rank} base parameters ({kinds}); proof: "
+        f"{cell(base.proof.kind)}."
+    )
+
+
+def _mdh(text: str) -> str:
+    """The table as its file writes it, in the notation of Khalil and Kleinfinger."""
+    found = tomllib.loads(text)["mdh"]
+    rows = [[code(str(entry)) for entry in row] for row in found["rows"]]
+    return table(found["columns"], rows)
+
+
+def _emitted(
+    derivation: Derivation,
+) -> tuple[dict[str, tuple[int, int]], list[tuple[str, str, str]]]:
+    """{C file: (lines, bytes)}, and (function, additions, multiplications)."""
+    emitted = generate(derivation)
+    sizes = {
+        name: (len(text.splitlines()), len(text.encode()))
+        for name, text in emitted.files.items()
+        if name.endswith((".c", ".h"))
+    }
+    functions = [
+        (code(function.name), str(function.additions), str(function.multiplications))
+        for function in emitted.spec.functions
+    ]
+    return sizes, functions
+
+
+def _rows(sizes: dict[str, tuple[int, int]]) -> list[tuple[str, str, str]]:
+    return [(code(name), str(lines), str(size)) for name, (lines, size) in sizes.items()]
+
+
+def _sum(sizes: dict[str, tuple[int, int]]) -> str:
+    lines, size = (sum(column) for column in zip(*sizes.values(), strict=True))
+    return f"{lines} lines, {size} bytes, the parts that all robots share included."

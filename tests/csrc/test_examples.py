@@ -1,0 +1,155 @@
+"""The example programs of a fitted folder, compiled as they are, against the simulated machine."""
+
+import dataclasses
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.codegen import emit, write_emitted
+from modeler.core.contract import FittedSpec
+from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.robot.edit import with_effects
+from modeler.simulate import HiddenEffect, SimulationSettings
+from tests.codegen.fitted_library import fitted_of, robot_module
+from tests.csrc.simulated_machine import Machine, fitted_folder, observed, rms, true_folder
+from tests.modules import compiler, module
+
+STRICT = "CFLAGS=-O2 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
+FROM = 1.5  # s, when the push begins
+BRISTLE = HiddenEffect("presliding", "2", {"distance": 0.01, "damping": 1.0})
+
+
+def make(folder: Path, *words: str) -> None:
+    clean = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS")}
+    subprocess.run(
+        [compiler("make"), "-C", folder, *words, STRICT], check=True, capture_output=True, env=clean
+    )
+
+
+@pytest.fixture(scope="module", params=["demo-arm", "five-bar"])
+def fitted(request, tmp_path_factory) -> tuple[Path, Machine]:
+    """A chain and a loop: values of a fit, and the machine whose log was fitted."""
+    compiler("gcc")
+    robot = read_robot(request.param)
+    folder = tmp_path_factory.mktemp("fitted") / "c"
+    fitted_folder(robot, folder)
+    make(folder, "examples")
+    settings = SimulationSettings(duration=3.0, rate=1000.0, seed=5, controller=bool(robot.loops))
+    return folder, Machine(robot, settings)
+
+
+def driven(folder: Path, machine: Machine, size: float) -> tuple[np.ndarray, np.ndarray]:
+    """(n, joints) tracking errors and r, with a push of joint 2 from FROM on."""
+    seen = []
+
+    def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
+        ref = machine.reference
+        seen.append(np.concatenate([q, qd, tau]))
+        return np.concatenate([q, qd, ref.q[k], ref.qd[k], ref.qdd[k]])
+
+    def push(t: float) -> np.ndarray:
+        return np.where(np.arange(machine.joints) == 1, size if t >= FROM else 0.0, 0.0)
+
+    run = machine.drive([folder / "example_computed_torque", 3.0, 0.001], line, push)
+    return run.error, observed([folder / "example_residual_observer", 30.0, 0.001], np.array(seen))
+
+
+def test_the_examples_follow_the_motion_and_see_a_push(fitted):
+    """Measured: errors of 0.1 % of the motion, a push that is 0.2 % too small."""
+    folder, plant = fitted
+    error, free = driven(folder, plant, 0.0)
+    assert np.all(rms(error) < 0.003 * rms(plant.moved))
+    size = 0.2 * plant.torque
+    _, pushed = driven(folder, plant, size)
+    time = plant.reference.time
+    np.testing.assert_allclose(pushed[time <= FROM], free[time <= FROM], atol=1e-6 * size)
+    seen = pushed[time > FROM + 0.3].mean(axis=0)
+    assert abs(seen[1] - size) < 0.02 * size
+    assert np.all(np.abs(np.delete(seen, 1)) < 0.05 * size)
+
+
+def test_the_controller_carries_what_friction_remembers(tmp_path):
+    """A bristle on joint 2 of the machine: the error there falls from 2.5 to 0.07 mrad rms.
+
+    And the observer, which carries it too, takes it for no push any more: 0.06 N m for 3.7.
+    """
+    compiler("gcc")
+    settings = SimulationSettings(duration=3.0, rate=1000.0, seed=5, hidden=(BRISTLE,))
+    plant = Machine(read_robot("demo-arm"), settings)
+    (bristle,) = plant.hidden
+    level, distance = bristle.values["level"], bristle.values["distance"]
+    usual = dict.fromkeys(("rotor_inertia", "viscous", "coulomb", "offset"), "all")
+    bristles = {"presliding": [{"joint": "2", "d": distance}]}
+    errors = []
+    for name, effects in (("forgets", usual), ("remembers", {**usual, **bristles})):
+        text = with_effects(builtin_text("demo-arm"), effects)
+        true = {**plant.standard, "Fs2": level, "Fz2": level}
+        true_folder(robot_from_text(text, "demo-arm"), true, tmp_path / name)
+        make(tmp_path / name, "examples")
+        errors.append([rms(values)[1] for values in driven(tmp_path / name, plant, 0.0)])
+    forgetting, remembering = np.array(errors)
+    assert np.all(remembering < 0.1 * forgetting)
+
+
+def test_torques_are_held_where_the_loops_do_not_close_and_the_program_gives_up(tmp_path):
+    compiler("gcc")
+    emitted = values_of("five-bar")
+    write_emitted(emitted, tmp_path)
+    make(tmp_path, "example_computed_torque", "example_residual_observer")
+    assert emitted.spec.closure is not None
+    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.given])
+    good = np.concatenate([home, np.zeros(2), home, np.zeros(4)])
+    bad = np.concatenate([home + 100.0, good[2:]])
+    bad[0] = np.nan
+    told, answers, code = answered(tmp_path / "example_computed_torque", [good, bad, bad, good])
+    assert code == 0 and told.count("torques held") == 2
+    for answer in answers[1:]:
+        np.testing.assert_array_equal(answer, answers[0])
+    told, answers, code = answered(tmp_path / "example_computed_torque", [good, *[bad] * 8, good])
+    assert code == 1 and len(answers) == 4 and told.count("torques held") == 4
+    rows = [np.concatenate([row[:4], np.ones(2)]) for row in (good, good, bad, good, good)]
+    told, answers, code = answered(tmp_path / "example_residual_observer", rows)
+    assert code == 0 and told.count("r is held") == 1
+    assert np.all(np.isfinite(answers))
+    np.testing.assert_array_equal(answers[2], answers[1])
+    np.testing.assert_allclose(answers[3], answers[2], rtol=1e-9)
+
+
+def answered(program: Path, rows: list[np.ndarray]) -> tuple[str, np.ndarray, int]:
+    text = "\n".join(" ".join(repr(float(value)) for value in row) for row in rows)
+    ran = subprocess.run([program], input=text, capture_output=True, text=True, check=False)
+    numbers = [[float(word) for word in line.split()] for line in ran.stdout.splitlines()]
+    return ran.stderr, np.array(numbers), ran.returncode
+
+
+def values_of(name: str):
+    made = robot_module(name)
+    return emit(made.model, made.base, fitted_of(made.emitted.spec))
+
+
+def test_a_robot_with_a_joint_that_nothing_drives_has_no_example_loop():
+    made = module("demo-arm")
+    spec = made.emitted.spec
+    passive = dataclasses.replace(spec.joints[1], actuated=False)
+    from modeler.codegen.examples import examples_of
+
+    fitted: FittedSpec = fitted_of(spec)
+    whole = dataclasses.replace(spec, fitted=fitted)
+    assert examples_of(whole) == ("example_computed_torque", "example_residual_observer")
+    joints = (spec.joints[0], passive, *spec.joints[2:])
+    assert examples_of(dataclasses.replace(whole, joints=joints)) == ()
+    assert examples_of(spec) == ()
+
+
+@pytest.mark.parametrize("name", ["slow-arm", "orthoglide-2003"])
+def test_every_file_of_a_fitted_folder_compiles_strictly_as_c_and_as_cpp(name, tmp_path):
+    """Signals with a temperature that is read, load and position; loops."""
+    write_emitted(values_of(name), tmp_path)
+    make(tmp_path, "check", "examples")
+    for source in sorted(tmp_path.glob("e*.c")):
+        command = [compiler("g++"), "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+                   "-x", "c++", "-fsyntax-only", source]  # fmt: skip
+        subprocess.run(command, check=True)

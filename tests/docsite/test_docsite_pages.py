@@ -1,0 +1,125 @@
+"""Pages that the site makes from the program say what the program says, and none is forgotten."""
+
+import argparse
+import importlib
+import json
+import re
+
+import pytest
+
+import modeler.api
+from docsite.commands import command_pages, commands
+from docsite.gallery import exhibit, gallery_index
+from docsite.interface import exported, interface_pages
+from docsite.markdown import cell, code, table
+from docsite.notebook import notebook_page
+from modeler.api import derive, generate, load
+from modeler.cli import main
+from modeler.robot import builtin_names
+from tests.repository import ROOT
+
+
+def listed() -> list[str]:
+    """The pages of `nav` in mkdocs.yml."""
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    return re.findall(r"- (?:\w+: )?([\w/-]+\.md)$", text[text.index("\nnav:") :], re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", sorted(path.name for path in (ROOT / "docs").glob("*.md")))
+def test_every_page_has_its_place(page: str) -> None:
+    assert listed().count(page) == 1, f"mkdocs.yml: nav has no line for docs/{page}; add it there"
+
+
+def test_every_place_has_its_page() -> None:
+    made = {"index.md", "contributing.md", "changelog.md", "gallery/index.md"}
+    made |= {"commands/index.md", "python/index.md"}
+    written = {path.name for path in (ROOT / "docs").glob("*.md")}
+    assert set(listed()) == made | written
+
+
+def test_the_readme_leads_to_every_page_that_is_no_report() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for path in (ROOT / "docs").glob("*.md"):
+        linked = f"](docs/{path.name}" in text or path.name == "hidden-effects.md"
+        assert linked, f"README.md: no link to docs/{path.name}; add it under Documentation"
+
+
+def test_every_command_has_its_page(capsys) -> None:
+    pages = command_pages()
+    assert set(pages) == {f"commands/{name}.md" for name in (*commands(), "index")}
+    for name, parser in commands().items():
+        page = pages[f"commands/{name}.md"]
+        assert page.startswith(f"# modeler {name}\n") and "Example:\n\n```sh\n" in page
+        for action in parser._actions:
+            assert action.help
+            if action.help == argparse.SUPPRESS:
+                continue
+            for option in action.option_strings:
+                assert f"`{option}" in page, (name, option)
+        with pytest.raises(SystemExit):
+            main([name, "--help"])
+        words = "".join(capsys.readouterr().out.split())
+        assert "".join(page.split("```text\n")[1].split("```")[0].split()) == words
+        assert f"[`modeler {name}`]({name}.md)" in pages["commands/index.md"]
+
+
+def test_the_interface_has_every_name_once() -> None:
+    pages = interface_pages()
+    shown = re.findall(r"^::: (.+)$", "\n".join(pages.values()), re.MULTILINE)
+    assert len(set(shown)) == len(shown) > 100
+    for path in shown:
+        module, _, name = path.rpartition(".")
+        assert getattr(importlib.import_module(module), name).__doc__, path
+    for name in ("fit", "compare", "derive", "load"):
+        assert getattr(modeler.api, name).__name__ in {path.rpartition(".")[2] for path in shown}
+    assert dict(exported("modeler.simulate"))["simulate"] == "modeler.simulate.run.simulate"
+    for stage in (page[:-3] for page in pages if page != "python/index.md"):
+        assert f"]({stage.removeprefix('python/')}.md)" in pages["python/index.md"]
+
+
+def test_an_exhibit_says_what_the_robot_has() -> None:
+    found, derivation = exhibit("scara"), derive(load("scara"))
+    emitted = generate(derivation)
+    assert found.picture.startswith(b"\x89PNG")
+    assert (found.joints, found.base) == (4, derivation.base.rank)
+    sources = [text for name, text in emitted.files.items() if name[-2:] in (".c", ".h")]
+    assert found.lines == sum(len(text.splitlines()) for text in sources)
+    assert f"{found.lines} lines, {sum(len(text.encode()) for text in sources)} bytes" in found.page
+    for function in emitted.spec.functions:
+        row = f"| `{function.name}` | {function.additions} | {function.multiplications} |"
+        assert row in found.page
+    for parameter in derivation.base.parameters:
+        assert f"| {parameter.name} | " in found.page
+    assert "| `3` | `2` | `1` | `D3` | `0` | `q3` |" in found.page
+    index = gallery_index([found])
+    assert "[scara](scara.md)" in index and f"| 4 | {found.base} | {found.lines} |" in index
+
+
+def test_robots_with_names_that_markdown_reads() -> None:
+    assert "kinova_gen3" in builtin_names()
+    page = exhibit("emps").page
+    assert page.startswith("# emps\n\n**EMPS, one prismatic axis")
+
+
+def test_signs_of_markdown_are_escaped() -> None:
+    assert cell("a_b [x] <joint> |a| & *") == r"a\_b \[x\] &lt;joint> \|a\| &amp; \*"
+    assert code("a|b") == r"`a\|b`" and code("") == ""
+    assert table(("a", "b"), [("1", "2")]) == "| a | b |\n| --- | --- |\n| 1 | 2 |\n"
+
+
+def test_a_notebook_becomes_a_page() -> None:
+    outputs = [
+        {"output_type": "stream", "text": ["fit\n", "done\n"]},
+        {"output_type": "display_data", "data": {"image/png": "iVBO\nRw0=\n", "text/plain": "f"}},
+        {"output_type": "execute_result", "data": {"text/html": "<b>1</b>", "text/plain": "1"}},
+        {"output_type": "execute_result", "data": {"text/plain": ["2"]}},
+    ]
+    cells = [
+        {"cell_type": "markdown", "source": ["# Title\n", "words"]},
+        {"cell_type": "code", "source": "x = 1", "outputs": outputs},
+        {"cell_type": "raw", "source": "left out"},
+    ]
+    page = notebook_page(json.dumps({"cells": cells}))
+    assert page.startswith("# Title\nwords\n\n```python\nx = 1\n```\n\n```text\nfit\ndone\n```\n")
+    assert 'src="data:image/png;base64,iVBORw0="' in page and "```text\n2\n```" in page
+    assert 'srcdoc="&lt;b&gt;1&lt;/b&gt;"' in page and "left out" not in page

@@ -1,0 +1,125 @@
+"""Every command that takes logs reads a MAT file with names and units of its own."""
+
+import json
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+import scipy.io
+
+from modeler.cli import main
+from modeler.robot import builtin_text
+from tests.logs.writers import parquet
+
+LOG = """
+[log]
+time = "run.t [ms]"
+"q<j>" = {column = "run.x", unit = "mm", sign = -1}
+"tau<j>" = "run.F [kN]"
+"""
+
+
+def run(capsys, *argv):
+    status = main([str(a) for a in argv])
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+@pytest.fixture(scope="module")
+def ground(tmp_path_factory):
+    """Two runs as MAT files and their twins, a robot file with [log], and both models."""
+    folder = tmp_path_factory.mktemp("commands")
+    (folder / "emps.toml").write_text(builtin_text("emps") + LOG)
+    for name, seed in (("a", "1"), ("b", "2")):
+        out = folder / f"{name}.parquet"
+        argv = ["simulate", "emps", "--duration", "8", "--noise", "0.5", "--seed", seed,
+                "--out", str(out)]  # fmt: skip
+        assert main(argv) == 0
+        table = {n: c.to_numpy() for n, c in zip(*_columns(out), strict=True)}
+        other = {"t": table["time"] * 1e3, "x": -1e3 * table["q1"], "F": table["tau1"] * 1e-3}
+        scipy.io.savemat(folder / f"{name}.mat", {"run": other})
+        twin = {"time": other["t"] * 1e-3, "q1": -1.0 * other["x"] * 1e-3, "tau1": other["F"] * 1e3}
+        parquet(out, twin)
+    for robot, log, out in (("emps", "a.parquet", "p"), (folder / "emps.toml", "a.mat", "m")):
+        argv = ["fit", robot, folder / log, "--out", folder / f"{out}.json"]
+        assert main([*map(str, argv)]) == 0
+    return folder
+
+
+def _columns(path):
+    table = pq.read_table(path)
+    return table.column_names, table.columns
+
+
+def values(place):
+    fit = json.loads(place.read_text())["fit"]
+    return np.array([p["value"] for p in fit["parameters"]])
+
+
+def test_the_model_is_that_of_the_twin(ground):
+    assert values(ground / "m.json") == pytest.approx(values(ground / "p.json"), rel=1e-12)
+
+
+COMMANDS = [
+    ("compare", "{model}", "{b}"),
+    ("diagnose", "{model}", "{a}", "--holdout", "{b}"),
+    ("add", "{model}", "asymmetric_viscous", "{a}", "--holdout", "{b}", "--out", "{out}"),
+]
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
+def test_the_model_file_carries_the_names(ground, tmp_path, capsys, words):
+    found = []
+    for model, ending in (("m.json", "mat"), ("p.json", "parquet")):
+        places = {"model": ground / model, "a": ground / f"a.{ending}", "b": ground / f"b.{ending}",
+                  "out": tmp_path / "out.json"}  # fmt: skip
+        argv = [word.format(**places) for word in words]
+        status, _, err = run(capsys, *argv, "--json", tmp_path / "r.json")
+        assert (status, err) == (0, "")
+        found.append(numbers(json.loads((tmp_path / "r.json").read_text())))
+    assert found[0] == pytest.approx(found[1], rel=1e-6, abs=1e-9)
+
+
+def numbers(value):
+    """Every number in a JSON value, in order."""
+    if isinstance(value, dict):
+        return [n for item in value.values() for n in numbers(item)]
+    if isinstance(value, list):
+        return [n for item in value for n in numbers(item)]
+    return [float(value)] if isinstance(value, int | float) else []
+
+
+MAP = ["--map", "time=run.t:ms", "--map", "q1=-run.x:mm", "--map", "tau<j>=run.F:kN"]
+
+
+def test_map_does_what_log_does(ground, tmp_path, capsys):
+    status, _, err = run(
+        capsys, "fit", "emps", ground / "a.mat", *MAP, "--out", tmp_path / "f.json"
+    )
+    assert (status, err) == (0, "")
+    assert values(tmp_path / "f.json") == pytest.approx(values(ground / "p.json"), rel=1e-12)
+    argv = ["estimators", "emps", ground / "a.mat", "--holdout", ground / "b.mat", *MAP]
+    status, _, err = run(capsys, *argv, "--methods", "weighted")
+    assert (status, err) == (0, "")
+
+
+def test_run_embedded_c_knows_the_names_too(ground, capsys):
+    argv = ["compare", ground / "m.json", ground / "b.mat", "--run-embedded-c"]
+    assert run(capsys, *argv)[0] == 0
+
+
+def test_a_mistake_in_log_is_one_line(ground, tmp_path, capsys):
+    bad = tmp_path / "bad.toml"
+    bad.write_text(builtin_text("emps") + LOG.replace("mm", "deg"))
+    status, out, err = run(capsys, "fit", bad, ground / "a.mat", "--out", tmp_path / "f.json")
+    assert (status, out) == (1, "")
+    assert (
+        'emps: [log], q<j>: got unit "deg", which is an angle; q1 is a position of joint 1, ' in err
+    )
+    assert "which is prismatic: expected a unit such as mm, m, in" in err and err.count("\n") == 1
+
+
+def test_an_output_is_not_named_like_a_log(ground, tmp_path, capsys):
+    for ending in ("mat", "h5", "mcap"):
+        status, _, err = run(capsys, "fit", "emps", ground / "a.mat", "--out", f"x.{ending}")
+        assert status == 1 and "this is a log; expected a name of its own" in err

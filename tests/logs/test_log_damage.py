@@ -1,0 +1,118 @@
+"""Damaged files of every format: one clear line, or what is left; never a traceback."""
+
+import random
+import sys
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.logs import Table
+from tests.logs import writers
+from tests.logs.writers import Run
+
+WRITTEN = {
+    "mat": (writers.mat, "run.mat", ""),
+    "mat 7.3": (writers.mat73, "run.mat", ""),
+    "hdf5": (writers.hdf5, "run.h5", ""),
+    "npz": (writers.npz, "run.npz", ""),
+    "mcap": (writers.mcap, "run.mcap", ""),
+    "bag": (writers.bag, "run", "run.db3"),
+    "bag's metadata": (writers.bag, "run", "metadata.yaml"),
+    "bag, mcap": (lambda path, table: writers.bag(path, table, "mcap"), "run", "run.mcap"),
+    "bag 1": (writers.bag1, "run.bag", ""),
+}
+MUTANTS = 60
+
+
+@pytest.fixture(scope="module")
+def short():
+    t = 0.002 * np.arange(120)
+    table = {"time": t} | {f"q{j}": np.sin(t + j) for j in (1, 2, 3)}
+    return Run(table | {f"tau{j}": np.cos(3.0 * t + j) for j in (1, 2, 3)})
+
+
+@pytest.mark.parametrize("kind", WRITTEN)
+def test_damaged_files_end_in_one_line(kind, short, tmp_path):
+    write, name, inside = WRITTEN[kind]
+    path = write(tmp_path / name, short)
+    file = path / inside if inside else path
+    whole, chance = file.read_bytes(), random.Random(kind)
+    refused = 0
+    for number in range(MUTANTS):
+        file.write_bytes(damaged(whole, chance, cut=number % 3 == 0))
+        try:
+            table = Table(path)
+            for column in table.names:
+                if table.is_numeric(column):
+                    table.measured(column)
+        except DataError as error:
+            refused += 1
+            assert str(error).startswith(f"{path}: "), error
+            assert "\n" not in str(error) and ";" in str(error), error
+    assert refused > MUTANTS // 3
+
+
+def damaged(whole: bytes, chance: random.Random, cut: bool) -> bytes:
+    """Cut off somewhere, or with some bytes changed."""
+    if cut:
+        return whole[: chance.randrange(1, len(whole))]
+    content = bytearray(whole)
+    for _ in range(chance.choice((1, 3, 30))):
+        near = min(len(content), 2000) if chance.random() < 0.5 else len(content)
+        content[chance.randrange(near)] = chance.randrange(256)
+    return bytes(content)
+
+
+FALSE = [
+    ("run.mat", b"no MAT file", "cannot be read as MAT file"),
+    ("run.h5", b"no HDF5 file", "cannot be read as HDF5"),
+    ("run.mcap", b"no MCAP file", "cannot be read as MCAP"),
+    ("run.db3", b"no database", "cannot be read as ROS bag"),
+    ("run.bag", b"no bag", "cannot be read as ROS bag"),
+    ("run.npz", b"no arrays", "cannot be read as numpy file"),
+    ("run.npy", b"", "the file is empty"),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "words"), FALSE)
+def test_files_that_are_something_else(tmp_path, capsys, name, content, words):
+    (tmp_path / name).write_bytes(content)
+    assert main(["log", str(tmp_path / name)]) == 1
+    out, err = capsys.readouterr()
+    assert out == "" and words in err and err.count("\n") == 1
+
+
+def test_a_folder_is_a_bag_or_no_log(tmp_path, capsys):
+    (tmp_path / "run").mkdir()
+    assert main(["log", str(tmp_path / "run")]) == 1
+    assert "is a folder without metadata.yaml" in capsys.readouterr().err
+
+
+def test_arrays_of_objects_are_not_run(tmp_path):
+    """A pickle in an .npz file would run what it says."""
+    np.savez(tmp_path / "run.npz", q=np.array([{}, []], dtype=object))
+    with pytest.raises(DataError, match="cannot be read as numpy file"):
+        Table(tmp_path / "run.npz")
+
+
+def test_arrays_without_a_motion(tmp_path):
+    np.savez(tmp_path / "run.npz", gains=np.ones(3), pose=np.eye(4))
+    words = r"no array of 10 rows or more; .* it holds gains \(3\), pose \(4 x 4\)"
+    with pytest.raises(DataError, match=words):
+        Table(tmp_path / "run.npz")
+
+
+MISSING = [("run.h5", "h5py"), ("run.mcap", "rosbags"), ("run.bag", "rosbags")]
+
+
+@pytest.mark.parametrize(("name", "package"), MISSING)
+def test_a_missing_package_is_one_line(tmp_path, monkeypatch, name, package):
+    for module in [m for m in sys.modules if m.split(".")[0] == package]:
+        monkeypatch.delitem(sys.modules, module)
+    monkeypatch.setitem(sys.modules, package, None)
+    (tmp_path / name).write_bytes(b"something")
+    words = f"needs the package {package}; run: pip install {package}$"
+    with pytest.raises(DataError, match=words):
+        Table(tmp_path / name)

@@ -1,0 +1,76 @@
+"""The index of a folder: every page of ours, in order, nothing of others overwritten."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from modeler.core.errors import ModelerError
+from modeler.pages.index import entries, write_index
+from modeler.pages.sheet import Lead, Origin, Section, Sheet, write_page
+
+
+def sheet(command: str, figure: str = "3 %", held_out: bool | None = None) -> Sheet:
+    body = [Section("s", [Lead("text")])]
+    origin = Origin("a <b>.json", ["x & y.csv"], held_out)
+    return Sheet(f"page of {command}", (figure, "left </script>"), body, origin, command=command)
+
+
+def test_a_folder_gets_an_index_and_a_file_does_not(tmp_path: Path) -> None:
+    write_page(tmp_path / "alone.html", sheet("compare"), "compare.html")
+    assert [path.name for path in tmp_path.iterdir()] == ["alone.html"]
+    write_page(tmp_path, sheet("diagnose", held_out=True), "diagnosis.html")
+    write_page(tmp_path / "sub", sheet("fit"), "fit.html")
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "alone.html", "diagnosis.html", "index.html", "sub",
+    }  # fmt: skip
+    assert (tmp_path / "sub" / "index.html").exists()
+
+
+def test_it_says_what_each_page_says(tmp_path: Path) -> None:
+    for command, held in (("diagnose", True), ("compare", False), ("derive", None)):
+        write_page(tmp_path / f"{command}.html", sheet(command, held_out=held), "x")
+        write_page(tmp_path / "sub" / f"{command}.html", sheet(command), "x")
+    place = write_index(tmp_path, "all <of> it")
+    assert place == tmp_path / "index.html"
+    found = entries(tmp_path)
+    assert [entry.place for entry in found] == [
+        *(f"{name}.html" for name in ("derive", "compare", "diagnose")),
+        *(f"sub/{name}.html" for name in ("derive", "compare", "diagnose")),
+    ]
+    first = found[2]
+    assert (first.figure, first.verdict, first.held_out) == ("3 %", "left </script>", True)
+    assert (first.model, first.logs) == ("a <b>.json", ("x & y.csv",))
+    text = place.read_text(encoding="utf-8")
+    links = re.findall(r'<a href="([^"]+)"', text)
+    assert links == [entry.place for entry in found]
+    assert all((tmp_path / link).is_file() for link in links)
+    assert "all &lt;of&gt; it" in text and "left &lt;/script&gt;" in text
+    assert text.count("held-out motion") == 1 and text.count("training only") == 1
+    assert 'id="plotly"' not in text and len(text) < 30_000
+    assert write_index(tmp_path, "all <of> it") == place  # its own index is written anew
+    assert place.read_text(encoding="utf-8") == text
+
+
+@pytest.mark.parametrize("content", ["mine", "", '<script type="application/json" id="about">no'])
+def test_somebody_elses_index_stays(tmp_path: Path, content: str) -> None:
+    (tmp_path / "index.html").write_text(content)
+    (tmp_path / "other.html").write_bytes(b"\xff\xfe no page of ours")
+    write_page(tmp_path, sheet("compare"), "compare.html")
+    assert write_index(tmp_path) is None
+    assert (tmp_path / "index.html").read_text() == content
+    assert [entry.place for entry in entries(tmp_path)] == ["compare.html"]
+
+
+def test_what_a_page_says_wrongly_does_no_harm(tmp_path: Path) -> None:
+    said = '{"logs": "abc", "held_out": "yes", "title": 5, "command": null}'
+    block = f'<script type="application/json" id="about">{said}</script>'
+    (tmp_path / "odd.html").write_text(block)
+    (entry,) = entries(tmp_path)
+    assert (entry.title, entry.logs, entry.held_out, entry.command) == ("5", (), None, "")
+
+
+def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ModelerError, match="cannot be written"):
+        write_index(tmp_path / "file")
