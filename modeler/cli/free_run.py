@@ -5,14 +5,14 @@ import math
 from pathlib import Path
 
 from modeler.api import read_logs, recompile
-from modeler.cli.console import Json, progress, say, working
 from modeler.api.given import check_logs, given
-from modeler.pictures.files import write_files
+from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.fit import load_model
 from modeler.freerun import Asked, free_run
 from modeler.freerun.controlled import Gains
 from modeler.freerun.pictures import free_run_pictures
+from modeler.pictures.files import write_files
 
 
 def run_free_run(args: argparse.Namespace) -> Json:
