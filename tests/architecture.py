@@ -8,7 +8,7 @@ from pathlib import Path
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
     "pictures", "compiled", "logs", "observation", "estimate", "fit", "residuals", "compare",
-    "hypotheses", "scoring", "diagnose", "excite", "pages",
+    "freerun", "hypotheses", "scoring", "diagnose", "excite", "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -75,6 +75,7 @@ PACKAGES: dict[str, set[str]] = {
     "fit": {"numpy", "scipy"},
     "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy"},
+    "freerun": {"numpy", "scipy"},
     "hypotheses": {"numpy", "scipy"},
     "scoring": {"numpy", "scipy"},
     "diagnose": {"numpy", "threadpoolctl"},

@@ -18,6 +18,7 @@ from modeler.cli.places import (
     RobotFile,
     RobotOrModel,
     log_endings,
+    model_or_log,
 )
 from modeler.core.estimators import ABOUT
 from modeler.effects import CATALOGUE as EFFECTS
@@ -147,6 +148,8 @@ def _values(parser: argparse.ArgumentParser, action: argparse.Action, last: str)
 
 def _places(kind: object, last: str) -> list[str]:
     """Names and files that an argument of that type takes."""
+    if kind is model_or_log:
+        return _files(last, (".json", *log_endings()))
     if not isinstance(kind, type) or not issubclass(kind, Input | Output | OutputFolder):
         return []
     if issubclass(kind, OutputFolder):

@@ -164,7 +164,7 @@ class ModuleFolder(OutputFolder):
 class PictureFolder(OutputFolder):
     """Of the pictures of a comparison."""
 
-    writes = ("overview.*", "joint_*_time.*", "joint_*_residual.*")
+    writes = ("overview.*", "joint_*_time.*", "joint_*_residual.*", "joint_*_free_run.*")
 
 
 class LogPictures(OutputFolder):

@@ -131,3 +131,17 @@ def test_loading_shows_its_seconds_on_a_terminal(monkeypatch) -> None:
     with clock("loading"):
         threading.Event().wait(0.7)
     assert re.search(r"\rloading 0\.\d s\r\x1b\[2K$", terminal.written())
+
+
+def test_what_once_lasted_in_silence_is_a_step(capsys, tmp_path: Path) -> None:
+    """Loading, estimating by simulation, drawing: seconds in which nothing moved."""
+    log, model, page = (str(tmp_path / name) for name in ("a.parquet", "m.json", "modes.html"))
+    assert main(["simulate", "two-link", "--duration", "2", "--out", log]) == 0
+    capsys.readouterr()
+    for step, words in (
+        ("estimating", ("fit", "two-link", log, "--out", model)),
+        ("drawing", ("home", "five-bar", "--pictures", page)),
+    ):
+        _, _, err = run(capsys, "-v", *words)
+        for each in ("loading", step):
+            assert f"modeler: {each}: done after" in err

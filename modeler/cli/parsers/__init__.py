@@ -19,6 +19,7 @@ from modeler.cli.parsers.diagnose import add_diagnose
 from modeler.cli.parsers.estimators import add_estimators
 from modeler.cli.parsers.excite import add_excite
 from modeler.cli.parsers.fit import add_compare, add_fit
+from modeler.cli.parsers.free_run import add_free_run
 from modeler.cli.parsers.home import add_home
 from modeler.cli.parsers.lists import add_effects, add_robots
 from modeler.cli.parsers.log import add_log
@@ -30,10 +31,9 @@ from modeler.cli.parsers.usage import usage_of
 from modeler.cli.parsers.words import arguments_of, sorted_words
 
 _COMMANDS = (
-    add_derive, add_show, add_home, add_generate, add_log, add_fit, add_compare,
-    add_diagnose, add_add,
-    add_physical, add_simulate, add_excite, add_convert, add_robots, add_effects, add_estimators,
-    add_reproduce, add_demo, add_completion,
+    add_derive, add_show, add_home, add_generate, add_log, add_fit, add_compare, add_free_run,
+    add_diagnose, add_add, add_physical, add_simulate, add_excite, add_convert, add_robots,
+    add_effects, add_estimators, add_reproduce, add_demo, add_completion,
 )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 import argparse
 
 from modeler.cli.parsers.options import Commands, Run, add_json
+from modeler.cli.places import Word
 
 SHELLS = ("bash", "zsh", "fish")
 
@@ -18,7 +19,7 @@ def add_completion(commands: Commands) -> None:
     )
     parser.add_argument("shell", metavar="SHELL", choices=SHELLS, help=", ".join(SHELLS))
     parser.add_argument(
-        "--words", nargs=argparse.REMAINDER, default=None, help=argparse.SUPPRESS
+        "--words", nargs=argparse.REMAINDER, type=Word, help=argparse.SUPPRESS
     )  # what the scripts call: the line so far, its last word unfinished
     add_json(parser, "write the script for machines")
     parser.set_defaults(load=_completion)

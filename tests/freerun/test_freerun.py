@@ -1,0 +1,292 @@
+"""A free run against what must come out: other physics, closed solutions, the definition."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from modeler.api import load, recompile
+from modeler.core.errors import DataError
+from modeler.freerun import Asked, free_run
+from modeler.freerun.measure import fit_percentage, horizons
+from modeler.freerun.pictures import free_run_pictures
+from modeler.freerun.plant import Plant
+from modeler.freerun.walk import Lanes, walk
+from modeler.robot import robot_from_text
+from modeler.robot.edit import with_effects
+from tests.freerun.machines import (
+    INERTIA,
+    MOMENT,
+    RUBS,
+    G,
+    fitted,
+    pendulum,
+    simulated,
+    true_model,
+    with_values,
+    without_commands,
+)
+
+
+@pytest.fixture(scope="module")
+def arm():
+    """Two links with dry friction in a vertical plane: simulated by physics that are not ours."""
+    return true_model("two-link")
+
+
+@pytest.fixture(scope="module")
+def arm_run(arm):
+    model, compiled, log = arm
+    return free_run(model, [log], compiled)
+
+
+def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
+    """Within 0.5 % of the spread of positions, on joints that reverse and stick many times.
+
+    What is left is the torque between samples, which no log has, grown by the arm's own nature.
+    """
+    for joint in arm_run.joints:
+        assert joint.fit > 99.5 and joint.fit > joint.constant_speed + 20.0
+    assert arm_run.numerical < 2e-3
+
+
+def test_a_wrong_value_is_seen(arm, arm_run) -> None:
+    """10 % more of the inertia that joint 1 turns, or 30 % more dry friction on it."""
+    model, compiled, log = arm
+    names = [p.name for p in model.fit.parameters]
+    for name, share in (("ZZ1R", 1.1), ("Fs1", 1.3)):
+        beta = model.beta.copy()
+        beta[names.index(name)] *= share
+        wrong = free_run(with_values(model, beta), [without_commands(log)], compiled)
+        ours, theirs = wrong.joints[0], arm_run.joints[0]
+        assert 100.0 - ours.fit > 4.0 * (100.0 - theirs.fit), name
+        assert wrong.stability.unstable == arm_run.stability.unstable
+
+
+def test_loops_are_run_too() -> None:
+    """A five-bar whose passive joints rub: directions of dry friction turn with the posture."""
+    rubs = ["11", "21", "12", "22"]
+    text = with_effects(load("five-bar").text, {"viscous": rubs, "coulomb": rubs})
+    model, compiled, log = true_model(robot_from_text(text, "five-bar that rubs"), 4.0)
+    found = free_run(model, [without_commands(log)], compiled, Asked(window=0.5))
+    assert all(joint.fit > 99.0 for joint in found.joints)
+    assert Plant(compiled, model.beta).shafts == 4
+
+
+def test_a_loop_that_cannot_close_ends_a_run() -> None:
+    model, compiled, log = true_model("five-bar", 5.0)
+    plant = Plant(compiled, model.beta)
+    q, far = log.q[:1], np.array([50.0, 50.0])
+    tau = np.tile([400.0, -400.0], (2000, 1, 1))  # tears it apart
+    path = walk(plant, Lanes(q, 0.0 * q, tau, None, 0.002, far, np.zeros_like(tau)), 1)
+    assert np.isfinite(path[0]).all() and np.isnan(path[-1]).all()
+
+
+@pytest.mark.parametrize("stands", [True, False])
+def test_the_rate_of_a_pendulum(stands: bool) -> None:
+    """Upright, x'' = (m l g x - b x') / I: errors grow by the positive root; hanging they fade."""
+    model, log = pendulum(stands)
+    found = free_run(model, [log], recompile(model)).stability
+    pull = MOMENT * G / INERTIA * (1.0 if stands else -1.0)
+    roots = np.roots([1.0, RUBS / INERTIA, -pull])
+    assert found.rate == pytest.approx(roots.real.max(), rel=0.01)
+    assert found.unstable == stands
+    if stands:
+        assert found.doubling == pytest.approx(np.log(2.0) / roots.real.max(), rel=0.01)
+        assert found.sentence().startswith("unstable by nature: along this motion any error doubl")
+    else:
+        assert found.doubling is None and found.sentence().startswith("stable by nature")
+
+
+def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
+    """Two runs that start 1e-6 rad apart, simulated."""
+    model, log = pendulum(True)
+    compiled = recompile(model)
+    plant, rate = Plant(compiled, model.beta), free_run(model, [log], compiled).stability.rate
+    q = np.array([[0.0], [1e-6]])
+    tau = np.repeat(log.tau[:1000, None], 2, axis=1)
+    around = np.repeat(log.q[:1000, None], 2, axis=1)
+    path = walk(
+        plant, Lanes(q, np.full((2, 1), log.qd[0, 0]), tau, None, 0.002, np.ones(1), around), 1
+    )
+    apart = np.log((path[:, 1] - path[:, 0])[[500, 900], 0])
+    assert (apart[1] - apart[0]) / 0.8 == pytest.approx(rate, rel=0.01)
+
+
+def test_a_free_axis_is_neither_stable_nor_unstable() -> None:
+    """A mass that only rubs: eigenvalues 0 and -b/m."""
+    model, compiled, log = true_model("emps", 4.0)
+    found = free_run(model, [without_commands(log)], compiled)
+    assert found.stability.rate == pytest.approx(0.0, abs=1e-6)
+    assert "integrated twice" in found.stability.sentence() and not found.stability.unstable
+    assert found.joints[0].fit > 99.5
+
+
+def test_a_swinging_pendulum_of_order_2() -> None:
+    """Against an integrator of order 8 on the equation as it stands in books."""
+    model, _ = pendulum(False)
+    plant = Plant(recompile(model), np.array([INERTIA, MOMENT, 0.0, RUBS]))
+    assert [p.name for p in model.fit.parameters] == ["ZZ1", "MX1", "MY1", "Fv1"]
+    time = np.arange(0.0, 2.0, 0.01)
+    wave = np.sin(3.0 * time)
+
+    def rate(t, x):
+        tau = np.interp(t, time, wave)
+        return x[1], (tau - RUBS * x[1] - MOMENT * G * np.sin(x[0])) / INERTIA
+
+    truth = solve_ivp(rate, (0, time[-1]), [1.5, 0.0], "DOP853", time, rtol=1e-10, atol=1e-12).y[0]
+    errors = []
+    for inner in (2, 4, 8):
+        lanes = Lanes(
+            np.array([[1.5]]), np.zeros((1, 1)), wave[:, None, None], None, 0.01, np.full(1, 9.0),
+            np.zeros((200, 1, 1)),
+        )  # fmt: skip
+        errors.append(np.abs(walk(plant, lanes, inner)[:, 0, 0] - truth).max())
+    assert errors[0] < 1e-3 and errors[0] > 3.0 * errors[1] > 9.0 * errors[2]
+
+
+SLIDE = """\
+name = "slide"
+title = "A mass that rubs"
+gravity = [0, 0, 0]
+[mdh]
+columns = ["j", "a", "sigma", "r"]
+rows = [["1", "0", 1, "q1"]]
+[effects]
+coulomb = "all"
+"""
+
+
+def test_dry_friction_holds_lets_go_and_stops() -> None:
+    """m = 2 kg, Fs = 3 N: 2.9 N move nothing; 5 N for 1 s, then none: it slides on and stays."""
+    log, _ = simulated(robot_from_text(SLIDE, "slide"), 4.0, 1)
+    model, compiled = fitted(robot_from_text(SLIDE, "slide"), [log])
+    assert [p.name for p in model.fit.parameters] == ["M1", "Fs1"]
+    plant = Plant(compiled, np.array([2.0, 3.0]))
+    tau = np.zeros((4000, 2, 1))
+    tau[:, 0] = 2.9
+    tau[:1000, 1] = 5.0
+    start, around = np.zeros((2, 1)), np.zeros_like(tau)
+    path = walk(plant, Lanes(start, start, tau, None, 0.001, np.full(1, 9.0), around), 1)[:, :, 0]
+    assert not path[:, 0].any()
+    reached = 0.5 * 1.0 + 1.0 / (2 * 1.5)  # 1 m/s^2 for 1 s, then 1.5 m/s^2 against it
+    assert path[-1, 1] == pytest.approx(reached, rel=2e-3)
+    assert np.ptp(path[1800:, 1]) == 0.0  # it stands from 1.67 s on, without chatter
+
+
+def test_bristles_turn_as_in_the_c() -> None:
+    bristly = 'presliding = [{joint = "1", d = 0.01}]'
+    robot = robot_from_text(SLIDE.replace('coulomb = "all"', bristly), "slide")
+    log, _ = simulated(robot_from_text(SLIDE, "slide"), 4.0, 1)
+    model, compiled = fitted(robot, [log])
+    plant, s = Plant(compiled, model.beta), np.array([0.3])
+    for moved in (0.002, -0.004, 0.0, 0.03):
+        mine = plant.turned(s[None], np.array([[moved]]))[0]
+        s = compiled.advance([moved], 0.002, s)
+        assert mine == pytest.approx(s, abs=1e-14)
+
+
+def test_fit_percentage_is_that_of_matlab() -> None:
+    """100 (1 - NRMSE): 100 for the same, 0 for the mean, below 0 for worse."""
+    q = np.array([0.0, 1.0, 2.0, 1.0])
+    assert fit_percentage(q, q) == 100.0
+    assert fit_percentage(q, np.full(4, 1.0)) == pytest.approx(0.0)
+    assert fit_percentage(q, 2.0 - q) == pytest.approx(-100.0)
+    assert fit_percentage(np.ones(3), np.zeros(3)) is None
+    assert fit_percentage(q, np.array([0.0, 1.0, np.nan, np.nan])) < 0.0
+
+
+def test_horizons() -> None:
+    error = np.array([[0.0, 0.0], [0.1, 0.3], [0.3, np.nan]])[:, None, :]
+    assert horizons(error, np.array([0.2, 0.2]), 0.5).tolist() == [[1.0, 0.5]]
+    assert horizons(error[:2], np.array([0.2, 0.4]), 0.5).tolist() == [[np.inf, np.inf]]
+
+
+def test_under_a_controller(arm_run) -> None:
+    """The simulated controller is not one of ours; the nearest still explains its errors."""
+    under = arm_run.controlled
+    assert under is not None and not under.given
+    assert all(fit > 99.8 for fit in under.fit.values())
+    assert all(20.0 < share <= 100.0 for share in under.tracking.values())
+    assert all(fit > 95.0 for fit in under.torque.values())
+    assert "under a controller (nearest to the log" in arm_run.summary()
+
+
+def test_given_gains_are_used(arm) -> None:
+    model, compiled, log = arm
+    few = dataclasses.replace(
+        log,
+        time=log.time[:2000],
+        q=log.q[:2000],
+        tau=log.tau[:2000],
+        commanded=log.commanded[:2000],
+    )
+    found = free_run(model, [few], compiled, Asked(gains=(8.0, 0.5, 0.0, 0.0)))
+    assert found.controlled is not None and found.controlled.given
+    assert found.to_json()["controller"]["speed"] == pytest.approx(8.0)
+    with pytest.raises(
+        DataError, match=r"--controller: run1.parquet: no complete columns qc1 \.\.\."
+    ):
+        free_run(
+            model, [dataclasses.replace(few, commanded=None)], compiled,
+            Asked(gains=(8.0, 0.5, 0.0, 0.0)),
+        )  # fmt: skip
+
+
+def test_what_a_free_run_says(arm_run) -> None:
+    text, raw = arm_run.summary(), arm_run.to_json()
+    assert len(repr(arm_run)) < 150 and "two-link" in repr(arm_run)
+    assert "free run under the logged torques on run1.parquet: 7 windows of 1 s" in text
+    assert set(raw["joints"]) == {"1", "2"} and raw["joints"]["1"]["fit"] > 99.0
+    assert raw["stability"]["unstable"] is arm_run.stability.unstable
+    one, two = free_run_pictures(arm_run)
+    assert (one.name, two.name) == ("joint_1_free_run", "joint_2_free_run")
+    measured, simulated_ = one.panels[0][0].series
+    assert np.nanmax(np.abs(measured.y - simulated_.y)) < 0.05 * np.nanmax(np.abs(measured.y))
+
+
+def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
+    model, compiled, log = arm
+    q, tau = log.q.copy(), log.tau.copy()
+    q[:, 1] = 0.3
+    still = dataclasses.replace(log, q=q, tau=tau, commanded=None)
+    found = free_run(model, [still], compiled)
+    assert found.joints[1].fit is None and "still" in found.summary()
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (Asked(window=0.0), "--window: got 0; expected a number above 0"),
+        (Asked(window=float("nan")), "--window: got nan"),
+        (Asked(bound=-0.1), "--bound: got -0.1; expected a number above 0"),
+        (
+            Asked(window=60.0),
+            r"--window 60: the longest uninterrupted motion of these logs is 7\.\d+",
+        ),
+        (Asked(gains=(60.0, 9.0, 9.0, 0.0)), "--controller: with these gains two-link is lost"),
+    ],
+)
+def test_what_cannot_be_is_refused(arm, asked: Asked, message: str) -> None:
+    model, compiled, log = arm
+    with pytest.raises(DataError, match=message):
+        free_run(model, [log], compiled, asked)
+
+
+def test_values_without_inertia_are_refused(arm) -> None:
+    model, compiled, log = arm
+    with pytest.raises(
+        DataError, match="is not positive definite in 100 % of the postures, most a"
+    ):
+        free_run(with_values(model, -model.beta), [log], compiled)
+
+
+def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
+    """True values, an upright pendulum: the run is lost, and the reason is told."""
+    model, log = pendulum(True)
+    found = free_run(model, [log], recompile(model), Asked(window=2.0))
+    assert found.joints[0].whole < 90.0 and found.stability.unstable
+    assert any(
+        "an error grows tenfold and more by nature; `--window 0.3`" in d for d in found.doubts
+    )
