@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from modeler.cli import main
+from modeler.pages.index import write_index
 from tests.browser.chromium import Chromium
 
 SIZES = [(1400, 900), (400, 800)]
@@ -187,6 +188,42 @@ def test_the_numbers_of_every_picture_can_be_downloaded(
     if name == "added":
         held = [float(row["y"]) for row in every if row["panel"] == "On held-out logs"]
         assert held == pytest.approx([100.0 * s["error"] for s in pages.waterfall], rel=1e-3)
+
+
+def test_a_browser_that_cannot_unpack_says_so(browser: Chromium, pages: Pages) -> None:
+    script = {"source": "delete window.DecompressionStream"}
+    added = browser.ask("Page.addScriptToEvaluateOnNewDocument", script)
+    try:
+        browser.open(pages.added, *SIZES[1])
+        browser.until("document.querySelector('.plot').textContent.trim() !== ''")
+        text = " ".join(str(browser.value("document.body.innerText")).split())
+    finally:
+        browser.ask("Page.removeScriptToEvaluateOnNewDocument", added)
+    assert "This browser cannot draw the picture: it lacks DecompressionStream" in text
+    assert "judged on other.parquet" in text and browser.complaints == []
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_pages_without_pictures_are_legible(
+    browser: Chromium, tmp_path: Path, size: tuple[int, int]
+) -> None:
+    """Formulas, the index and the robot; the verdict and the next command on the first screen."""
+    assert main(["derive", "wrist", "--page", str(tmp_path / "derive.html")]) == 0
+    assert main(["show", "wrist", "--out", str(tmp_path / "show.html")]) == 0
+    write_index(tmp_path)
+    for name in ("derive.html", "show.html", "index.html"):
+        page = tmp_path / name
+        browser.open(page, *size)
+        width = browser.value("document.documentElement.scrollWidth")
+        assert width <= size[0] and browser.complaints == []
+        assert browser.requests == [page.resolve().as_uri()]
+        assert browser.value(_SMALL) == []
+    assert browser.value("document.querySelectorAll('.pages a').length") == 2
+    browser.open(tmp_path / "derive.html", *size)
+    last = browser.value("document.querySelector('.next code').getBoundingClientRect().bottom")
+    assert 0 < last < size[1]
+    high = browser.value("document.querySelector('mfrac, msub').getBoundingClientRect().height")
+    assert high > 10  # the browser sets formulas
 
 
 def luminance(color: str) -> float:

