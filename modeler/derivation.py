@@ -5,19 +5,48 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeler.base import BaseParameters, base_parameters
+from modeler.base.render import as_latex, as_markdown, as_text
 from modeler.codegen import emit, write_emitted
 from modeler.core.contract import Emitted, FittedSpec
+from modeler.core.formulas import Formulas
+from modeler.core.presented import Presented
 from modeler.robot import Robot, read_robot
 from modeler.symbolic import SymbolicModel, derive_model
+from modeler.terms import nonzero_base
+from modeler.terms.equations import motion_equation, regressor_equation
 
 
 @dataclass(frozen=True)
-class Derivation:
+class Derivation(Presented):
     """A robot, its symbolic model and its base parameters."""
 
     robot: Robot
     model: SymbolicModel
     base: BaseParameters
+
+    @property
+    def relations(self) -> Formulas:
+        """The base parameters as sums of standard ones; a notebook typesets them."""
+        title = f"base parameters of {self.robot.name}"
+        return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
+
+    def closed_form(self, nonzero: bool = False) -> Formulas:
+        """J(q), S(q) and g(q) of tau = J qdd + S [qd qd] + g, without friction.
+
+        Args:
+            nonzero: True to leave out parameters that the robot file states as 0.
+        """
+        base = nonzero_base(self.model, self.base) if nonzero else self.base
+        return motion_equation(self.model, base).formulas()
+
+    def regressor(self, nonzero: bool = False) -> Formulas:
+        """The columns phi of tau = phi beta.
+
+        Args:
+            nonzero: as of `closed_form`.
+        """
+        base = nonzero_base(self.model, self.base) if nonzero else self.base
+        return regressor_equation(self.model, base).formulas()
 
 
 def load(robot: str | Path) -> Robot:

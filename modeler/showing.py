@@ -4,6 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError, DerivationError, LoopError
 from modeler.core.files import write_atomically
 from modeler.pages.robot import robot_html
@@ -20,7 +21,7 @@ from modeler.symbolic import with_home
 
 
 @dataclass(frozen=True)
-class Shown:
+class Shown(Brief):
     """A robot as it is drawn: its table in numbers, and where its joints stand."""
 
     skeleton: Skeleton

@@ -31,7 +31,17 @@ STAGES: dict[str, set[str]] = {
     "showing": {"core", *NORTH, "show", "pages"},
     "improve": {"core", *NORTH, *SOUTH, "derivation"},
     "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
-    "api": {"core", *NORTH, *SOUTH, "derivation", "showing", "improve"},
+    "notebook": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing"},
+    "api": {
+        "core",
+        *NORTH,
+        *SOUTH,
+        "simulate",
+        "derivation",
+        "showing",
+        "improve",
+        "notebook",
+    },
     "cli": {
         "core",
         *NORTH,
@@ -42,13 +52,14 @@ STAGES: dict[str, set[str]] = {
         "showing",
         "improve",
         "methods",
+        "notebook",
         "api",
     },
 }
 
 # Which packages of others a stage may import, besides the standard library.
 PACKAGES: dict[str, set[str]] = {
-    "core": {"numpy", "mpmath"},
+    "core": {"numpy", "mpmath", "pandas"},
     "effects": set(),
     "robot": set(),
     "symbolic": {"numpy", "sympy", "casadi", "flint"},
@@ -75,6 +86,7 @@ PACKAGES: dict[str, set[str]] = {
     "showing": set(),
     "improve": {"numpy", "threadpoolctl"},
     "methods": {"numpy"},
+    "notebook": {"numpy"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }
@@ -87,6 +99,7 @@ ONLY_IN = {
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
     "flint": ("symbolic/balls.py",),
+    "pandas": ("core/table.py",),
     "h5py": ("logs/hdf5.py",),
     "rosbags": ("logs/bags.py",),
 }

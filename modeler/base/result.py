@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import sympy
 
+from modeler.core.brief import Brief
 from modeler.symbolic import StandardColumn
 
 
@@ -17,7 +18,7 @@ class Term:
 
 
 @dataclass(frozen=True)
-class BaseParameter:
+class BaseParameter(Brief):
     """One base parameter: name = sum of terms; its regressor column is that of `column`.
 
     The first term is the parameter itself with coefficient 1. A parameter into which others group
@@ -81,7 +82,7 @@ class ExactState:
 
 
 @dataclass(frozen=True)
-class BallRank:
+class BallRank(Brief):
     """Independence proven in ball arithmetic: a minor of the torques whose ball excludes 0.
 
     Attributes:
@@ -119,7 +120,7 @@ Certificate = ModularRank | BallRank | SampledRank
 
 
 @dataclass(frozen=True)
-class Proof:
+class Proof(Brief):
     """Why the base parameters are right, and what anyone needs to check it again.
 
     Attributes:
@@ -149,7 +150,7 @@ class Proof:
 
 
 @dataclass(frozen=True)
-class BaseParameters:
+class BaseParameters(Brief):
     """The base parameters of a robot.
 
     Attributes:

@@ -5,18 +5,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import read_logs, recompile
+from modeler.api.improving import auto_added
 from modeler.cli.console import Json, progress, say, working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.diagnose import Known, diagnose
 from modeler.fit import IdentifiedModel, load_model, save_model
-from modeler.improve import Logs, add_effect, add_findings, added, notes, undone
+from modeler.improve import Logs, add_effect, added, notes, undone
 from modeler.observation.apart import check_apart
 from modeler.pages.additions import write_additions
 from modeler.pages.following import after_add
 from modeler.pages.sheet import Origin
-from modeler.robot import robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -90,17 +89,8 @@ def _better(
     if args.effect != "auto":
         with working(f"adding {args.effect}"):
             return add_effect(model, compiled, args.effect, args.joint, logs), ()
-    robot = robot_from_text(model.robot_text, f"{args.model}, robot")
-    known = Known(robot.catalogue, robot.coupling)
     with progress("looking for missing effects") as bar:
-        found = diagnose(model, compiled, logs.fitted, logs.held_out, known=known, progress=bar)
-    with working("adding what is missing"):
-        better, left_out = add_findings(model, compiled, [*found.effects, *found.refinements], logs)
-    if better is model and not left_out:
-        raise DataError(
-            "auto: nothing is added, because nothing that can be added is missing in this model "
-            f"({found.sentences[0]})"
-        )
+        better, left_out, _ = auto_added(model, compiled, logs, bar, working)
     return better, left_out
 
 

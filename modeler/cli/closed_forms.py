@@ -2,17 +2,15 @@
 
 import argparse
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
-from modeler.base import BaseParameters
 from modeler.cli.console import Json
 from modeler.cli.parsers.derive import FEW_JOINTS, Form
 from modeler.cli.words import Words
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.derivation import Derivation
-from modeler.symbolic import SymbolicModel
 from modeler.terms import (
     ClosedForm,
     CoefficientTable,
@@ -29,14 +27,13 @@ from modeler.terms import (
     determinant_text,
     independent_coefficients,
     nonzero_base,
-    regressor_form,
     sheet_json,
     sheet_latex,
     sheet_lines,
     sheet_markdown,
-    short_form,
     terms_report,
 )
+from modeler.terms.equations import Equation, motion_equation, regressor_equation
 
 MANY = 200
 """Coefficients up to which all are listed; of more, those from which the others follow."""
@@ -89,9 +86,9 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
             words.say()
             words.formulas(_CLOSED_FORMS[args.format](closed_form(model, base)))
         else:
-            added["closed_form"] = _say_short_form(words, model, base)
+            added["closed_form"] = _say_equation(words, motion_equation(model, base))
     if args.regressor:
-        added["regressor"] = _say_regressor(words, model, base)
+        added["regressor"] = _say_equation(words, regressor_equation(model, base))
     few = model.closure is None and len(model.robot.coordinates) <= FEW_JOINTS
     asked = args.closed_form or args.regressor
     if args.terms or (args.terms is None and few and args.format == "text" and not asked):
@@ -118,30 +115,9 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
         )
 
 
-def _say_short_form(words: Words, model: SymbolicModel, base: BaseParameters) -> Json:
-    found = short_form(model, base)
-    left = "t_u" if found.loops else "tau_i"
-    lines = [
-        f"{left} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + g_i, without friction; "
-        "what is not listed is 0"
-    ]
-    if found.loops:
-        lines += found.loops.lines
-    return _say_sheet(words, lines, found.sheet)
-
-
-def _say_regressor(words: Words, model: SymbolicModel, base: BaseParameters) -> Json:
-    found = regressor_form(model, base)
-    left = "t" if found.loops else "tau"
-    lines = [f"{left} = phi beta, phi<joint>_<parameter>; what is not listed is 0"]
-    if found.loops:
-        lines += found.loops.lines
-    return _say_sheet(words, lines, found.sheet)
-
-
-def _say_sheet(words: Words, lines: Sequence[str], sheet: Sheet) -> Json:
+def _say_equation(words: Words, equation: Equation) -> Json:
     words.say()
-    mark = _COMMENT[words.form]
+    mark, lines, sheet = _COMMENT[words.form], equation.words, equation.sheet
     for line in lines:
         indent = mark + "  " if mark != "* " else "  "
         words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import Mapped, read_logs, recompile
+from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.contest import models_of, run_contest
-from modeler.cli.given import check_logs, given
 from modeler.compare import Comparison, compare, verdict, write_pictures
 from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
@@ -78,7 +78,7 @@ def judged(
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
         f"{model.fit.error_told('{:.2f} %')}"
     ]
-    lines += [*model.warning, *_training(model, read), *observation.report.summary()]
+    lines += [*model.warning, *_training(model, read), *observation.report.lines()]
     found = findings_of_prediction(compiled, observation, model.beta)
     lines += [fault.line for fault in found if fault.certain]
     return compare(prediction), lines, found

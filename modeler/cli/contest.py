@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import read_logs, recompile
+from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.given import check_logs, given
 from modeler.cli.places import ModelFile
 from modeler.compare import compare
 from modeler.compare.together import check_joints, predict_together

@@ -8,10 +8,10 @@ from modeler.api import compile_model, derive, fit, generate, load, observe, rea
 from modeler.cli.add import waterfall
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.diagnose import lines
 from modeler.compare import verdict, write_pictures
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, diagnose
+from modeler.diagnose.lines import lines
 from modeler.fit import IdentifiedModel, save_model
 from modeler.improve import Logs, add_findings
 from modeler.pages.additions import write_additions

@@ -8,7 +8,7 @@ from modeler.api import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.diagnose.sentences import blind_spots
+from modeler.diagnose.lines import lines
 from modeler.effects import Effect, effect_named
 from modeler.fit import IdentifiedModel, load_model
 from modeler.observation.apart import check_apart
@@ -60,21 +60,6 @@ def _provenance(model: IdentifiedModel, args: argparse.Namespace) -> list[str]:
         f"logs explained: {shown}",
         *model.warning,
     ]
-
-
-def lines(diagnosis: Diagnosis) -> list[str]:
-    """The diagnosis as text."""
-    found = list(diagnosis.sentences)
-    source = "held out" if diagnosis.held_out else "cross-validated"
-    found.append("")
-    found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
-                 f"{diagnosis.band:g} Hz)")  # fmt: skip
-    for name, joint in diagnosis.joints.items():
-        found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
-    blind = [what for what, _ in blind_spots(diagnosis)]
-    if blind:
-        found.append(f"these logs cannot show: {', '.join(blind)}")
-    return found
 
 
 def _check_effects(given: Sequence[str], catalogue: Sequence[Effect]) -> None:

@@ -3,17 +3,16 @@
 import argparse
 from pathlib import Path
 
-from modeler.api import compile_model, derive, generate, read_logs
+from modeler.api import compile_model, derive, generate
+from modeler.api.trials import chosen_methods, observed_apart
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.robots import robot_of
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.core.estimators import ABOUT
+from modeler.core.table import aligned
 from modeler.fit.side_by_side import Tried, side_by_side
-from modeler.observation import observe
-from modeler.observation.apart import check_apart
 from modeler.pages.estimators import table_of, values_of, write_estimators
-from modeler.robot.place import near
 
 
 def run_estimators(args: argparse.Namespace) -> Json:
@@ -50,30 +49,17 @@ def _compared(
     with working(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
     with working("building the observation matrix"):
-        logs, holdout = (
-            read_logs(compiled, places, args.map) for places in (args.logs, args.holdout)
-        )
-        check_apart(logs, holdout)
-        observation = observe(compiled, logs)
-        held = observe(compiled, holdout, observation.report.processing) if holdout else None
+        observation, held = observed_apart(compiled, args.logs, args.holdout, args.map)
     with progress("fitting") as bar:
         tried = side_by_side(observation, compiled, held, methods, bar)
-    return tried, tuple(observation.report.summary())
+    return tried, tuple(observation.report.lines())
 
 
 def _chosen(text: str | None) -> list[Method]:
     if text is None:
-        return list(ABOUT)
+        return chosen_methods(None)
     names = [name.strip() for name in text.split(",") if name.strip()]
-    chosen = [id for name in names for id in ABOUT if id == name]
-    unknown = [name for name in names if name not in chosen]
-    if unknown or not names:
-        got = unknown[0] if unknown else "nothing"
-        raise DataError(
-            f"--methods: got {got}{near(got, list(ABOUT))}; expected some of "
-            f"{', '.join(ABOUT)}, with commas between"
-        )
-    return [*dict.fromkeys(chosen)]
+    return chosen_methods(names, "--methods")
 
 
 def _listed(methods: list[Method]) -> Json:
@@ -96,11 +82,4 @@ def _listed(methods: list[Method]) -> Json:
 
 
 def _aligned(rows: list[list[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            cell.ljust(width) if i == 0 else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
+    return [line.rstrip() for line in aligned(rows, (0,))]

@@ -1,43 +1,28 @@
 """`modeler excite ROBOT --out MOTION`."""
 
 import argparse
-import dataclasses
 import math
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
-from modeler.api import compile_model, derive, generate, recompile
+from modeler.api.exciting import Subject, question_of, subject_of
+from modeler.api.exciting import bounds_of as bounds_within
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.robots import robot_of
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.effects import effect_named
-from modeler.excite.between import Question, tell_apart
-from modeler.excite.bounds import Bounds, Box
+from modeler.excite.between import tell_apart
+from modeler.excite.bounds import Bounds
 from modeler.excite.choose import choose
 from modeler.excite.columns import signals
 from modeler.excite.picture import check_kind, picture
 from modeler.excite.result import Exciting, csv_text, motion_table
-from modeler.excite.search import Wish, excite, usual_harmonics
-from modeler.fit import IdentifiedModel, load_model
-from modeler.robot import Limits, Robot, robot_from_text
+from modeler.excite.search import Wish, usual_harmonics
+from modeler.fit import load_model
+from modeler.robot import Robot
 from modeler.robot.place import near
-from modeler.simulate import check_suffix, motion_limits, read_motion
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class _Subject:
-    """What is to be excited, and what is known of it."""
-
-    robot: Robot
-    compiled: CompiledModel
-    sigma: np.ndarray | None = None
-    kept: np.ndarray | None = None
-    beta: np.ndarray | None = None
-    model: IdentifiedModel | None = None
+from modeler.simulate import check_suffix, read_motion
 
 
 def run_excite(args: argparse.Namespace) -> Json:
@@ -54,13 +39,11 @@ def run_excite(args: argparse.Namespace) -> Json:
     )  # fmt: skip
     with progress(f"looking for a motion of {subject.robot.name}") as bar:
         if args.between is not None:
-            question = _question(args, subject)
+            question = question_of(subject, args.between)
             motion, apart = tell_apart(subject.compiled, bounds, wish, question, bar)
         else:
-            motion = excite(
-                subject.compiled, bounds, wish, subject.sigma, subject.kept, subject.beta, bar
-            )
-    lines = motion.summary() if args.between is None else [*apart.summary(), *motion.summary()[2:]]
+            motion = subject.search(bounds, wish, bar)
+    lines = motion.lines() if args.between is None else [*apart.lines(), *motion.lines()[2:]]
     for line in lines:
         say(line)
     _write(args, motion, subject.compiled)
@@ -88,7 +71,7 @@ def _check_usage(args: argparse.Namespace) -> None:
         raise DataError(f"--rate: got {args.rate:g}; expected more than 0, at most 1e5")
 
 
-def _subject(args: argparse.Namespace) -> _Subject:
+def _subject(args: argparse.Namespace) -> Subject:
     if not args.robot.endswith(".json"):
         if args.between is not None:
             raise DataError(
@@ -96,28 +79,14 @@ def _subject(args: argparse.Namespace) -> _Subject:
             )
         robot = robot_of(args)
         with working(f"deriving {robot.name}"):
-            compiled = compile_model(generate(derive(robot)))
-        return _Subject(robot, compiled, beta=_nominal(compiled))
+            return subject_of(robot)
     if args.effects is not None:
         raise DataError(
             "--effects: of a robot file only; a model has the effects it was fitted with"
         )
     model = load_model(args.robot)
     with working("deriving the robot of the model"):
-        compiled = recompile(model)
-    robot = robot_from_text(model.robot_text, f"{args.robot}, robot")
-    sigma = np.array([joint.sigma for joint in model.fit.joints])
-    known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
-    kept = np.flatnonzero([parameter.essential for parameter in model.fit.parameters])
-    return _Subject(robot, compiled, sigma if known else None, kept, model.beta, model)
-
-
-def _nominal(compiled: CompiledModel) -> np.ndarray | None:
-    """The base parameters that the robot file states; None where it leaves some open."""
-    values = [parameter.nominal for parameter in compiled.spec.standard]
-    if any(value is None for value in values):
-        return None
-    return compiled.base_parameters(values)
+        return subject_of(model)
 
 
 def bounds_of(
@@ -129,39 +98,12 @@ def bounds_of(
         DataError: a text that cannot be read, a joint or frame that is not there.
         RobotError: an empty range.
     """
-    coordinates = [joint.name for joint in compiled.spec.joints]
     moving = [joint.name for joint in robot.moving]
-    changes, torques = {}, {}
-    for text in limits:
-        name, values = _assigned("--limit", text, moving, (4, 5), "LOWER,UPPER,SPEED,ACCELERATION")
-        changes[name] = Limits(*values[:4])
-        if len(values) == 5:
-            torques[name] = values[4]
-    every = motion_limits(robot, changes)
-    of = {name: every[moving.index(name)] for name in moving}
-    stated = {**robot.limits, **changes}
-    lower, upper, speed, acceleration = np.array(
-        [dataclasses.astuple(of[name])[:4] for name in coordinates]
-    ).T
-    closure = compiled.spec.closure
-    follow = () if closure is None else tuple(
-        (place, stated[name].lower, stated[name].upper)
-        for place, name in enumerate(closure.variables)
-        if place not in closure.given and name in stated
-    )  # fmt: skip
-    home = None if closure is None else np.array(closure.home)[list(closure.given)]
-    return Bounds(
-        tuple(coordinates), lower, upper, speed, acceleration,
-        torque=np.array([torques.get(name, np.inf) for name in coordinates]),
-        boxes=tuple(_box(text, moving) for text in boxes), passive=follow, home=home,
-    )  # fmt: skip
-
-
-def _box(text: str, moving: list[str]) -> Box:
-    name, values = _assigned("--box", text, moving, (6,), "X0,X1,Y0,Y1,Z0,Z1")
-    return Box(
-        name, moving.index(name),
-        (values[0], values[2], values[4]), (values[1], values[3], values[5]),
+    form = "LOWER,UPPER,SPEED,ACCELERATION"
+    return bounds_within(
+        robot, compiled,
+        dict(_assigned("--limit", text, moving, (4, 5), form) for text in limits),
+        dict(_assigned("--box", text, moving, (6,), "X0,X1,Y0,Y1,Z0,Z1") for text in boxes),
     )  # fmt: skip
 
 
@@ -185,38 +127,7 @@ def _assigned(
     return name, values
 
 
-def _question(args: argparse.Namespace, subject: _Subject) -> Question:
-    """The two effects of --between."""
-    joints = [joint.name for joint in subject.compiled.spec.joints]
-    catalogue = subject.robot.catalogue
-    ids = [effect.id for effect in catalogue]
-    found = []
-    for text in args.between.split(","):
-        name, _, joint = text.strip().partition("@")
-        effect = effect_named(name, catalogue)
-        if effect is None:
-            raise DataError(
-                f"--between {text}: no such effect{near(name, ids)}; expected some of "
-                f"{', '.join(ids)}"
-            )
-        if joint not in joints:
-            raise DataError(
-                f"--between {text}: got joint {joint or '(none)'}; expected EFFECT@J with one of "
-                f"{', '.join(joints)}"
-            )
-        if subject.robot.has_effect(effect.id, joint):
-            raise DataError(
-                f"--between {text}: the model has {effect.id} on joint {joint} already; expected "
-                "effects that it lacks"
-            )
-        found.append((effect, joint))
-    if len(found) != 2 or found[0] == found[1]:
-        raise DataError(f"--between {args.between}: expected two effects, as stribeck@2,spring@2")
-    assert subject.beta is not None
-    return Question((found[0], found[1]), subject.beta, subject.sigma)
-
-
-def _choose(args: argparse.Namespace, subject: _Subject) -> Json:
+def _choose(args: argparse.Namespace, subject: Subject) -> Json:
     names = [joint.name for joint in subject.compiled.spec.joints]
     kept = slice(None) if subject.kept is None else subject.kept
     weights = 1.0 if subject.sigma is None else 1.0 / subject.sigma[:, None]

@@ -5,11 +5,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate, identified, read_logs
+from modeler.api.given import check_logs, given
+from modeler.api.ways import estimated
 from modeler.cli.console import Json, say, working
 from modeler.cli.drive_gains import check_load, fit_with_gains
-from modeler.cli.given import check_logs, given
 from modeler.cli.robots import robot_of
-from modeler.cli.ways import check_way, estimated
+from modeler.cli.ways import asked, check_way
 from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
@@ -55,7 +56,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
     with working("estimating"):
-        way = estimated(args, robot, compiled, observation, logs, loaded)
+        way = estimated(asked(args, loaded), robot, compiled, observation)
     with working("judging the fit"):
         told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
         bare = [log.name for log in logs]
@@ -72,7 +73,7 @@ def _written(
 ) -> Json:
     """Saves and prints the model."""
     save_model(args.out, model)
-    for line in (*observation.report.summary(), "", *lines, *model.fit.summary()):
+    for line in (*observation.report.lines(), "", *lines, *model.fit.lines()):
         say(line)
     say(f"written: {args.out}")
     if args.report is not None:

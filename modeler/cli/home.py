@@ -1,11 +1,12 @@
 """`modeler home ROBOT`."""
 
 import argparse
-import dataclasses
 from pathlib import Path
 
 import numpy as np
 
+from modeler.api.postures import chosen_mode
+from modeler.api.postures import home as home_modes
 from modeler.cli.console import Json, say, working
 from modeler.cli.mode_pictures import MODE_PICTURES, modes_file
 from modeler.cli.robots import read_told
@@ -16,7 +17,7 @@ from modeler.robot.converted import OTHER_PROGRAMS
 from modeler.robot.home_text import home_lines, with_home_text
 from modeler.robot.loops import read_home
 from modeler.robot.place import Place
-from modeler.symbolic import AssemblyMode, HomeModes, Linkage, modes_near, written
+from modeler.symbolic import AssemblyMode, HomeModes, Linkage, written
 
 _MOST_VALUES = 6
 
@@ -28,10 +29,9 @@ def run_home(args: argparse.Namespace) -> Json:
         _check_ours(args.robot)
     robot = read_told(args.robot)
     near = _near(args, robot)
-    meant = dataclasses.replace(robot, home={}) if args.anew else robot
     with working(f"closing the loops of {robot.name}"):
-        found = modes_near(meant, near)
-    chosen = _chosen(args, found)
+        found = home_modes(robot, near, args.anew)
+    chosen = chosen_mode(found, args.mode, args.near is not None)
     for line in _table(found):
         say(line)
     if args.pictures is not None:
@@ -76,11 +76,10 @@ def _kind_of(pictures: str | None) -> str:
     return kind
 
 
-def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float]:
-    """[home] of the file, unless it is not to count; with --near, of the actuated joints only."""
-    stated = {} if args.anew else dict(robot.home)
+def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:
+    """The values of --near; None without."""
     if args.near is None:
-        return stated
+        return None
     values: dict[str, str] = {}
     for entry in args.near.split(","):
         name, equals, value = (part.strip() for part in entry.partition("="))
@@ -90,21 +89,7 @@ def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float]:
             )
         values[name] = value
     moving = {joint.name: joint for joint in robot.moving}
-    names = {joint.name for joint in robot.coordinates}
-    stated = {name: value for name, value in stated.items() if name in names}
-    return stated | read_home(values, moving, robot.symbol_values(), Place("--near"))
-
-
-def _chosen(args: argparse.Namespace, found: HomeModes) -> int:
-    """The mode that --mode names; else the file's own, unless --near is given; else the best."""
-    if args.mode is None:
-        return 0 if found.own is None or args.near is not None else found.own
-    letters = [mode.letter for mode in found.modes]
-    if args.mode.upper() not in letters:
-        raise DataError(
-            f"--mode {args.mode}: there is no such mode; expected one of {', '.join(letters)}"
-        )
-    return letters.index(args.mode.upper())
+    return dict(read_home(values, moving, robot.symbol_values(), Place("--near")))
 
 
 def _table(found: HomeModes) -> list[str]:

@@ -1,78 +1,55 @@
 """`modeler physical ROBOT|MODEL`: physical parameters in closed form, values, sets, CAD."""
 
 import argparse
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
+from modeler.api.letters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, working
-from modeler.cli.parsers.physical import NOMINAL
 from modeler.cli.robots import read_told
-from modeler.core.errors import DataError, ModelerError
+from modeler.core.errors import DataError
 from modeler.derivation import Derivation, derive
 from modeler.fit import IdentifiedModel, load_model
-from modeler.robot import robot_from_text
-from modeler.terms.against_fit import CadComparison, KnownAgainstFit, compare_cad, test_known
-from modeler.terms.given_values import Given, cad_from_file, cad_from_robot, given_from_text
-from modeler.terms.known_sets import KnownSets, easiest_set, known_sets, smallest_number
-from modeler.terms.physical_system import PhysicalSystem, physical_system
-from modeler.terms.set_sensitivity import Rated, rated
+from modeler.terms.against_fit import CadComparison, KnownAgainstFit
+from modeler.terms.given_values import Given, given_from_text
+from modeler.terms.known_sets import KnownSets, easiest_set, smallest_number
+from modeler.terms.physical_system import PhysicalSystem
+from modeler.terms.set_sensitivity import Rated
 from modeler.terms.solution_text import (
     definition_lines,
     missing_lines,
     solution_json,
     solution_lines,
 )
-from modeler.terms.solved_values import VERIFIED, Derived, derive_values, impossible, verify
-from modeler.terms.solving import ClosedSolution, solve
+from modeler.terms.solved_values import VERIFIED
 
-_UNITS = {
-    "mass": "kg", "length": "m", "centre": "m", "inertia": "kg m^2", "rotor inertia": "kg m^2",
-}  # fmt: skip
 _SHOWN = 10
 _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "inertia": "inertias",
           "rotor inertia": "rotor inertias"}  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class _Fitted:
-    """Identified quantities of a model.
-
-    Attributes:
-        data: (data,) values.
-        covariance: (data, data).
-        aside: {quantity: why it has no value}.
-    """
-
-    data: np.ndarray
-    covariance: np.ndarray
-    aside: Mapping[str, str]
-
-
 def run_physical(args: argparse.Namespace) -> Json:
     """Prints what was asked for; what there is to know if nothing was."""
     _check_usage(args)
-    derivation, model = _read(args.source)
-    with working(f"physical parameters of {derivation.robot.name}"):
-        system = physical_system(derivation.model, derivation.base, args.of)
-    fitted = None if model is None else _fitted(system, model)
+    thing = _read(args.source)
+    model = thing if isinstance(thing, IdentifiedModel) else None
+    with working(f"physical parameters of {args.source}"):
+        subject = physical(thing, args.of)
+    system = subject.system
     for line in () if model is None else model.warning:
         note(line)
     result: dict[str, Json] = {"robot": system.robot, "from": system.source}
     if args.known is not None:
-        result |= _known(args, system, fitted)
-    cad = None if args.cad is None else _cad(args.cad, system, derivation)
+        result |= _known(args, subject)
+    cad = None if args.cad is None else subject.cad(args.cad)
     if args.sets is not None:
-        result["sets"] = _sets(system, None if args.sets is True else args.sets, cad)
+        result["sets"] = _sets(subject, None if args.sets is True else args.sets, cad)
     elif cad is not None:
-        if fitted is None:
+        if subject.fitted is None:
             raise DataError(
                 f"--cad: {args.source} is a robot, with no identified values; expected a model "
                 "file of `modeler fit`, or --sets"
             )
-        result["cad"] = _against_cad(system, fitted, cad)
+        result["cad"] = _against_cad(subject, cad)
     if args.known is None and args.sets is None and args.cad is None:
         result |= _overview(system, args.source, model is not None)
     return result
@@ -88,31 +65,10 @@ def _check_usage(args: argparse.Namespace) -> None:
         )
 
 
-def _read(source: str) -> tuple[Derivation, IdentifiedModel | None]:
+def _read(source: str) -> Derivation | IdentifiedModel:
     if Path(source).suffix.lower() != ".json":
-        return derive(read_told(source)), None
-    model = load_model(source)
-    return derive(robot_from_text(model.robot_text, f"{source}, robot_text")), model
-
-
-def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> _Fitted:
-    """data = T beta, C = T C_beta T'."""
-    names = [parameter.name for parameter in model.fit.parameters]
-    missing = [name for name in system.base if name not in names]
-    if missing:
-        raise DataError(
-            f"the model has no value of {', '.join(missing)}; it was fitted by another version: "
-            "fit it again"
-        )
-    at = [names.index(name) for name in system.base]
-    T = system.to_data
-    aside = [k for k, i in enumerate(at) if model.fit.parameters[i].sigma is None]
-    why: dict[str, str] = {}
-    for i, name in enumerate(system.data):
-        told = [system.base[k] for k in aside if T[i, k] != 0.0]
-        if told:
-            why[name] = f"the fit set {', '.join(told)} aside"
-    return _Fitted(T @ model.beta[at], T @ model.covariance[np.ix_(at, at)] @ T.T, why)
+        return derive(read_told(source))
+    return load_model(source)
 
 
 def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
@@ -148,20 +104,13 @@ def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Js
     }
 
 
-def _known(
-    args: argparse.Namespace, system: PhysicalSystem, fitted: _Fitted | None
-) -> dict[str, Json]:
+def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
     """Formulas; values if there is a model."""
+    system, fitted = subject.system, subject.fitted
     given = given_from_text(args.known, system)
     _check_given(args, given, fitted is not None)
     with working("solving"):
-        solution = solve(system, given.names)
-        good = verify(solution)
-    if good != VERIFIED:
-        raise ModelerError(
-            f"{system.robot}: the formulas failed {VERIFIED - good} of {VERIFIED} exact checks; "
-            "please report these known parameters"
-        )
+        solution = subject.formulas(given)
     mark = {"python": "# ", "latex": "% ", "text": ""}[args.format]
     for line in system.map_lines:
         say(f"{mark}{line}")
@@ -172,15 +121,15 @@ def _known(
     say()
     unknown = len(system.letters) - len(solution.known)
     say(f"{mark}{len(solution.steps)} of {unknown} unknown parameters follow; each formula holds "
-        f"exactly for {good} of {VERIFIED} random robots")  # fmt: skip
+        f"exactly for {VERIFIED} of {VERIFIED} random robots")  # fmt: skip
     if solution.surplus:
         say(f"{mark}{solution.surplus} more known than these need: with a model they are tested")
     for line in missing_lines(solution):
         say(f"{mark}{line}")
-    told = solution_json(solution, {"robots": VERIFIED, "right": good})
+    told = solution_json(solution, {"robots": VERIFIED, "right": VERIFIED})
     if fitted is not None:
         near = given_from_text(args.near or "", system, "--near")
-        told["values"] = _values(solution, fitted, given, near.values)
+        told["values"] = _values(subject.solved(solution, given, near.values))
     return dict(told)
 
 
@@ -201,44 +150,25 @@ def _check_given(args: argparse.Namespace, given: Given, fitted: bool) -> None:
             )
 
 
-def _values(
-    solution: ClosedSolution, fitted: _Fitted, given: Given, near: Mapping[str, float]
-) -> Json:
-    data = fitted.data.tolist()
-    derived = derive_values(solution, data, fitted.covariance, given.values, given.sigmas, near)
-    system = solution.system
-    doubts = dict(derived.doubtful)
-    for k, letter in enumerate(derived.letters):
-        for name, why in fitted.aside.items():
-            if derived.slopes[k, derived.inputs.index(name)] != 0.0:
-                doubts[letter] = f"{letter} needs {name}, and {why}"
-    doubts |= impossible(derived, system)
+def _values(found: PhysicalValues) -> Json:
     say()
     say(f"{'parameter':<10} {'value':>13} {'sigma':>10} {'%sigma':>8}  {'unit':<7} mostly from")
-    rows = [_row(derived, k, system, doubts) for k in range(len(derived.letters))]
-    for row in rows:
-        say(row)
-    for text in doubts.values():
+    for k in range(len(found.derived.letters)):
+        say(_row(found, k))
+    for text in found.doubts.values():
         say(f"not told: {text}")
-    tested = test_known(solution, data, fitted.covariance, given.values, given.sigmas)
-    _tell_tested(tested)
-    return _values_json(derived, doubts, tested, system)
+    _tell_tested(found.tested)
+    return _values_json(found)
 
 
-def _row(derived: Derived, k: int, system: PhysicalSystem, doubts: Mapping[str, str]) -> str:
-    letter = derived.letters[k]
-    unit = _UNITS[system.kinds[letter]]
-    if letter in doubts:
+def _row(found: PhysicalValues, k: int) -> str:
+    derived, letter = found.derived, found.derived.letters[k]
+    unit = UNITS[found.system.kinds[letter]]
+    if letter in found.doubts:
         return f"{letter:<10} {'not told':>13}"
     value, sigma = derived.values[k], derived.sigmas[k]
     percent = f"{100 * sigma / abs(value):.3g}" if value else "-"
-    order = np.argsort(-derived.shares[k])[:2]
-    parts = [
-        f"{derived.inputs[i]} {100 * derived.shares[k, i]:.0f} %"
-        for i in order
-        if derived.shares[k, i] > 0.05
-    ]
-    return f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} {', '.join(parts)}"
+    return f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} {found.sources(k)}"
 
 
 def _tell_tested(tested: tuple[KnownAgainstFit, ...]) -> None:
@@ -267,11 +197,8 @@ def _tell_tested(tested: tuple[KnownAgainstFit, ...]) -> None:
         )
 
 
-def _values_json(
-    derived: Derived, doubts: Mapping[str, str], tested: tuple[KnownAgainstFit, ...],
-    system: PhysicalSystem,
-) -> Json:  # fmt: skip
-    rows = []
+def _values_json(found: PhysicalValues) -> Json:
+    derived, doubts, system, rows = found.derived, found.doubts, found.system, []
     for k, letter in enumerate(derived.letters):
         told = letter not in doubts
         rows.append(
@@ -279,7 +206,7 @@ def _values_json(
                 "parameter": letter,
                 "value": float(derived.values[k]) if told else None,
                 "sigma": float(derived.sigmas[k]) if told else None,
-                "unit": _UNITS[system.kinds[letter]],
+                "unit": UNITS[system.kinds[letter]],
                 "doubt": doubts.get(letter),
                 "sensitivity": {
                     name: float(slope)
@@ -293,28 +220,20 @@ def _values_json(
                 },
             }
         )
-    return {"parameters": rows, "known_against_fit": [vars(row) for row in tested]}
+    return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
 
 
-def _cad(file: str, system: PhysicalSystem, derivation: Derivation) -> Given:
-    if file != NOMINAL:
-        return cad_from_file(Path(file), system)
-    return cad_from_robot(derivation.robot, system, f"--cad, robot {system.robot}")
-
-
-def _sets(system: PhysicalSystem, size: int | None, cad: Given | None) -> Json:
+def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
+    system = subject.system
     with progress("counting") as tell:
-        found = known_sets(system, size, tell)
+        found = subject.sets(size, tell)
     say(f"{system.robot}: {found.count} of {found.possible} sets of {found.size} known parameters "
         f"suffice; the smallest sets have {found.smallest}")  # fmt: skip
     for key, count in found.classes.items():
         say(f"  {key[0]} masses and lengths, {key[1]} mass centres, {key[2]} inertias: {count}")
     ratings: tuple[Rated, ...] = ()
     if found.count and cad is not None:
-        missing = [x for x in system.letters if x not in cad.values]
-        if missing:
-            raise DataError(f"--cad: no value of {', '.join(missing)}; expected all parameters")
-        ratings = rated(system, found.easiest, cad.values)
+        ratings = subject.rated(found, cad)
     _tell_easiest(found, ratings)
     return {
         "size": found.size,
@@ -347,10 +266,8 @@ def _tell_easiest(found: KnownSets, ratings: tuple[Rated, ...]) -> None:
         say(f"  and {len(found.easiest) - _SHOWN} more (all with --json)")
 
 
-def _against_cad(system: PhysicalSystem, fitted: _Fitted, cad: Given) -> Json:
-    found = compare_cad(
-        system, fitted.data.tolist(), fitted.covariance, cad.values, cad.sigmas, fitted.aside
-    )
+def _against_cad(subject: Physical, cad: Given) -> Json:
+    found = subject.against(cad)
     say(f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on")
     for row in found.rows:
         mark = "suspicious" if row.suspicious else ""

@@ -1,72 +1,18 @@
-"""The ways to fit: one model or the other, with loads or without, in one step or two."""
+"""The options of `modeler fit` that choose a way to fit."""
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Sequence
 
-import numpy as np
-
+from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, Asked
 from modeler.cli.drive_gains import carried
-from modeler.compiled import CompiledModel
-from modeler.core.choices import TWO_STEPS
 from modeler.core.errors import DataError
-from modeler.estimate.alone import Directions
-from modeler.fit import (
-    FitResult,
-    are_currents,
-    identify,
-    identify_energy,
-    identify_with_payloads,
-    known_doubts,
-    two_step,
-)
-from modeler.fit.doubts import Told
-from modeler.observation import Log, Observation
-from modeler.robot import Robot
-from modeler.robot.motors import joint_directions
-
-_WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
+from modeler.observation import Log
 
 
-@dataclass(frozen=True, eq=False)
-class Way:
-    """What a way to fit ends in.
-
-    Attributes:
-        result: not judged yet.
-        told: doubts that it raises itself.
-        refit: how to fit again without some rows; None: least squares.
-        lines: printed above the result.
-        further: fields of the JSON.
-    """
-
-    result: FitResult
-    told: Sequence[Told] = ()
-    refit: Callable[[np.ndarray], np.ndarray] | None = None
-    lines: Sequence[str] = ()
-    further: Mapping[str, Any] = field(default_factory=dict)
-
-
-def estimated(
-    args: argparse.Namespace, robot: Robot, compiled: CompiledModel, observation: Observation,
-    logs: Sequence[Log], loaded: Sequence[Log],
-) -> Way:  # fmt: skip
-    """The fit that the options ask for."""
-    if args.model == "energy":
-        energy = identify_energy(compiled, observation, args.window, args.method)
-        return Way(energy.result, refit=energy.without)
-    if args.method == TWO_STEPS:
-        ways = Directions(joint_directions(robot))
-        steps = two_step.identify_in_two_steps(compiled, observation, ways)
-        further = {"two_step": steps.to_json()}
-        return Way(steps.result, steps.doubts(), lines=steps.summary(), further=further)
-    if loaded:
-        payloads = carried(args, loaded)
-        result = identify_with_payloads(compiled, observation, payloads, args.method)
-        current = are_currents([*logs, *loaded])
-        return Way(result, known_doubts(compiled, observation, payloads, current))
-    return Way(identify(observation, args.method, compiled))
+def asked(args: argparse.Namespace, loaded: Sequence[Log]) -> Asked:
+    """What the options ask for."""
+    payloads = tuple(carried(args, loaded)) if loaded else ()
+    return Asked(args.method, args.model == "energy", args.window, payloads)
 
 
 def check_way(args: argparse.Namespace) -> None:
@@ -76,14 +22,14 @@ def check_way(args: argparse.Namespace) -> None:
         if value is not None and value is not False and not args.payload_log:  # 0 is given too
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
-    if args.payload_log and args.method in _WITHOUT_LOADS:
+    if args.payload_log and args.method in WITHOUT_LOADS:
         raise DataError(
             f"--payload-log: got it with --method {args.method}, which knows no loads; expected "
             "--method weighted, ordinary, robust, ridge or tls"
         )
     if args.model != "energy" and args.window is not None:
         raise DataError("--window: only windows of --model energy have a length; add that option")
-    if args.model == "energy" and args.method not in ("weighted", "ordinary"):
+    if args.model == "energy" and args.method not in OF_WINDOWS:
         raise DataError(
             f"--method {args.method}: got it with --model energy, whose rows are windows; expected "
             "--method weighted or ordinary"

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.compare.prediction import Prediction, residual, unit_errors
+from modeler.core.brief import Brief
 
 
 @dataclass(frozen=True)
-class LogError:
+class LogError(Brief):
     """||measured - predicted|| / ||measured|| over the rows of one log that count."""
 
     log: str

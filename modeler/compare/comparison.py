@@ -25,7 +25,9 @@ from modeler.compare.shares import Shares, shares
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
+from modeler.core.brief import Brief
 from modeler.core.by_unit import POOLED
+from modeler.core.presented import Presented
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
 
@@ -40,7 +42,7 @@ class Moment:
 
 
 @dataclass(frozen=True, eq=False)
-class JointComparison:
+class JointComparison(Brief):
     """How one joint is predicted; N m for a revolute joint, N for a prismatic one."""
 
     joint: JointInfo
@@ -63,7 +65,7 @@ class JointComparison:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Presented):
     """What `compare` found; carries the prediction so that pictures can be drawn from it."""
 
     prediction: Prediction

@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.by_unit import errors_by_unit
 from modeler.core.errors import DataError, ShapeError
 
@@ -31,7 +32,7 @@ class Motor:
 
 
 @dataclass(frozen=True, eq=False)
-class FullRate:
+class FullRate(Brief):
     """The samples from which the rows were made; m samples, stacked log after log."""
 
     run: np.ndarray  # (m,) index into logs
@@ -42,7 +43,7 @@ class FullRate:
 
 
 @dataclass(frozen=True, eq=False)
-class Prediction:
+class Prediction(Brief):
     """Measured and predicted torque after the same filtering of both sides.
 
     n samples, stacked log after log. Rows of one segment are evenly sampled and follow each

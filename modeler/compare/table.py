@@ -1,10 +1,10 @@
 """The comparison as a table of plain text."""
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from modeler.core.by_unit import WORDS
+from modeler.core.table import aligned
 
 if TYPE_CHECKING:
     from modeler.compare.comparison import Comparison, JointComparison
@@ -43,18 +43,6 @@ def summary(comparison: "Comparison") -> str:
     if len(comparison.logs) > 1:
         lines += ["", *_logs(comparison)]
     return "\n".join(line.rstrip() for line in lines)
-
-
-def aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
-    """Columns as wide as what stands in them, two spaces between; numbers to the right."""
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return [
-        "  ".join(
-            f"{cell:<{width}}" if k in left else f"{cell:>{width}}"
-            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
-        )
-        for row in rows
-    ]
 
 
 def share_text(share: float) -> str:

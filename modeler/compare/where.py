@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.compare.prediction import Prediction
+from modeler.core.brief import Brief
 from modeler.residuals.spectrum import spans
 
 AROUND_ZERO = 0.05  # of the joint's own largest speed
@@ -15,7 +16,7 @@ REGIONS = ("fast -", "slow -", "around zero", "slow +", "fast +")
 
 
 @dataclass(frozen=True)
-class Region:
+class Region(Brief):
     """Residual of one joint in one region of its velocity."""
 
     name: str

@@ -11,6 +11,7 @@ from modeler.compiled.build import build_library
 from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import LoopError, ManifestError, ShapeError
+from modeler.core.presented import Presented
 
 _STATUS = {
     1: "the loops cannot be closed",
@@ -20,7 +21,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel:
+class CompiledModel(Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the

@@ -12,9 +12,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from modeler.core.brief import Brief
 from modeler.core.errors import ManifestError
 from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, built
+from modeler.core.presented import Presented
 
 FORMAT = 2
 
@@ -39,7 +41,7 @@ class ArgumentSpec:
 
 
 @dataclass(frozen=True)
-class FunctionSpec:
+class FunctionSpec(Brief):
     """One emitted C function: all arguments are `const double *` inputs, then outputs."""
 
     name: str  # "wrist_base_regressor"
@@ -102,7 +104,7 @@ class TermSpec:
 
 
 @dataclass(frozen=True)
-class BaseSpec:
+class BaseSpec(Brief):
     """One base parameter: `name = sum of terms`, its column is that of `column_of`."""
 
     name: str  # "ZZ1R"
@@ -143,7 +145,7 @@ class FittedParameter:
 
 
 @dataclass(frozen=True)
-class FittedSpec:
+class FittedSpec(Brief):
     """The values that stand in the C of a fitted model, and the functions that have them."""
 
     method: str  # id of the estimator
@@ -160,7 +162,7 @@ class FittedSpec:
 
 
 @dataclass(frozen=True)
-class ModuleSpec:
+class ModuleSpec(Brief):
     """The manifest of one robot."""
 
     robot: str
@@ -240,7 +242,7 @@ def code_digest(sources: Mapping[str, str]) -> str:
 
 
 @dataclass(frozen=True)
-class Emitted:
+class Emitted(Presented):
     """An emitted module, on no disk yet.
 
     Attributes:

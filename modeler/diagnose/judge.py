@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
 from modeler.scoring.gram import VISIBLE, Pool
@@ -34,7 +35,7 @@ NEARLY = 0.95
 
 
 @dataclass(frozen=True, eq=False)
-class Judged:
+class Judged(Brief):
     """One effect on one joint at its best shapes.
 
     Attributes:
@@ -94,7 +95,7 @@ class Judged:
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement:
+class Judgement(Brief):
     """All effects in one state, best first; `best` is None if none is worth a name."""
 
     ranked: tuple[Judged, ...]

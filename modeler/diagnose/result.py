@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
+from modeler.core.presented import Presented
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
@@ -21,7 +23,7 @@ LEFT = 0.15
 
 
 @dataclass(frozen=True, eq=False)
-class Pick:
+class Pick(Brief):
     """An effect ready to go into a model: nothing has to be searched for again.
 
     Attributes:
@@ -38,7 +40,7 @@ class Pick:
 
 
 @dataclass(frozen=True)
-class Finding:
+class Finding(Brief):
     """One missing effect.
 
     Attributes:
@@ -114,7 +116,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class JointState:
+class JointState(Brief):
     """One joint before and after.
 
     Attributes:
@@ -149,7 +151,7 @@ class JointState:
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis:
+class Diagnosis(Presented):
     """What is missing in a model.
 
     Attributes:

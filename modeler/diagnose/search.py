@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.diagnose.braking import DRIVES, drives
 from modeler.diagnose.judge import (
     NEARLY,
@@ -36,7 +37,7 @@ many, it is other motion, or the logs hold nothing that returns."""
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class Step(Brief):
     """One effect that was put in.
 
     Attributes:
@@ -58,7 +59,7 @@ class Step:
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class Search(Brief):
     """What a search found.
 
     Attributes:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 
 
@@ -92,7 +93,7 @@ _SHAPE_UNITS: Mapping[Scale, tuple[str, str]] = {
 
 
 @dataclass(frozen=True)
-class Shape:
+class Shape(Brief):
     """A parameter that enters a column nonlinearly; found on a grid, then refined.
 
     Attributes:
@@ -136,7 +137,7 @@ class Memory:
 
 
 @dataclass(frozen=True)
-class EffectColumn:
+class EffectColumn(Brief):
     """One column: torque of the joint = equation * parameter.
 
     Attributes:
@@ -176,7 +177,7 @@ VARIABLES = {
 
 
 @dataclass(frozen=True)
-class Form:
+class Form(Brief):
     """One way to write an effect: its columns and what shapes them.
 
     Attributes:
@@ -202,7 +203,7 @@ class Form:
 
 
 @dataclass(frozen=True)
-class Effect:
+class Effect(Brief):
     """A physical effect, defined once.
 
     Attributes:

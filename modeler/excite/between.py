@@ -64,7 +64,7 @@ class Apart:
     random: tuple[float, float]
     gain: tuple[float, float]
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text."""
         return [
             f"{name}: {here:.1%} of its torque is explained by neither the model nor {other}; best "

@@ -10,6 +10,8 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from modeler.core.brief import Brief
+from modeler.core.presented import Presented
 from modeler.excite.bounds import Bounds
 from modeler.excite.series import Series, series
 
@@ -32,7 +34,7 @@ class Quality:
 
 
 @dataclass(frozen=True, eq=False)
-class Used:
+class Used(Brief):
     """What a motion uses of its limits, (J,) each, SI.
 
     Attributes:
@@ -53,7 +55,7 @@ class Used:
 
 
 @dataclass(frozen=True, eq=False)
-class Exciting:
+class Exciting(Presented):
     """A motion that excites a robot.
 
     Attributes:
@@ -100,7 +102,7 @@ class Exciting:
                 columns[f"{prefix}{name}"] = np.round(values[:, j], _DIGITS) + 0.0
         return columns
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text."""
         best, median = self.random
         lines = [

@@ -4,12 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
+
 DENSE = 32
 """Samples per period of the highest harmonic."""
 
 
 @dataclass(frozen=True, eq=False)
-class Series:
+class Series(Brief):
     """q_j(t) = V(t) x_j: periodic, and with no speed and no acceleration at t = 0.
 
     A finite Fourier series (Swevers et al. 1997, IEEE Trans. Robotics and Automation 13(5),

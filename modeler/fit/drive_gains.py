@@ -19,6 +19,7 @@ from modeler.fit.mounting import mounted_differently
 from modeler.fit.payload import Loaded, Payload, loaded_equations
 from modeler.fit.result import FitResult, ParameterEstimate
 from modeler.observation import Log, Observation
+from modeler.observation.report import LogReport
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -74,7 +75,7 @@ def check_currents(logs: Sequence[Log], joints: Sequence[JointSpec]) -> None:
                 )
 
 
-def are_currents(logs: Sequence[Log]) -> bool:
+def are_currents(logs: Sequence[Log | LogReport]) -> bool:
     """True if no torque of the logs was measured as a torque."""
     return not any(source.startswith("tau") for log in logs for source in log.torque_source)
 

@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from modeler.core.brief import Brief
+
 SURE = 10.0
 """%sigma below which a parameter counts as known."""
 
@@ -12,7 +14,7 @@ _WORTH = 1.2  # ratio of two uncertainties that is told as a difference
 
 
 @dataclass(frozen=True)
-class ModelFigures:
+class ModelFigures(Brief):
     """One model fitted to the data.
 
     Attributes:
@@ -60,7 +62,7 @@ def _line(name: str, cells: Sequence[str]) -> str:
 
 
 @dataclass(frozen=True)
-class EnergyReport:
+class EnergyReport(Brief):
     """How the rows of energy were made, and how they compare.
 
     Attributes:
@@ -92,7 +94,7 @@ class EnergyReport:
         ratios = {name: own / first if first > 0.0 else 1.0 for name, (own, first) in pairs.items()}
         return max(ratios.items(), key=lambda item: item[1])
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text."""
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
         lines = [

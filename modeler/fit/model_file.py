@@ -14,6 +14,7 @@ from modeler.core.errors import ManifestError
 from modeler.core.files import write_atomically
 from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, check_fields, plain
+from modeler.core.presented import Presented
 from modeler.fit.integrity import CHECKSUMS, check_checksums, check_estimate, checksums
 from modeler.fit.result import FitResult, fit_from_json
 from modeler.observation import DataReport, Log, Processing
@@ -51,7 +52,7 @@ class LogProvenance:
 
 
 @dataclass(frozen=True)
-class Addition:
+class Addition(Presented):
     """One effect that was added to a model.
 
     Attributes:
@@ -103,7 +104,7 @@ class Addition:
 
 
 @dataclass(frozen=True, eq=False)
-class IdentifiedModel:
+class IdentifiedModel(Presented):
     """A robot with values.
 
     Attributes:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.estimate.least_squares import Estimate
 from modeler.fit.essential import Essential
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Reduced:
+class Reduced(Brief):
     """The essential parameters, estimated anew without the others (Gautier and Khalil 1991).
 
     Attributes:
@@ -39,7 +40,7 @@ class Reduced:
     ratio: float
     limit: float | None
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text; none if nothing was left out."""
         if not self.dropped:
             return []

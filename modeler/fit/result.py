@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.by_unit import POOLED, errors_by_unit, told_by_unit
 from modeler.core.errors import DataError, ManifestError
+from modeler.core.presented import Presented
 from modeler.fit.bodies import bodies_told
 from modeler.fit.directions import Directed, directed_from_json, direction_lines
 from modeler.fit.energy_report import EnergyReport, energy_report_from_json
@@ -39,7 +41,7 @@ class JointFit:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Brief):
     """How a fit ends.
 
     Attributes:
@@ -61,7 +63,7 @@ class Verdict:
 
 
 @dataclass(frozen=True, eq=False)
-class FitResult:
+class FitResult(Presented):
     """A fitted model.
 
     Attributes:
@@ -134,7 +136,7 @@ class FitResult:
             return told_by_unit(self.by_unit, form)
         return form.format(100.0 * self.relative_error)
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text: parameters, joints, remarks."""
         lines = parameter_lines((*self.gains, *self.parameters, *self.loads))
         lines += direction_lines(self.directions)
@@ -148,8 +150,8 @@ class FitResult:
             share_text = "-" if error is None else f"{100.0 * error:.2f} %"
             lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
         lines += [*bodies_told(self.standard), *self.sentences]
-        lines += self.essential.summary() if self.essential is not None else []
-        lines += self.energy.summary() if self.energy is not None else []
+        lines += self.essential.lines() if self.essential is not None else []
+        lines += self.energy.lines() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
             lines += [*(f"doubt: {line}" for line in others), self.verdict.line]

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 from modeler.compiled import CompiledModel
+from modeler.core.brief import Brief
 from modeler.core.choices import Method
 from modeler.core.errors import ModelerError
 from modeler.core.estimators import ABOUT
+from modeler.core.presented import Presented
 from modeler.fit.identify import identify
 from modeler.fit.result import FitResult
 from modeler.observation import Observation
@@ -20,7 +22,7 @@ FIRST: Method = "weighted"
 
 
 @dataclass(frozen=True, eq=False)
-class Tried:
+class Tried(Brief):
     """One estimator.
 
     Attributes:
@@ -55,6 +57,21 @@ class Tried:
             "remarks": list(self.remarks),
             "fit": None if self.fit is None else self.fit.to_json(),
         }
+
+
+@dataclass(frozen=True, eq=False)
+class SideBySide(Presented):
+    """Estimators on the same logs.
+
+    Attributes:
+        robot: name.
+        tried: one each.
+        data: what was done with the logs, lines of text.
+    """
+
+    robot: str
+    tried: tuple[Tried, ...]
+    data: tuple[str, ...]
 
 
 def side_by_side(

@@ -31,7 +31,7 @@ class TwoStepFit:
     excitation: tuple[Excitation, ...]
     one_step: FitResult
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines: step 1 by configuration, what Phi tells, both fits beside each other."""
         lines = ["step 1: one joint moves, the others stand"]
         lines += [f"  {self._line(c)}" for c in self.steps.configurations]

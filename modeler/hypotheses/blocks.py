@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.observation import Observation
 from modeler.residuals.laps import lap
 
@@ -17,7 +18,7 @@ FOLDS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
+class Blocks(Brief):
     """Of an observation.
 
     Attributes:

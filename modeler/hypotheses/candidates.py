@@ -6,12 +6,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, Shape
 
 
 @dataclass(frozen=True)
-class Known:
+class Known(Brief):
     """What a robot file says of effects.
 
     Attributes:
@@ -54,7 +55,7 @@ class JointScale:
 
 
 @dataclass(frozen=True)
-class Candidate:
+class Candidate(Brief):
     """One effect on one joint with its shapes.
 
     Attributes:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array
 
+from modeler.core.brief import Brief
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.columns import all_columns, moved_columns, own_columns, own_columns_of
@@ -21,7 +22,7 @@ Columns = tuple[np.ndarray | None, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class Rows(Brief):
     """The used rows of every joint; J joints, c base columns.
 
     Attributes:

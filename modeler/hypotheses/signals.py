@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.signal import cont2discrete, lfilter
 
+from modeler.core.brief import Brief
 from modeler.effects import Memory
 from modeler.observation.bristle import bristle
 from modeler.observation.motion import Segment
@@ -20,7 +21,7 @@ _STEP = 1e-5  # rad or m, of central differences
 
 
 @dataclass(frozen=True, eq=False)
-class Reference:
+class Reference(Brief):
     """The model about which effects that depend on torques are linearised.
 
     Attributes:
@@ -59,7 +60,7 @@ class Reference:
 
 
 @dataclass(frozen=True, eq=False)
-class Signals:
+class Signals(Brief):
     """Of one segment, thinned to what the band of the analysis needs; n samples, J joints.
 
     Attributes:

@@ -41,7 +41,7 @@ class Excitation:
     idle: tuple[str, ...]
     weak: tuple[Direction, ...]
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text."""
         lines = [
             f"condition number {self.condition_number:.4g} "

@@ -7,11 +7,13 @@ from types import MappingProxyType
 
 import numpy as np
 
+from modeler.core.presented import Presented
+
 _NONE: Mapping = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
-class Log:
+class Log(Presented):
     """One measured run; n rows, joints in the order of the manifest, SI units.
 
     A missing measurement is NaN and stays in its row; nothing has been filtered or left out.

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
+from modeler.core.brief import Brief
 from modeler.observation.processing import Processing
 from modeler.observation.segments import SHORT, Piece, longer_runs
 
@@ -29,7 +30,7 @@ CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED)
 
 
 @dataclass(frozen=True, eq=False)
-class Segment:
+class Segment(Brief):
     """One uniform stretch of motion, ready for the model; n samples.
 
     Attributes:

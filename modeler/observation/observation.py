@@ -7,13 +7,14 @@ from functools import cached_property, partial
 import numpy as np
 
 from modeler.core.contract import JointSpec
+from modeler.core.presented import Presented
 from modeler.observation.motion import Segment
 from modeler.observation.report import DataReport
 from modeler.observation.stretch import Stretch
 
 
 @dataclass(frozen=True, eq=False)
-class Observation:
+class Observation(Presented):
     """Filtered, decimated data of all logs: s samples, n joints, c base parameters.
 
     Attributes:

@@ -5,12 +5,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, get_args
 
+from modeler.core.brief import Brief
 from modeler.core.choices import LOW_SPEED, Derivatives
 from modeler.core.errors import DataError
 
 
 @dataclass(frozen=True)
-class Processing:
+class Processing(Brief):
     """Choices of the processing; None is chosen from the logs and stated in the report.
 
     Attributes:

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from modeler.core.brief import Brief
+from modeler.core.presented import Presented
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.damage import Damage
 from modeler.observation.processing import Processing
@@ -10,7 +12,7 @@ from modeler.observation.segments import JITTER
 
 
 @dataclass(frozen=True)
-class LogReport:
+class LogReport(Brief):
     """One log on its way to rows of W.
 
     Attributes:
@@ -34,6 +36,7 @@ class LogReport:
         damages: values that no robot can have made, by column and kind.
         content: fingerprint of the file's measurements.
         span: first and last time, s.
+        torque_source: where each joint's torque comes from, in words.
     """
 
     name: str
@@ -56,6 +59,7 @@ class LogReport:
     damages: tuple[Damage, ...] = ()
     content: str = ""
     span: tuple[float, float] = (0.0, 0.0)
+    torque_source: tuple[str, ...] = ()
 
     def lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""
@@ -105,7 +109,7 @@ class LogReport:
 
 
 @dataclass(frozen=True)
-class JointReport:
+class JointReport(Brief):
     """Rows of one joint.
 
     Attributes:
@@ -155,7 +159,7 @@ class JointReport:
 
 
 @dataclass(frozen=True)
-class DataReport:
+class DataReport(Presented):
     """All of it.
 
     Attributes:
@@ -178,7 +182,7 @@ class DataReport:
         """What is wrong with the measurements of all logs, one sentence each."""
         return [*(line for log in self.logs for line in log.doubts()), *self.trembles]
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Lines of text for people."""
         lines = [line for log in self.logs for line in log.lines()]
         lines += [*self.trembles, *self.choices]

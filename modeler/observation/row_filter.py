@@ -6,6 +6,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import csr_array
 
+from modeler.core.brief import Brief
+
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
 
@@ -19,7 +21,7 @@ LEAST_WEIGHT = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class RowFilter:
+class RowFilter(Brief):
     """F in F y = F W beta: row k is the Gaussian-weighted mean of the samples around one sample.
 
     The equation holds for any F, so no choice of it biases beta. Weights are not negative and have

@@ -183,6 +183,7 @@ def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stre
         damages=prepared.damages[run],
         content=log.content,
         span=(float(log.time[0]), float(log.time[-1])),
+        torque_source=log.torque_source,
     )
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.observation.motion import Segment
 from modeler.observation.row_filter import LEAST_WEIGHT, RowFilter
 
@@ -12,7 +13,7 @@ _BLOCK = 20_000  # samples evaluated at a time: 20 000 x 7 joints x 60 columns i
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class Stretch(Brief):
     """A segment, its usable samples and its filter.
 
     Attributes:

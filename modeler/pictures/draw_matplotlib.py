@@ -44,14 +44,29 @@ def images(picture: Picture) -> dict[str, bytes]:
         return {"png": png, "svg": _saved(figure, "svg", {"Date": None, "Creator": None})}
 
 
+class Drawing(Figure):
+    """A figure that a notebook shows by itself, whatever backend it has."""
+
+    def _repr_png_(self) -> bytes:
+        stream = io.BytesIO()
+        self.savefig(stream, format="png", dpi=100)
+        return stream.getvalue()
+
+
+def drawing(picture: Picture) -> Drawing:
+    """The picture as a figure of matplotlib, 12 inches wide."""
+    with matplotlib.rc_context(_SETTINGS):
+        return _figure(picture)
+
+
 def _saved(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
     stream = io.BytesIO()
     figure.savefig(stream, format=kind, dpi=150, metadata=metadata)
     return stream.getvalue()
 
 
-def _figure(picture: Picture) -> Figure:
-    figure = Figure(figsize=(12.0, picture.height / 100.0), layout="constrained")
+def _figure(picture: Picture) -> Drawing:
+    figure = Drawing(figsize=(12.0, picture.height / 100.0), layout="constrained")
     FigureCanvasAgg(figure)
     figure.suptitle(picture.title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     axes = figure.subplots(

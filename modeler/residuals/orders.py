@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
+
 LEAST_WAVES = 3.0
 """In the stroke: slower waves cannot be told from gravity and springs."""
 
@@ -15,7 +17,7 @@ _FEWEST = 100  # samples
 
 
 @dataclass(frozen=True, eq=False)
-class OrderSpectrum:
+class OrderSpectrum(Brief):
     """Of one joint.
 
     Attributes:

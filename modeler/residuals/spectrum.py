@@ -5,13 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import signal
 
+from modeler.core.brief import Brief
+
 _LONGEST = 1024  # samples of one Welch window
 _LAG = 2.0  # s, longest lag of the autocorrelation
 _FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(Brief):
     """Autocorrelation and power spectral density of one residual."""
 
     period: float  # s between samples

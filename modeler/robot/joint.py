@@ -3,6 +3,7 @@
 import enum
 from dataclasses import dataclass
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 
 
@@ -15,7 +16,7 @@ class JointKind(enum.IntEnum):
 
 
 @dataclass(frozen=True)
-class Joint:
+class Joint(Brief):
     """Frame j on link j, placed from its antecedent frame a(j).
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986);

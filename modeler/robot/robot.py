@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
+from modeler.core.presented import Presented
 from modeler.effects import CATALOGUE, Effect, Form, effect_named
 from modeler.robot.joint import Joint
 
@@ -53,7 +55,7 @@ class EffectUse:
 
 
 @dataclass(frozen=True)
-class PhysicalLink:
+class PhysicalLink(Brief):
     """How a paper writes a link: mass, mass centre, inertia about the mass centre.
 
     Attributes:
@@ -114,7 +116,7 @@ class SharedParameter:
 
 
 @dataclass(frozen=True)
-class Robot:
+class Robot(Presented):
     """A robot: serial, tree-structured, or with closed loops.
 
     Attributes:

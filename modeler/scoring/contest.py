@@ -9,7 +9,9 @@ import numpy as np
 from scipy.special import stdtr
 
 from modeler.compare.prediction import JointInfo, Prediction, relative_error, unit_errors
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError
+from modeler.core.presented import Presented
 from modeler.scoring.score import FELT
 
 DOUBT = 0.0027
@@ -25,7 +27,7 @@ LEAST = 6
 
 
 @dataclass(frozen=True)
-class JointContest:
+class JointContest(Brief):
     """One joint; m models.
 
     Attributes:
@@ -45,7 +47,7 @@ class JointContest:
 
 
 @dataclass(frozen=True, eq=False)
-class Contest:
+class Contest(Presented):
     """Models side by side, m of them.
 
     Attributes:

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.hypotheses.orthonormal import turn_of
 from modeler.hypotheses.rows import Columns, Rows
 from modeler.scoring.reduced import Reduced
@@ -29,7 +30,7 @@ VISIBLE = 0.005
 
 
 @dataclass(frozen=True, eq=False)
-class Base:
+class Base(Brief):
     """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
 
     Attributes:
@@ -126,7 +127,7 @@ class Base:
 
 
 @dataclass(frozen=True, eq=False)
-class Crossed:
+class Crossed(Brief):
     """Fits of the base to all folds but one, F of them.
 
     Attributes:

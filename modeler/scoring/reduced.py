@@ -5,9 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
+
 
 @dataclass(frozen=True, eq=False)
-class Reduced:
+class Reduced(Brief):
     """As many rows as there are columns, with the same squares and products; J joints.
 
     Attributes:
@@ -22,7 +24,7 @@ class Reduced:
 
 
 @dataclass(frozen=True, eq=False)
-class Reduction:
+class Reduction(Brief):
     """What takes rows to few, by joint: [W y] = Q R.
 
     Attributes:

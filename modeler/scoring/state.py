@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.effects import Acts
 from modeler.hypotheses.blocks import Blocks, blocks_of
 from modeler.hypotheses.candidates import Candidate, JointScale, Known, scales_of
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Data:
+class Data(Brief):
     """What does not change during a search.
 
     Attributes:
@@ -116,7 +117,7 @@ def _clock(reference: Reference) -> tuple[Any, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class State(Brief):
     """The model with the effects accepted so far.
 
     Attributes:

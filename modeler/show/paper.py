@@ -62,9 +62,9 @@ class Sheet:
         return np.asarray(self.seen(self.world(point[0], np.array([point[1]])))[0])
 
 
-def paper(size: tuple[float, float]) -> Any:
-    """Axes over a whole sheet of that size; their units are points."""
-    figure = Figure(figsize=(size[0] / 72.0, size[1] / 72.0))
+def paper(size: tuple[float, float], kind: type[Figure] = Figure) -> Any:
+    """Axes over a whole sheet of that size, a figure of that kind; their units are points."""
+    figure = kind(figsize=(size[0] / 72.0, size[1] / 72.0))
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()

@@ -5,6 +5,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from modeler.show.closing import Posture
@@ -29,16 +30,27 @@ def picture_bytes(skeleton: Skeleton, posture: Posture, suffix: str) -> bytes:
         posture: as it stands.
         suffix: one of `PICTURE_KINDS`; ".png" has 400 dots per inch.
     """
+    with matplotlib.rc_context(SETTINGS):
+        return saved(_drawn(skeleton, posture), suffix)
+
+
+def picture_figure(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) -> Any:
+    """The picture as a figure of that kind, 3.5 inches wide."""
+    with matplotlib.rc_context(SETTINGS):
+        return _drawn(skeleton, posture, kind).figure
+
+
+def _drawn(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) -> Any:
+    """The axes with the picture."""
     scene = scene_of(skeleton, posture)
     scene = replace(scene, lines=(*scene.lines, *gap_lines(skeleton, posture.u))).without(_HIDDEN)
     sheet = _sheet(skeleton, posture, scene)
-    with matplotlib.rc_context(SETTINGS):
-        axes = paper(sheet.size)
-        draw_parts(axes, scene, sheet, posture.size)
-        _names(axes, scene, sheet)
-        _gravity(axes, skeleton.gravity, sheet)
-        _ruler(axes, sheet)
-        return saved(axes, suffix)
+    axes = paper(sheet.size, kind)
+    draw_parts(axes, scene, sheet, posture.size)
+    _names(axes, scene, sheet)
+    _gravity(axes, skeleton.gravity, sheet)
+    _ruler(axes, sheet)
+    return axes
 
 
 def _sheet(skeleton: Skeleton, posture: Posture, scene: Scene) -> Sheet:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 from modeler.robot import Joint, JointKind, Robot
 from modeler.robot.linear import linear_form
@@ -16,7 +17,7 @@ _CELLS = ("gamma", "b", "alpha", "d", "theta", "r")
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Brief):
     """One row of the table, in numbers: rad and m.
 
     Attributes:
@@ -39,7 +40,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Skeleton:
+class Skeleton(Brief):
     """A robot's table, loops and home in numbers.
 
     Attributes:

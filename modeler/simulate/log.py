@@ -11,14 +11,16 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
+from modeler.core.presented import Presented
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.settings import SimulationSettings
 
 
 @dataclass(frozen=True, eq=False)
-class Truth:
+class Truth(Brief):
     """What no sensor sees.
 
     Attributes:
@@ -39,7 +41,7 @@ class Truth:
 
 
 @dataclass(frozen=True, eq=False)
-class SimulatedLog:
+class SimulatedLog(Presented):
     """What a robot's logger would have written.
 
     Attributes:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.robot import Limits
 from modeler.simulate.hidden import HiddenEffect
@@ -26,7 +27,7 @@ _MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 
 
 @dataclass(frozen=True)
-class SimulationSettings:
+class SimulationSettings(Brief):
     """Motion, controller and sensors of a simulated measurement.
 
     Attributes:

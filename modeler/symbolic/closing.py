@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import LoopError
 from modeler.core.rounded import precise
 from modeler.robot import Robot
@@ -39,7 +40,7 @@ _POLISHING = 8
 
 
 @dataclass(frozen=True)
-class Closing:
+class Closing(Brief):
     """The closure equations as functions of arrays.
 
     Attributes:

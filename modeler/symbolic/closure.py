@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import LoopError
 from modeler.core.rounded import precise
 from modeler.symbolic.algebra import GraphAlgebra
@@ -40,7 +41,7 @@ _SEED = 20120
 
 
 @dataclass(frozen=True)
-class Closure:
+class Closure(Brief):
     """The loops of a robot in its free variables u.
 
     Attributes:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Self, TypeAlias, TypeGuard
 
+from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 from modeler.effects import Acts, EnergyBlock, Memory
 from modeler.robot import Joint, Robot
@@ -16,7 +17,7 @@ _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") |
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Column:
+class _Column(Brief):
     """What all standard parameters have.
 
     Attributes:

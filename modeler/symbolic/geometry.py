@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import sympy
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.robot import Joint, Robot
@@ -23,7 +24,7 @@ def geometric_symbol(name: str) -> sympy.Symbol:
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Brief):
     """One row of the table, exact.
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r), where theta = rate q + offset for a
@@ -50,7 +51,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Geometry:
+class Geometry(Brief):
     """The exact table of a robot.
 
     Attributes:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import LoopError
+from modeler.core.presented import Presented
 from modeler.robot import Robot
 from modeler.symbolic.assembly_modes import AssemblyMode, assembly_modes
 from modeler.symbolic.closing import SINGULAR, nearest_closed
@@ -19,7 +20,7 @@ from modeler.symbolic.singularity import lost_directions
 
 
 @dataclass(frozen=True)
-class HomeModes:
+class HomeModes(Presented):
     """The assembly modes of a robot, and which of them its file means.
 
     Attributes:

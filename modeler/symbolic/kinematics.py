@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import sympy
 
+from modeler.core.brief import Brief
 from modeler.symbolic.algebra import Algebra, Scalar, Vector
 from modeler.symbolic.angles import cos_sin
 from modeler.symbolic.geometry import Geometry, Row
@@ -39,7 +40,7 @@ def times(scalar: Scalar, a: Vector) -> Vector:
 
 
 @dataclass(frozen=True)
-class Pose:
+class Pose(Brief):
     """Frame j in its antecedent frame: plane rotations and the position of its origin.
 
     R = Rz(gamma) Rx(alpha) Rz(theta), each as (cos, sin); `p` in the antecedent frame.
@@ -107,7 +108,7 @@ def unit_z(algebra: Algebra) -> Vector:
 
 
 @dataclass(frozen=True)
-class Screw:
+class Screw(Brief):
     """Twist of link k for unit speed of one joint, in frame k: rotation e, velocity m of O_k."""
 
     e: Vector

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.robot import Joint, Robot
 from modeler.symbolic.closing import Closing
 from modeler.symbolic.closure import loop_closing
@@ -16,7 +17,7 @@ from modeler.symbolic.model import SymbolicModel
 
 
 @dataclass(frozen=True)
-class Linkage:
+class Linkage(Brief):
     """A robot with loops, as arrays of postures u of its free joints.
 
     Attributes:

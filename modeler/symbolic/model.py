@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from modeler.core.brief import Brief
 from modeler.robot import Robot
 from modeler.symbolic.algebra import GraphAlgebra
 from modeler.symbolic.closure import Closure, closure_of
@@ -42,7 +43,7 @@ Entries = Mapping[tuple[int, int], Expr]
 
 
 @dataclass(frozen=True)
-class SymbolicModel:
+class SymbolicModel(Brief):
     """The dynamics of a robot as expressions of one graph.
 
     Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.free`, which no

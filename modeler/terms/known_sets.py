@@ -15,6 +15,7 @@ from math import comb
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import ModelerError
 from modeler.terms.identifiability import SEED
 from modeler.terms.physical_system import PhysicalSystem
@@ -29,7 +30,7 @@ MOST = 30_000_000  # sets of one component that are looked at
 
 
 @dataclass(frozen=True)
-class KnownSets:
+class KnownSets(Brief):
     """The sets of `size` known parameters that make all others follow.
 
     Attributes:

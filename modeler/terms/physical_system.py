@@ -13,6 +13,7 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
 from modeler.base import BaseParameters
+from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError, RobotError
 from modeler.symbolic import SymbolicModel
 from modeler.terms.coefficients import CoefficientTable, coefficient_table
@@ -27,7 +28,7 @@ _FEW = 3  # joints up to which the coefficients of the closed form are derived
 
 
 @dataclass(frozen=True)
-class PhysicalSystem:
+class PhysicalSystem(Brief):
     """data = polynomials of the physical parameters.
 
     Attributes:

@@ -170,7 +170,7 @@ def test_mistakes_are_told_in_a_line(crank, capsys, words, told) -> None:
 
 def test_a_file_that_may_not_be_written_is_told_before_the_work(crank, capsys, monkeypatch) -> None:
     monkeypatch.setattr(os, "access", lambda path, mode: False)
-    monkeypatch.setattr("modeler.cli.home.modes_near", lambda robot, near: pytest.fail("searched"))
+    monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: pytest.fail("searched"))
     assert "bare.toml: cannot be written (Permission denied)" in refusal(
         capsys, "bare.toml", "--write"
     )
@@ -181,7 +181,7 @@ def test_another_programs_file_is_never_written_over(crank, capsys, monkeypatch)
     text = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2"})
     Path("arm.par").write_text(text)
     Path("ARM2.PAR").write_text(text)
-    monkeypatch.setattr("modeler.cli.home.modes_near", lambda robot, near: pytest.fail("searched"))
+    monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: pytest.fail("searched"))
     for name in ("arm.par", "ARM2.PAR", "none.par"):
         err = refusal(capsys, name, "--write")
         told = f"convert it with `modeler convert {name} --out {Path(name).with_suffix('.toml')}`"

@@ -57,7 +57,7 @@ def test_the_values_are_those_of_columns_for_each_direction():
 
 def test_they_are_printed_and_saved():
     _, _, fit = fitted(EVERY)
-    text = "\n".join(fit.summary())
+    text = "\n".join(fit.lines())
     assert "Fv1+ = Fv1 + Fva1" in text
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
     first = raw["directions"][0]
@@ -67,7 +67,7 @@ def test_they_are_printed_and_saved():
 
 def test_where_friction_has_one_law_there_is_nothing_to_tell():
     _, _, fit = fitted(("viscous", "coulomb", "offset"))
-    assert fit.directions == () and "direction" not in "\n".join(fit.summary())
+    assert fit.directions == () and "direction" not in "\n".join(fit.lines())
 
 
 def test_without_an_offset_both_levels_are_the_coulomb_friction():

@@ -114,7 +114,7 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     assert report.ratio > 1.2 and "times less surely than the torque model" in report.sentences()[0]
     assert energy.imbalance < 0.1 * coarse.imbalance and energy.bias < coarse.bias
     assert fit.result.relative_error == pytest.approx(energy.torque_error)
-    text = "\n".join(fit.result.summary())
+    text = "\n".join(fit.result.lines())
     assert "energy, Simpson" in text and "integrals by Simpson's rule" in text
 
 

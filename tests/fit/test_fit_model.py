@@ -88,7 +88,7 @@ def test_the_json_is_the_contracts(fitted):
     assert first["relative_sigma_percent"] == pytest.approx(
         100 * first["sigma"] / abs(first["value"])
     )
-    text = "\n".join(fit.summary())
+    text = "\n".join(fit.lines())
     assert "relative error" in text and "joint 2:" in text and fit.parameters[0].name in text
 
 
@@ -105,7 +105,7 @@ def test_a_joint_that_stands_still_is_set_aside_by_name():
     for parameter in aside:
         assert parameter.value == 0.0 and parameter.sigma is None and not parameter.essential
         assert any(s.startswith(f"{parameter.name} ") for s in fit.sentences)
-        assert any(s.startswith(parameter.name) and "set aside" in s for s in fit.summary())
+        assert any(s.startswith(parameter.name) and "set aside" in s for s in fit.lines())
     json.dumps(fit.to_json(), allow_nan=False)
 
 
@@ -148,7 +148,7 @@ def test_an_unknown_load_is_weighed():
     assert len(fit.parameters) == len(robot.spec.base) == len(fit.covariance)
     # Only differences of the axial inertias of a link show: at least one letter is grouped.
     assert 0 < len(fit.loads) < 11
-    assert "M3_load" in "\n".join(fit.summary()) and fit.to_json()["loads"][0]["name"] == "M3_load"
+    assert "M3_load" in "\n".join(fit.lines()) and fit.to_json()["loads"][0]["name"] == "M3_load"
 
 
 def test_a_known_mass_goes_to_the_measurement():

@@ -75,7 +75,7 @@ def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
 
 def test_it_is_told_and_saved(fitted):
     _, fit = fitted
-    lines = fit.summary()
+    lines = fit.lines()
     start = next(i for i, line in enumerate(lines) if line.startswith("reduced model: "))
     assert f"{len(fit.essential.parameters)} essential of 13 parameters" in lines[start]
     assert lines[start + 1].split() == ["parameter", "value", "sigma", "%sigma", "unit"]
@@ -91,7 +91,7 @@ def test_a_fit_of_essential_parameters_only_prints_one_table(robot):
     seen = observe(arm, [exact_log(arm, np.where(beta == 0.0, 0.7, beta), seconds=10)])
     fit = identify(seen)
     assert fit.essential.dropped == () and fit.essential.limit is None
-    assert "reduced model" not in "\n".join(fit.summary())
+    assert "reduced model" not in "\n".join(fit.lines())
 
 
 def test_a_model_predicts_with_it(robot, fitted, tmp_path):

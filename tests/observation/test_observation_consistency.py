@@ -139,7 +139,7 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
     np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-9)
     part = seen.stretches[0]
     assert not part.usable[800:840].any()  # joint 1 as well
-    text = "\n".join(seen.report.summary())
+    text = "\n".join(seen.report.lines())
     report = seen.report.logs[0]
     assert 40 <= report.contradicted < 100
     for words in (f"{report.contradicted} samples with impossible derivatives", "qdd2: ",
@@ -147,7 +147,7 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
         assert words in text
     kept = observe(model, [log], Processing(keep_contradicted=True))
     assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
-    assert "impossible derivatives are used" in "\n".join(kept.report.summary())
+    assert "impossible derivatives are used" in "\n".join(kept.report.lines())
     again = processing_from_json(kept.report.processing.to_json())
     assert again.keep_contradicted
 

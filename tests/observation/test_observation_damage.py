@@ -172,14 +172,14 @@ def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
     model = planar_arm()
     log, beta = sample(defect)
     seen = observe(model, [log])
-    text = "\n".join(seen.report.summary())
+    text = "\n".join(seen.report.lines())
     lines = [line for line in text.splitlines() if line.startswith("  ")]
     assert any(re.search(LINES[defect], line) for line in lines), text
     assert "--keep-damaged takes them as logged" in text and "resampled" not in text
     (doubt, *_) = seen.report.doubts()
     assert doubt.startswith("run: ")
     raw = observe(model, [log], Processing(keep_damaged=True))
-    assert "are used as logged" in "\n".join(raw.report.summary())
+    assert "are used as logged" in "\n".join(raw.report.lines())
     clean, _ = drawn(np.random.default_rng(3), "planar", 1000, 1e-3)
     honest = rms(observe(model, [clean]), beta)
     assert rms(seen, beta) < 2.0 * honest

@@ -129,7 +129,7 @@ def test_a_burst_on_masked_samples_does_not_reach_any_row():
     np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-10)
     report = seen.report
     assert report.logs[0].saturated == {"1": 30}
-    text = "\n".join(report.summary())
+    text = "\n".join(report.lines())
     assert "torque stuck at its limit in 30 rows" in text and "not used" in text
     kept = observe(model, [dataclasses.replace(log, tau=tau)], Processing(keep_saturated=True))
     assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
@@ -161,7 +161,7 @@ def test_a_joint_that_never_moves_is_said_and_unused():
     q[:, 1], qd[:, 1], qdd[:, 1] = 0.3, 0.0, 0.0
     seen = observe(model, [Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)])
     assert seen.used[:, 0].any() and not seen.used[:, 1].any()
-    assert any("joint 2: never moves" in line for line in seen.report.summary())
+    assert any("joint 2: never moves" in line for line in seen.report.lines())
     frictionless = planar_arm(friction=False)
     seen = observe(frictionless, [Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)])
     assert seen.used.all()
@@ -260,7 +260,7 @@ def test_report_tells_gaps_jitter_and_losses():
     q = log.q.copy()
     q[100] = np.nan
     changed = dataclasses.replace(log, time=t, q=q, missing={"q1": 1}, notes=("a remark",))
-    text = "\n".join(observe(model, [changed]).report.summary())
+    text = "\n".join(observe(model, [changed]).report.lines())
     for words in ("2 pieces, 1 gaps up to 1", "2 of 2 pieces resampled", "q1: 1 rows without",
                   "a remark", "motion band", "% of the samples masked below"):  # fmt: skip
         assert words in text
@@ -275,7 +275,7 @@ def test_excitation_names_idle_columns_and_weak_directions():
     singular = np.linalg.svd(W[:, :3], compute_uv=False)
     assert found.condition_number == pytest.approx(singular[0] / singular[-1], rel=1e-6)
     assert {name for name, _ in found.weak[0].parts} == {"A", "C"} and len(found.weak) == 1
-    assert any("weak" in line for line in found.summary())
+    assert any("weak" in line for line in found.lines())
     clean = excitation(np.linalg.qr(random.normal(size=(50, 3)))[0] * [1, 100, 1], ("A", "B", "C"))
     assert clean.condition_scaled == pytest.approx(1.0) and clean.weak == ()
     assert clean.condition_number == pytest.approx(100.0)

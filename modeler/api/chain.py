@@ -1,24 +1,12 @@
-"""The chain as seven steps: load, derive, generate, compile_model, observe, fit, compare.
-
-    from modeler.api import compare, compile_model, derive, fit, generate, load, observe
-
-    robot = load("emps")                               # a file, or the name of a built-in robot
-    derivation = derive(robot)                         # base parameters, exactly
-    emitted = generate(derivation, "emps_c")           # C, header, manifest, build files
-    compiled = compile_model(emitted)
-    observation = observe(compiled, ["train.parquet"])
-    model = fit(derivation, emitted, observation)
-    print(compare(model, ["pulses.parquet"]).summary())
-
-Each step is a function of the stage of that name; use the stages directly for more choices. `show`
-draws the robot that was loaded.
-"""
+"""The chain: from a robot to its C, from logs to a model, from a model to what it lacks."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import Any, Literal
 
+from modeler.api.ways import Asked, estimated
 from modeler.compare import Comparison
 from modeler.compare import compare as compare_prediction
 from modeler.compare.predict import predict
@@ -37,13 +25,14 @@ from modeler.diagnose import diagnose as find_missing
 from modeler.fit import (
     FitResult,
     IdentifiedModel,
+    Payload,
     check_currents,
     fitted_spec,
-    identify,
     in_drive_units,
     provenance,
     with_verdict,
 )
+from modeler.fit.reduced import with_essential_only
 from modeler.logs import LogMap, map_from_table, map_from_words
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
@@ -53,6 +42,10 @@ from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
 from modeler.showing import show as show
+from modeler.simulate import SimulatedLog, write_log
+
+AnyLog = str | Path | Log | SimulatedLog
+"""A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
 
 Mapped = Mapping[str, Any] | Sequence[str]
 """Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
@@ -105,9 +98,7 @@ def compile_model(emitted: Emitted) -> CompiledModel:
     return load_compiled(emitted.spec, emitted.files, emitted.log)
 
 
-def read_logs(
-    compiled: CompiledModel, logs: Sequence[str | Path | Log], mapping: Mapped = ()
-) -> list[Log]:
+def read_logs(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> list[Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
 
     Args:
@@ -116,11 +107,11 @@ def read_logs(
         mapping: over [log]: a table like it, or texts as `--map` takes them.
     """
     names = log_map(compiled, mapping)
-    return [log if isinstance(log, Log) else _read(log, compiled.spec, names) for log in logs]
+    return [_log(log, compiled.spec, names) for log in logs]
 
 
 def read_currents(
-    compiled: CompiledModel, logs: Sequence[str | Path | Log], mapping: Mapped = ()
+    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[Log]:
     """Logs of currents; where the robot file states no drive gain, torques are in drive units.
 
@@ -128,7 +119,7 @@ def read_currents(
         DataError: a log gives a torque instead.
     """
     spec, names = in_drive_units(compiled.spec), log_map(compiled, mapping)
-    read = [log if isinstance(log, Log) else _read(log, spec, names) for log in logs]
+    read = [_log(log, spec, names) for log in logs]
     check_currents(read, spec.joints)
     return read
 
@@ -142,6 +133,17 @@ def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
         else map_from_words(mapping)
     )
     return given.over(stated)
+
+
+def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
+    if isinstance(log, Log):
+        return log
+    if not isinstance(log, SimulatedLog):
+        return _read(log, spec, names)
+    with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
+        place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
+        write_log(place, log)
+        return read_log(place, spec)
 
 
 def _read(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
@@ -176,7 +178,7 @@ def file_and_span(
 
 def observe(
     compiled: CompiledModel,
-    logs: Sequence[str | Path | Log],
+    logs: Sequence[AnyLog],
     processing: Processing | None = None,
     mapping: Mapped = (),
 ) -> Observation:
@@ -190,14 +192,39 @@ def fit(
     derivation: Derivation,
     emitted: Emitted,
     observation: Observation,
-    method: Method = "weighted",
+    method: Method | Literal["two-step"] = "weighted",
+    *,
+    energy: bool = False,
+    window: float | None = None,
+    payloads: Sequence[Payload] = (),
 ) -> IdentifiedModel:
     """The base parameters from an observation, with all that a model file holds.
+
+    Args:
+        derivation: of the robot.
+        emitted: its C.
+        observation: of its logs.
+        method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
+        energy: True for the energy model, whose rows are windows (docs/energy-model.md).
+        window: their length, s; None: the spacing of the torque model's rows.
+        payloads: loads, each with the names of the logs that carry it.
 
     Raises:
         DataError: the derivation, the C and the observation are not of one robot; or see
             `identify`.
     """
+    _check_of_one_robot(derivation, emitted, observation)
+    compiled = compile_model(emitted)
+    asked = Asked(method, energy, window, tuple(payloads))
+    way = estimated(asked, derivation.robot, compiled, observation)
+    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
+    loaded = {name for payload in payloads for name in payload.logs}
+    bare = [name for name in observation.logs if name not in loaded]
+    result = with_verdict(compiled, observation, way.result, told, bare, way.refit)
+    return identified(derivation, emitted, observation, result)
+
+
+def _check_of_one_robot(derivation: Derivation, emitted: Emitted, observation: Observation) -> None:
     names = tuple(base.name for base in emitted.spec.base)
     for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
         if other != emitted.spec.robot:
@@ -210,11 +237,6 @@ def fit(
             f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
             f"{', '.join(names)}; expected the same; observe with this C"
         )
-    compiled = compile_model(emitted)
-    result = identify(observation, method, compiled)
-    told = findings_of_fit(compiled, observation, result.beta)
-    result = with_verdict(compiled, observation, result, told)
-    return identified(derivation, emitted, observation, result)
 
 
 def identified(
@@ -261,23 +283,34 @@ def _uncoded(spec: ModuleSpec) -> ModuleSpec:
     return dataclasses.replace(spec, code="")
 
 
-def compare(model: IdentifiedModel, logs: Sequence[str | Path | Log]) -> Comparison:
+def reduced(model: IdentifiedModel) -> IdentifiedModel:
+    """The model with its essential parameters only, estimated anew; all others are 0.
+
+    Raises:
+        DataError: the model was saved by a version that kept none.
+    """
+    return with_essential_only(model, f"model of {model.spec.robot}")
+
+
+def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
     compiled = recompile(model)
-    prediction, _ = predict(model, read_logs(compiled, logs), compiled)
+    prediction, _ = predict(model, read_logs(compiled, logs, mapping), compiled)
     return compare_prediction(prediction)
 
 
 def diagnose(
     model: IdentifiedModel,
-    logs: Sequence[str | Path | Log],
-    holdout: Sequence[str | Path | Log] = (),
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog] = (),
     without: Sequence[str] = (),
+    progress: Callable[[float], None] | None = None,
+    mapping: Mapped = (),
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled = recompile(model)
     robot = robot_from_text(model.robot_text, "robot of the model")
     known = Known(robot.catalogue, robot.coupling)
-    given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
     check_apart(given, kept)
-    return find_missing(model, compiled, given, kept, without, known=known)
+    return find_missing(model, compiled, given, kept, without, progress=progress, known=known)

@@ -1,0 +1,257 @@
+"""Motions that tell parameters, or two effects, apart."""
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.api.chain import compile_model, derive, generate, recompile
+from modeler.compiled import CompiledModel
+from modeler.core.errors import DataError
+from modeler.effects import effect_named
+from modeler.excite.between import Apart, Question
+from modeler.excite.between import tell_apart as told_apart
+from modeler.excite.bounds import Bounds, Box
+from modeler.excite.result import Exciting
+from modeler.excite.search import Wish, usual_harmonics
+from modeler.excite.search import excite as excited
+from modeler.fit import IdentifiedModel
+from modeler.robot import Limits, Robot, robot_from_text
+from modeler.robot.place import near
+from modeler.simulate import motion_limits
+
+Progress = Callable[[float], None]
+
+
+def _untold(share: float) -> None:
+    """Nobody looks."""
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What is to be excited, and what is known of it.
+
+    Attributes:
+        robot, compiled: it.
+        sigma: (J,) standard deviation of the torque of each joint; None where unknown.
+        kept: (k,) columns that matter; None: all.
+        beta: (c,) base parameters; None where unknown.
+    """
+
+    robot: Robot
+    compiled: CompiledModel
+    sigma: np.ndarray | None = None
+    kept: np.ndarray | None = None
+    beta: np.ndarray | None = None
+
+    def search(self, bounds: Bounds, wish: Wish, progress: Progress = _untold) -> Exciting:
+        """The motion that tells its parameters apart."""
+        return excited(self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress)
+
+
+def subject_of(thing: Robot | IdentifiedModel) -> Subject:
+    """A robot with the values that its file states, or a model with those that were fitted."""
+    if isinstance(thing, Robot):
+        compiled = compile_model(generate(derive(thing)))
+        return Subject(thing, compiled, beta=_nominal(compiled))
+    robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot")
+    sigma = np.array([joint.sigma for joint in thing.fit.joints])
+    known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
+    kept = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
+    return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta)
+
+
+def _nominal(compiled: CompiledModel) -> np.ndarray | None:
+    """The base parameters that the robot file states; None where it leaves some open."""
+    values = [parameter.nominal for parameter in compiled.spec.standard]
+    if any(value is None for value in values):
+        return None
+    return compiled.base_parameters(values)
+
+
+def excite(
+    thing: Robot | IdentifiedModel,
+    *,
+    limits: Mapping[str, Sequence[float]] | None = None,
+    boxes: Mapping[str, Sequence[float]] | None = None,
+    progress: Progress = _untold,
+    **wish: Any,
+) -> Exciting:
+    """A motion within limits along which the parameters are well told apart (docs/excitation.md).
+
+    Args:
+        thing: a robot, or a model: then weighted as its fit, essential parameters only.
+        limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
+            those of the robot file.
+        boxes: frame -> x0, x1, y0, y1, z0, z1 in frame 0, m, that its origin stays in.
+        progress: called with the share done, 0 to 1.
+        wish: of `excite.search.Wish`: duration [s], harmonics, criterion, starts, seed ...
+
+    Raises:
+        DataError: limits or a wish that cannot be.
+        RobotError: an empty range.
+    """
+    subject = subject_of(thing)
+    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
+    return subject.search(bounds, _wish(bounds, wish), progress)
+
+
+def tell_apart(
+    model: IdentifiedModel,
+    first: str,
+    second: str,
+    *,
+    limits: Mapping[str, Sequence[float]] | None = None,
+    boxes: Mapping[str, Sequence[float]] | None = None,
+    progress: Progress = _untold,
+    **wish: Any,
+) -> tuple[Exciting, Apart]:
+    """The motion along which two effects that the model lacks are least alike.
+
+    Args:
+        model: fitted.
+        first: one of them, as "stribeck@2".
+        second: the other.
+        limits: as of `excite`.
+        boxes: as of `excite`.
+        progress: called with the share done, 0 to 1.
+        wish: as of `excite`.
+
+    Raises:
+        DataError: an effect or joint that is not there, or that the model has.
+    """
+    subject = subject_of(model)
+    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
+    question = question_of(subject, f"{first},{second}", "tell_apart:")
+    return told_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
+
+
+def _wish(bounds: Bounds, given: Mapping[str, Any]) -> Wish:
+    known = [field.name for field in dataclasses.fields(Wish)]
+    for name in given:
+        if name not in known:
+            raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
+    duration = given.get("duration", Wish().duration)
+    return Wish(**{"harmonics": usual_harmonics(bounds, duration), **given})
+
+
+def question_of(subject: Subject, texts: str, where: str = "--between") -> Question:
+    """Which two effects are to be told apart.
+
+    Args:
+        subject: with values.
+        texts: "stribeck@2,spring@2".
+        where: begins the message.
+
+    Raises:
+        DataError: not two, or one that is not there or that the model has.
+    """
+    joints = [joint.name for joint in subject.compiled.spec.joints]
+    catalogue = subject.robot.catalogue
+    ids = [effect.id for effect in catalogue]
+    found = []
+    for text in texts.split(","):
+        name, _, joint = text.strip().partition("@")
+        effect = effect_named(name, catalogue)
+        if effect is None:
+            raise DataError(
+                f"{where} {text}: no such effect{near(name, ids)}; expected some of "
+                f"{', '.join(ids)}"
+            )
+        if joint not in joints:
+            raise DataError(
+                f"{where} {text}: got joint {joint or '(none)'}; expected EFFECT@J with one of "
+                f"{', '.join(joints)}"
+            )
+        if subject.robot.has_effect(effect.id, joint):
+            raise DataError(
+                f"{where} {text}: the model has {effect.id} on joint {joint} already; expected "
+                "effects that it lacks"
+            )
+        found.append((effect, joint))
+    if len(found) != 2 or found[0] == found[1]:
+        raise DataError(f"{where} {texts}: expected two effects, as stribeck@2,spring@2")
+    assert subject.beta is not None
+    return Question((found[0], found[1]), subject.beta, subject.sigma)
+
+
+def bounds_of(
+    robot: Robot,
+    compiled: CompiledModel,
+    limits: Mapping[str, Sequence[float]],
+    boxes: Mapping[str, Sequence[float]],
+) -> Bounds:
+    """The limits of the robot file, with those that are given in their place.
+
+    Args:
+        robot: as loaded.
+        compiled: the same.
+        limits: as of `excite`.
+        boxes: as of `excite`.
+
+    Raises:
+        DataError: another number of values, or no number; a joint or frame that is not there.
+        RobotError: an empty range.
+    """
+    coordinates = [joint.name for joint in compiled.spec.joints]
+    moving = [joint.name for joint in robot.moving]
+    form = "lower, upper, speed, acceleration"
+    changes, torques = {}, {}
+    for name, given in limits.items():
+        values = _checked("limits", name, given, moving, (4, 5), form)
+        changes[name] = Limits(*values[:4])
+        if len(values) == 5:
+            torques[name] = values[4]
+    every = motion_limits(robot, changes)
+    of = {name: every[moving.index(name)] for name in moving}
+    lower, upper, speed, acceleration = np.array(
+        [dataclasses.astuple(of[name])[:4] for name in coordinates]
+    ).T
+    closure = compiled.spec.closure
+    home = None if closure is None else np.array(closure.home)[list(closure.given)]
+    return Bounds(
+        tuple(coordinates), lower, upper, speed, acceleration,
+        torque=np.array([torques.get(name, np.inf) for name in coordinates]),
+        boxes=tuple(_box(name, given, moving) for name, given in boxes.items()),
+        passive=_following(compiled, {**robot.limits, **changes}), home=home,
+    )  # fmt: skip
+
+
+def _following(
+    compiled: CompiledModel, stated: Mapping[str, Limits]
+) -> tuple[tuple[int, float, float], ...]:
+    """Ranges of the joints that follow, as stated."""
+    closure = compiled.spec.closure
+    if closure is None:
+        return ()
+    return tuple(
+        (place, stated[name].lower, stated[name].upper)
+        for place, name in enumerate(closure.variables)
+        if place not in closure.given and name in stated
+    )
+
+
+def _box(name: str, given: Sequence[float], moving: list[str]) -> Box:
+    values = _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
+    return Box(
+        name, moving.index(name),
+        (values[0], values[2], values[4]), (values[1], values[3], values[5]),
+    )  # fmt: skip
+
+
+def _checked(
+    what: str, name: str, given: Sequence[float], names: list[str], counts: tuple[int, ...],
+    form: str,
+) -> list[float]:  # fmt: skip
+    """The numbers, if they are as many as expected and the row is there."""
+    if name not in names:
+        raise DataError(
+            f"{what}: no moving joint {name}{near(name, names)}; expected one of {', '.join(names)}"
+        )
+    values = [float(value) for value in given]
+    if len(values) not in counts or any(math.isnan(value) for value in values):
+        raise DataError(f"{what} of {name}: got {given}; expected {form}, numbers in SI units")
+    return values

@@ -1,0 +1,118 @@
+"""The ways to fit: one model or the other, with loads or without, in one step or two."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from modeler.compiled import CompiledModel
+from modeler.core.choices import GAIN_METHOD, TWO_STEPS
+from modeler.core.errors import DataError
+from modeler.core.estimators import ABOUT
+from modeler.estimate.alone import Directions
+from modeler.fit import (
+    FitResult,
+    Payload,
+    are_currents,
+    identify,
+    identify_energy,
+    identify_with_payloads,
+    known_doubts,
+    two_step,
+)
+from modeler.fit.doubts import Told
+from modeler.observation import Observation
+from modeler.robot import Robot
+from modeler.robot.motors import joint_directions
+from modeler.robot.place import near
+
+WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
+"""Methods that know no loads."""
+
+OF_WINDOWS = ("weighted", "ordinary")
+"""Methods of the energy model."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """How a fit is to be made.
+
+    Attributes:
+        method: an id of `core.estimators`, or "two-step".
+        energy: True for the energy model, whose rows are windows.
+        window: its length, s; None: the spacing of the torque model's rows.
+        payloads: loads that some logs carry.
+    """
+
+    method: str = "weighted"
+    energy: bool = False
+    window: float | None = None
+    payloads: tuple[Payload, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """What a way to fit ends in.
+
+    Attributes:
+        result: not judged yet.
+        told: doubts that it raises itself.
+        refit: how to fit again without some rows; None: least squares.
+        lines: printed above the result.
+        further: fields of the JSON.
+    """
+
+    result: FitResult
+    told: Sequence[Told] = ()
+    refit: Callable[[np.ndarray], np.ndarray] | None = None
+    lines: Sequence[str] = ()
+    further: Mapping[str, Any] = field(default_factory=dict)
+
+
+def estimated(asked: Asked, robot: Robot, compiled: CompiledModel, observation: Observation) -> Way:
+    """The fit that is asked for.
+
+    Raises:
+        DataError: choices that do not go together, or what the estimator refuses.
+    """
+    _check(asked)
+    method: Any = asked.method
+    if asked.energy:
+        energy = identify_energy(compiled, observation, asked.window, method)
+        return Way(energy.result, refit=energy.without)
+    if asked.method == TWO_STEPS:
+        ways = Directions(joint_directions(robot))
+        steps = two_step.identify_in_two_steps(compiled, observation, ways)
+        further = {"two_step": steps.to_json()}
+        return Way(steps.result, steps.doubts(), lines=steps.lines(), further=further)
+    if asked.payloads:
+        result = identify_with_payloads(compiled, observation, asked.payloads, method)
+        current = are_currents(observation.report.logs)
+        return Way(result, known_doubts(compiled, observation, asked.payloads, current))
+    return Way(identify(observation, method, compiled))
+
+
+def _check(asked: Asked) -> None:
+    """Refuse choices that do not go together."""
+    if asked.method == GAIN_METHOD:
+        raise DataError(
+            f"fit: got method {GAIN_METHOD}, which reads the logs itself; call fit_gains with "
+            "them and the mass of the load"
+        )
+    known = [*ABOUT, TWO_STEPS]
+    if asked.method not in known:
+        raise DataError(
+            f"fit: got method {asked.method}{near(str(asked.method), known)}; expected one of "
+            f"{', '.join(known)}"
+        )
+    if asked.payloads and (asked.energy or asked.method in WITHOUT_LOADS):
+        what = "the energy model" if asked.energy else f"method {asked.method}"
+        raise DataError(f"fit: got payloads with {what}, which knows no loads; leave them out")
+    if asked.energy and asked.method not in OF_WINDOWS:
+        raise DataError(
+            f"fit: got method {asked.method} for the energy model, whose rows are windows; "
+            f"expected {' or '.join(OF_WINDOWS)}"
+        )
+    if asked.window is not None and not asked.energy:
+        raise DataError("fit: got a window; only those of the energy model have a length")

@@ -1,0 +1,183 @@
+"""A table: named columns with units, rows of numbers and texts; as text, HTML, Markdown, LaTeX.
+
+Every table that a result gives is one of these. Whatever a user wrote (a title, a name) is escaped
+here and nowhere else.
+"""
+
+import html
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError
+
+_SHOWN = 60  # rows of a long table on a page: half of them from each end
+_LATEX = {
+    "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+    **{letter: f"\\{letter}" for letter in "&%$#_{}"},
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula in a cell: as plain text, and as LaTeX without dollars."""
+
+    text: str
+    latex: str
+
+
+Cell = str | int | float | bool | Formula | None
+"""None, and a number that is not finite, are shown as a dash."""
+
+
+@dataclass(frozen=True, eq=False)
+class Table(Brief):
+    """A table.
+
+    Attributes:
+        title: in plain text.
+        columns: (name, unit); the unit is empty where there is none, or where each row has its own.
+        rows: as long as `columns`.
+        note: a sentence below it.
+    """
+
+    title: str
+    columns: tuple[tuple[str, str], ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    note: str = ""
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def text(self) -> str:
+        """Aligned columns of plain text, every row; numbers to the right."""
+        head = tuple(_headed(name, unit) for name, unit in self.columns)
+        cells = [head, *(tuple(_plain(cell) for cell in row) for row in self.rows)]
+        left = [k for k in range(len(head)) if not self._numeric(k)]
+        lines = [line.rstrip() for line in aligned(cells, left)]
+        return "\n".join([self.title, *lines, *([self.note] if self.note else [])])
+
+    def to_html(self) -> str:
+        """An HTML table; of a long one its first and last rows, and how many are left out."""
+        head = "".join(f"<th>{html.escape(_headed(*column))}</th>" for column in self.columns)
+        half = _SHOWN // 2
+        if len(self.rows) <= _SHOWN:
+            rows = [self._html_row(row) for row in self.rows]
+        else:
+            gap = f'<tr><td colspan="{len(self.columns)}">... {len(self.rows) - _SHOWN} rows more'
+            rows = [self._html_row(row) for row in self.rows[:half]]
+            rows += [f"{gap} ...</td></tr>", *map(self._html_row, self.rows[-half:])]
+        caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
+        note = f"<p>{html.escape(self.note)}</p>" if self.note else ""
+        return (
+            f"<table>{caption}\n<thead><tr>{head}</tr></thead>\n<tbody>\n"
+            + "\n".join(rows)
+            + f"\n</tbody></table>{note}"
+        )
+
+    def _repr_html_(self) -> str:
+        return self.to_html()
+
+    def markdown(self) -> str:
+        """A Markdown table."""
+        cells = [[_headed(*column) for column in self.columns], ["---"] * len(self.columns)]
+        cells += [[_markdown(cell) for cell in row] for row in self.rows]
+        return "\n".join("| " + " | ".join(row) + " |" for row in cells)
+
+    def latex(self) -> str:
+        """A tabular environment; formulas in dollars."""
+        kinds = "".join("r" if self._numeric(k) else "l" for k in range(len(self.columns)))
+        cells = [[_escaped(_headed(*column)) for column in self.columns]]
+        cells += [[_latex(cell) for cell in row] for row in self.rows]
+        head, *body = [" & ".join(row) + r" \\" for row in cells]
+        lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", head, r"\hline", *body, r"\hline"]
+        return "\n".join([*lines, r"\end{tabular}"])
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame: columns by name without units, `frame.attrs["units"]` has them.
+
+        Raises:
+            DataError: pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise DataError(
+                "to_frame: pandas is not installed; install it, or modeler with it: "
+                "pip install 'modeler[notebook]'"
+            ) from None
+        names = [name for name, _ in self.columns]
+        rows = [[_bare(cell) for cell in row] for row in self.rows]
+        frame = pandas.DataFrame(rows, columns=names)
+        frame.attrs["title"], frame.attrs["units"] = self.title, dict(self.columns)
+        return frame
+
+    def column(self, name: str) -> list[Cell]:
+        """The cells of one column.
+
+        Raises:
+            DataError: no such column.
+        """
+        names = [own for own, _ in self.columns]
+        if name not in names:
+            raise DataError(f"column: got {name}; this table has {', '.join(names)}")
+        return [row[names.index(name)] for row in self.rows]
+
+    def _numeric(self, k: int) -> bool:
+        found = [row[k] for row in self.rows if row[k] is not None]
+        return all(isinstance(cell, int | float) for cell in found)
+
+    def _html_row(self, row: Sequence[Cell]) -> str:
+        return f"<tr>{''.join(f'<td>{_html(cell)}</td>' for cell in row)}</tr>"
+
+
+def aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
+    """Columns as wide as what stands in them, two spaces between; numbers to the right."""
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return [
+        "  ".join(
+            f"{cell:<{width}}" if k in left else f"{cell:>{width}}"
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        for row in rows
+    ]
+
+
+def _headed(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
+
+
+def _plain(cell: Cell) -> str:
+    if isinstance(cell, Formula):
+        return cell.text
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if cell is None or (isinstance(cell, float) and not math.isfinite(cell)):
+        return "-"
+    return f"{cell:.6g}" if isinstance(cell, float) else str(cell)
+
+
+def _bare(cell: Cell) -> str | int | float | bool | None:
+    return cell.text if isinstance(cell, Formula) else cell
+
+
+def _html(cell: Cell) -> str:
+    return html.escape(f"${cell.latex}$" if isinstance(cell, Formula) else _plain(cell))
+
+
+def _markdown(cell: Cell) -> str:
+    text = f"${cell.latex}$" if isinstance(cell, Formula) else _plain(cell)
+    return text.replace("|", r"\|").replace("\n", " ")
+
+
+def _latex(cell: Cell) -> str:
+    return f"${cell.latex}$" if isinstance(cell, Formula) else _escaped(_plain(cell))
+
+
+def _escaped(text: str) -> str:
+    return "".join(_LATEX.get(letter, letter) for letter in text)

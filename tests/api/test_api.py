@@ -1,0 +1,264 @@
+"""The Python API does what the commands do, and refuses in one line what cannot be."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import modeler.api as api
+from modeler.cli import main
+from modeler.core.errors import DataError, ModelerError
+from modeler.fit import Payload
+from tests.notebook.session import session
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("api")
+
+
+@pytest.fixture(scope="module")
+def logs(folder: Path) -> tuple[str, str]:
+    """Two runs of a link with a load on it that the file lacks: its first joint has a spring."""
+    places = []
+    for seed in (1, 2):
+        place = folder / f"run{seed}.parquet"
+        api.simulate(api.load("two-link"), place, hide=["spring@1"], duration=8.0, seed=seed)
+        places.append(str(place))
+    return places[0], places[1]
+
+
+@pytest.fixture(scope="module")
+def chain(logs: tuple[str, str]) -> tuple[Any, Any, Any]:
+    derivation = api.derive(api.load("two-link"))
+    emitted = api.generate(derivation)
+    return derivation, emitted, api.observe(api.compile_model(emitted), [logs[0]])
+
+
+def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, logs) -> None:
+    options = ["--duration", "8", "--seed", "1", "--hide", "spring@1"]
+    assert main(["simulate", "two-link", "--out", str(tmp_path / "c.parquet"), *options]) == 0
+    compiled = session()["compiled"]
+    assert (tmp_path / "c.parquet").read_bytes() == Path(logs[0]).read_bytes()
+    run = session()["simulated"]
+    (log,) = api.read_logs(compiled, [run])
+    np.testing.assert_array_equal(log.q, run.q)
+    np.testing.assert_array_equal(log.tau, run.tau)
+
+
+@pytest.mark.parametrize(
+    "options", ["", "--method robust", "--method consistent", "--model energy"]
+)
+def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options: str) -> None:
+    words = options.split()
+    method = words[1] if words[:1] == ["--method"] else "weighted"
+    model = api.fit(*chain, method, energy="energy" in words)
+    place = tmp_path / "c.json"
+    assert main(["fit", "two-link", logs[0], "--out", str(place), *words]) == 0
+    told = api.open_model(place)
+    assert told.fit.method == model.fit.method
+    np.testing.assert_allclose(model.beta, told.beta, rtol=1e-9)
+    assert model.fit.verdict == told.fit.verdict
+
+
+def test_a_load_is_fitted_as_by_the_command(tmp_path: Path, chain, logs) -> None:
+    derivation, emitted, _ = chain
+    both = api.observe(api.compile_model(emitted), [*logs])
+    payload = Payload(("run2.parquet",), None, 1.5)
+    model = api.fit(derivation, emitted, both, payloads=[payload])
+    words = ["--payload-log", logs[1], "--payload-mass", "1.5", "--out", str(tmp_path / "c.json")]
+    assert main(["fit", "two-link", logs[0], *words]) == 0
+    told = api.open_model(tmp_path / "c.json").fit
+    assert [p.value for p in model.fit.loads] == pytest.approx([p.value for p in told.loads])
+    assert model.fit.verdict == told.verdict
+    assert len(model.table("loads")) == len(told.loads) > 0
+
+
+def test_a_look_at_a_log(folder: Path, logs) -> None:
+    seen = api.look_at(logs[0])
+    assert {"q1", "q2", "tau1", "tau2"} <= set(seen.table().column("channel"))
+    assert "no doubts" in seen.summary() and len(repr(seen)) < 200
+    assert seen.plot()._repr_png_().startswith(b"\x89PNG")
+    assert api.write_report(seen, folder / "log.html").exists()
+    piece = api.look_at(f"{logs[0]}@1:3", session()["compiled"])
+    assert piece.clock.duration == pytest.approx(2.0, abs=0.01)
+
+
+def test_a_model_is_saved_opened_and_reduced(tmp_path: Path, chain) -> None:
+    model = api.fit(*chain)
+    again = api.open_model(api.save(model, tmp_path / "m.json"))
+    np.testing.assert_array_equal(again.beta, model.beta)
+    assert again.fit.to_json() == model.fit.to_json()
+    small = api.reduced(model)
+    assert np.count_nonzero(small.beta) == len(model.fit.essential.parameters)
+    robot = api.load("two-link")
+    assert api.load(api.save(robot, tmp_path / "r.toml")).text == robot.text
+
+
+def test_add_undo_and_auto(tmp_path: Path, chain, logs) -> None:
+    model = api.fit(*chain)
+    better = api.add(model, "spring", [logs[0]], [logs[1]], joint="1")
+    waterfall = better.table("waterfall")
+    assert waterfall.column("effect") == ["as fitted", "spring"]
+    assert waterfall.column("error")[1] < 0.8 * waterfall.column("error")[0]
+    back = api.undo(better, [logs[0]])
+    np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
+    found = api.auto(model, [logs[0]], [logs[1]])
+    api.save(model, tmp_path / "m.json")
+    words = [str(tmp_path / "m.json"), "auto", logs[0], "--holdout", logs[1]]
+    assert main(["add", *words, "--out", str(tmp_path / "a.json")]) == 0
+    told = api.open_model(tmp_path / "a.json")
+    assert [s.to_json() for s in found.history] == [s.to_json() for s in told.history]
+
+
+def test_the_c_of_a_model_has_its_values(chain, tmp_path: Path) -> None:
+    model = api.fit(*chain)
+    emitted = api.generate(model, tmp_path / "c")
+    assert emitted.spec.fitted is not None
+    assert [p.value for p in emitted.spec.fitted.parameters] == list(model.beta)
+
+
+def test_home_is_that_of_the_command(tmp_path: Path) -> None:
+    robot = api.load("five-bar")
+    found = api.home(robot)
+    assert main(["home", "five-bar", "--json", str(tmp_path / "h.json")]) == 0
+    told = json.loads((tmp_path / "h.json").read_text())["modes"]
+    assert found.table().column("mode") == [mode["letter"] for mode in told]
+    other = next(mode.letter for k, mode in enumerate(found.modes) if k != found.own)
+    turned = api.at_home(robot, found, other)
+    again = api.home(turned)
+    assert again.own is not None
+    place = [mode.letter for mode in found.modes].index(other)
+    np.testing.assert_allclose(
+        again.modes[again.own].posture, found.modes[place].posture, atol=1e-6
+    )
+    one = api.home(robot, near={robot.coordinates[0].name: 1.2})
+    given = found.linkage.closing.given[0]
+    assert one.modes[0].posture[given] == pytest.approx(1.2)
+
+
+def test_physical_formulas_and_values() -> None:
+    wrist = api.load("wrist")
+    found = api.physical(wrist)
+    smallest = found.sets()
+    known = ",".join(smallest.easiest[0])
+    assert found.formulas(known).steps
+    with pytest.raises(DataError, match="expected a model"):
+        found.values("=1,".join(smallest.easiest[0]) + "=1")
+
+
+def test_physical_values_are_those_of_the_command(tmp_path: Path, chain) -> None:
+    model = api.fit(*chain)
+    found = api.physical(model)
+    known = ",".join(f"{letter}=0.1" for letter in found.sets().easiest[0])
+    values = found.values(known)
+    api.save(model, tmp_path / "m.json")
+    words = ["--known", known, "--json", str(tmp_path / "p.json")]
+    assert main(["physical", str(tmp_path / "m.json"), *words]) == 0
+    told = json.loads((tmp_path / "p.json").read_text())["values"]["parameters"]
+    assert values.table().column("parameter") == [row["parameter"] for row in told]
+    assert values.table().column("value") == pytest.approx([row["value"] for row in told])
+    assert values.table().column("sigma") == pytest.approx([row["sigma"] for row in told])
+
+
+def test_motions(chain) -> None:
+    model = api.fit(*chain)
+    given = {"1": (-1.0, 1.0, 2.0, 8.0)}
+    motion = api.excite(model, limits=given, duration=4.0, harmonics=3, starts=1)
+    columns = motion.sampled(100.0)
+    assert np.abs(columns["q1"]).max() <= 1.0 and np.abs(columns["qd1"]).max() <= 2.0 + 1e-9
+    assert motion.table().column("upper limit")[0] == 1.0
+
+
+def test_catalogues() -> None:
+    assert {"wrist", "ur10e", "emps"} <= set(api.robots().column("name"))
+    assert {"coulomb", "load_friction"} <= set(api.effects().column("effect"))
+    assert {"weighted", "consistent"} <= set(api.estimators().column("method"))
+    own = api.own_effect(api.load("emps"), "fan", columns={"Kf": "v*abs(v)"})
+    assert "fan" in api.effects(own).column("effect")
+
+
+@pytest.mark.parametrize(
+    "name", ["robot", "model", "better", "comparison", "diagnosis", "estimators", "contest"]
+)
+def test_every_page_is_written(folder: Path, name: str) -> None:
+    place = api.write_report(session()[name], folder / f"{name}.html")
+    text = place.read_text(encoding="utf-8")
+    assert text.startswith("<!DOCTYPE html>") and len(text) < 1_500_000
+
+
+def _fit(**given: Any) -> Callable[[Any, Any], object]:
+    return lambda chain, logs: api.fit(*chain, **given)
+
+
+REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
+    "method": (_fit(method="best"), "got method best.*expected one of weighted"),
+    "gains": (_fit(method="tls"), "call fit_gains"),
+    "energy": (_fit(method="ridge", energy=True), "method ridge for the energy model"),
+    "window": (_fit(window=0.1), "got a window"),
+    "loads": (
+        _fit(method="iv", payloads=[Payload(("run1.parquet",), None, 1.0)]),
+        "payloads with method iv",
+    ),
+    "loads and energy": (
+        _fit(energy=True, payloads=[Payload(("run1.parquet",), None, 1.0)]),
+        "payloads with the energy model",
+    ),
+    "setting": (
+        lambda chain, logs: api.simulate(api.load("emps"), colour="red"),
+        "got colour; expected some of .*duration",
+    ),
+    "suffix": (
+        lambda chain, logs: api.simulate(api.load("emps"), "run.txt", duration=1e6),
+        "got suffix .txt",
+    ),
+    "limits": (
+        lambda chain, logs: api.excite(api.load("two-link"), limits={"1": (1.0, 2.0)}),
+        "limits of 1: got .*expected lower, upper, speed, acceleration",
+    ),
+    "joint": (
+        lambda chain, logs: api.excite(api.load("two-link"), boxes={"9": (0,) * 6}),
+        "boxes: no moving joint 9",
+    ),
+    "wish": (
+        lambda chain, logs: api.excite(api.load("two-link"), speed=3),
+        "excite: got speed; expected some of duration",
+    ),
+    "apart": (
+        lambda chain, logs: api.tell_apart(api.fit(*chain), "spring@1", "ghost@1"),
+        "tell_apart: ghost@1: no such effect",
+    ),
+    "estimators": (
+        lambda chain, logs: api.side_by_side(api.load("two-link"), logs, methods=["best"]),
+        "methods: got best",
+    ),
+    "rows twice": (
+        lambda chain, logs: api.side_by_side(api.load("two-link"), logs[:1], logs[:1]),
+        "shares rows",
+    ),
+    "one model": (lambda chain, logs: api.contest({}, logs), "got 0 models"),
+    "home": (
+        lambda chain, logs: api.home(api.load("five-bar"), near={"nine": 1.0}),
+        "near names joint nine",
+    ),
+    "mode": (
+        lambda chain, logs: api.at_home(api.load("five-bar"), session()["modes"], "Z"),
+        "there is no such mode; expected one of A",
+    ),
+    "no loops": (lambda chain, logs: api.home(api.load("emps")), "no loop to close"),
+    "undo": (lambda chain, logs: api.undo(api.fit(*chain), logs[:1]), "no effect was added"),
+    "page": (lambda chain, logs: api.write_report("x", "x.html"), "got str; expected a robot"),  # type: ignore[arg-type]
+    "model file": (lambda chain, logs: api.open_model("none.json"), "none.json"),
+    "values": (lambda chain, logs: session()["physical"].values("am"), "no value of am"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_is_refused_in_one_line(chain, logs, case: str) -> None:
+    run, words = REFUSED[case]
+    with pytest.raises(ModelerError, match=words) as caught:
+        run(chain, logs)
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,197 @@
+"""What every object of a session says of itself: short reprs, summaries, tables, figures, HTML."""
+
+import dataclasses
+import io
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from modeler.api import derive, load
+from modeler.core.errors import DataError
+from modeler.core.presented import Presented, presented
+from modeler.robot import robot_from_text
+from tests.notebook.session import HIDDEN, reached, session
+
+NAMES = [
+    "robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "report",
+    "model", "fit", "better", "addition", "comparison", "diagnosis", "estimators", "modes",
+    "contest", "motion", "physical",
+]  # fmt: skip
+
+
+def test_every_object_that_is_reached_prints_one_short_line() -> None:
+    found = list(reached(session()))
+    assert len({type(thing) for _, thing in found}) > 80  # it went deep
+    for way, thing in found:
+        line = repr(thing)
+        assert len(line) <= 200 and "\n" not in line, f"{way}: make it a Brief: {line[:99]}"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_results_have_a_summary(name: str) -> None:
+    thing = session()[name]
+    assert isinstance(thing, Presented)
+    first, *_ = thing.summary().splitlines()
+    assert 10 < len(first) < 250 and "object at 0x" not in thing.summary()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_table_is_text_html_latex_and_markdown(name: str) -> None:
+    thing = session()[name]
+    shown = presented(type(thing))
+    assert shown is not None
+    for table_name in shown.tables(thing):
+        table = thing.table(table_name)
+        assert len(table.text().splitlines()) >= len(table) + 2
+        assert table.markdown().count("\n") == len(table) + 1
+        assert table.latex().count(r"\\") >= len(table) + 1
+        assert _checked(table.to_html()) <= 64
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_figure_is_drawn(name: str) -> None:
+    thing = session()[name]
+    shown = presented(type(thing))
+    assert shown is not None
+    for figure_name in list(shown.figures(thing))[:3]:
+        figure = thing.plot(figure_name)
+        assert figure.axes and hasattr(figure, "_repr_png_")
+    if shown.figures(thing):
+        png = thing.plot()._repr_png_()
+        assert png.startswith(b"\x89PNG") and len(png) > 5000
+
+
+def test_a_figure_is_saved_as_any() -> None:
+    figure = session()["robot"].plot()
+    figure.savefig(svg := io.BytesIO(), format="svg")
+    assert b"</svg>" in svg.getvalue()
+
+
+def test_which_have_figures() -> None:
+    drawn = {name for name in NAMES if presented(type(session()[name])).figures(session()[name])}
+    assert drawn >= {"robot", "log", "model", "comparison", "diagnosis", "simulated", "better"}
+    assert "waterfall" in presented(type(session()["better"])).figures(session()["better"])
+    with pytest.raises(DataError, match="a model has no waterfall; expected one of parameters"):
+        session()["model"].plot("waterfall")
+    with pytest.raises(DataError, match="an addition has none"):
+        session()["addition"].plot()
+
+
+def test_an_unknown_table_is_refused_with_those_there_are() -> None:
+    with pytest.raises(DataError, match="a comparison has no errrors; expected one of er"):
+        session()["comparison"].table("errrors")
+
+
+@pytest.mark.parametrize("name", ["robot", "derivation", "better", "comparison", "diagnosis"])
+def test_the_html_of_a_notebook_is_small_and_well_formed(name: str) -> None:
+    text = session()[name]._repr_html_()
+    assert len(text) < 100_000 and _checked(text) > 0
+    assert "http" not in text  # no network
+
+
+def test_html_says_what_was_found() -> None:
+    better = session()["better"]._repr_html_()
+    assert "load_friction" in better and "relative sigma [%]" in better
+    assert "mu2" in session()["diagnosis"]._repr_html_()
+    assert "$" in session()["derivation"]._repr_html_()  # relations are typeset
+
+
+EVIL = '<script>alert("x")</script> & "more"'
+
+
+def test_what_a_user_wrote_is_escaped() -> None:
+    text = load("two-link").text
+    title = next(line for line in text.splitlines() if line.startswith("title"))
+    robot = robot_from_text(text.replace(title, f"title = '{EVIL}'"), "evil")
+    assert robot.title == EVIL
+    for thing in (robot, derive(robot)):
+        html = thing._repr_html_()
+        assert "<script" not in html and _checked(html)
+    assert "&lt;script&gt;" in robot._repr_html_()
+
+
+def test_tables_hold_the_numbers_of_the_results() -> None:
+    made = session()
+    model, comparison, better = made["model"], made["comparison"], made["better"]
+    np.testing.assert_array_equal(model.table("parameters").column("value"), model.beta)
+    e = np.array(comparison.table("residuals").rows, dtype=object)[:, 2:].astype(float)
+    rms = np.sqrt(np.nanmean(e**2, axis=0))
+    np.testing.assert_allclose(rms, [item.rms for item in comparison.joints], rtol=1e-12)
+    torques = comparison.table("torques")
+    for joint in "123":
+        measured, predicted = (np.array(torques.column(f"{what} {joint}"), dtype=float)
+                               for what in ("measured", "predicted"))  # fmt: skip
+        left = np.array(comparison.table("residuals").column(joint), dtype=float)
+        used = np.isfinite(left)
+        np.testing.assert_allclose((measured - predicted)[used], left[used])
+    errors = better.table("waterfall").column("error")
+    assert errors[-1] < 0.3 * errors[0]
+    assert better.table("waterfall").column("effect") == ["as fitted", HIDDEN.split("@")[0]]
+
+
+def test_the_table_of_a_log_is_the_log() -> None:
+    log = session()["log"]
+    data = log.table("data")
+    np.testing.assert_array_equal(data.column("q2"), log.q[:, 1])
+    np.testing.assert_array_equal(data.column("time"), log.time)
+
+
+def test_relations_and_closed_forms_are_latex() -> None:
+    derivation = session()["derivation"]
+    relations = derivation.relations._repr_latex_()
+    assert relations.count("&=") == derivation.base.rank
+    assert relations.startswith(r"\begin{align}") and relations.endswith(r"\end{align}")
+    for formulas in (derivation.closed_form(), derivation.regressor()):
+        latex = formulas._repr_latex_()
+        assert latex.count(r"\begin") == latex.count(r"\end") > 0
+        assert str(formulas) and formulas.markdown
+    base = derivation.table("base")
+    assert "| $\\mathit{ZZ}_{1R}$ |" in base.markdown()
+
+
+def test_without_the_room_a_result_says_what_to_import() -> None:
+    class Stray(Presented):
+        """Nobody has said how it is shown."""
+
+    assert Stray()._repr_html_() is None and repr(Stray()) == "Stray()"
+    with pytest.raises(DataError, match=r"import modeler\.api"):
+        Stray().summary()
+
+
+def test_every_class_of_a_presentation_prints_short_by_itself() -> None:
+    @dataclasses.dataclass(frozen=True)
+    class Long(Presented):
+        values: np.ndarray
+        words: tuple[str, ...]
+        text: str
+
+    line = repr(Long(np.zeros((7, 3)), ("word",) * 900, "a\nb" * 900))
+    assert line.startswith("Long(values=array(7, 3), words=<900 items>, text='a\\nb")
+    assert len(line) < 200 and "\n" not in line
+
+
+class _Checker(HTMLParser):
+    """Counts rows; refuses tags that are not closed in turn."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.rows = 0
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        assert tag in {"p", "b", "table", "caption", "thead", "tbody", "tr", "th", "td"}
+        self.open.append(tag)
+        self.rows += tag == "tr"
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def _checked(text: str) -> int:
+    """Rows of all tables of well-formed HTML."""
+    checker = _Checker()
+    checker.feed(text)
+    checker.close()
+    assert not checker.open
+    return checker.rows
