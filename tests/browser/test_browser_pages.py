@@ -93,7 +93,8 @@ def test_the_waterfall_is_all_there(browser: Chromium, pages: Pages, size: tuple
     drawn = str(browser.value("document.querySelector('.plot').textContent"))
     for step in pages.waterfall:
         assert f"{100.0 * step['error']:.2f}" in drawn
-    assert "as fitted" in drawn and "+ load_friction @2" in text
+    assert "as fitted" in drawn and "@2" in drawn
+    assert "as fitted + load_friction @2" in text  # the head of the table joint by joint
     assert "judged on other.parquet" in text
     assert "modeler add MODEL load_friction --joint 2 LOG... --out MODEL" in text
 
