@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
@@ -23,7 +24,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     made = {
         "gallery/index.md": [f"gallery/{name}.md" for name in builtin_names()],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
-        "python/index.md": [*notebooks(), *list(interface_pages())[1:]],
+        "python/index.md": list(interface_pages())[1:],
     }
     for section in config.nav or []:
         for pages in section.values():
@@ -32,9 +33,9 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     return config
 
 
-def on_page_markdown(markdown: str, **_: object) -> str:
-    """Notebooks are pages here: links to their files lead to these."""
-    return re.sub(r"\]\(([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """Links to notebooks lead to the pages that show them."""
+    return re.sub(r"\]\((?:\.\./)*([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:

@@ -33,6 +33,7 @@ def test_every_page_has_its_place(page: str) -> None:
 def test_every_place_has_its_page() -> None:
     made = {"index.md", "contributing.md", "changelog.md", "gallery/index.md"}
     made |= {"commands/index.md", "python/index.md"}
+    made |= {f"notebooks/{path.stem}.md" for path in (ROOT / "docs").glob("*.ipynb")}
     written = {path.name for path in (ROOT / "docs").glob("*.md")}
     assert set(listed()) == made | written
 
