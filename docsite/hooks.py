@@ -33,11 +33,6 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     return config
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Links to notebooks lead to the pages that show them."""
-    return re.sub(r"\]\((?:\.\./)*([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
-
-
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Adds the home page, the reference, the gallery and the notebooks."""
     made: dict[str, str | bytes] = {**home_pages(), **command_pages(), **interface_pages()}
@@ -46,6 +41,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path, content in made.items():
         files.append(File.generated(config, path, content=content))
     return files
+
+
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """Links to notebooks lead to the pages that show them."""
+    return re.sub(r"\]\((?:\.\./)*([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
 
 
 def home_pages() -> dict[str, str]:
