@@ -24,7 +24,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     made = {
         "gallery/index.md": [f"gallery/{name}.md" for name in builtin_names()],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
-        "python/index.md": [*notebooks(), *list(interface_pages())[1:]],
+        "python/index.md": list(interface_pages())[1:],
     }
     for section in config.nav or []:
         for pages in section.values():

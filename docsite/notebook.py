@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import os
+import subprocess
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,7 @@ def executed(path: Path) -> str:
     os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     with tempfile.TemporaryDirectory() as folder:
         client = NotebookClient(notebook, resources={"metadata": {"path": folder}}, timeout=240)
-        client.execute()
+        client.execute(stderr=subprocess.DEVNULL)  # what a kernel says of its sockets
     return str(nbformat.writes(notebook))
 
 
