@@ -292,9 +292,7 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
     return with_essential_only(model, f"model of {model.spec.robot}")
 
 
-def compare(
-    model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()
-) -> Comparison:
+def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
     compiled = recompile(model)
     prediction, _ = predict(model, read_logs(compiled, logs, mapping), compiled)
