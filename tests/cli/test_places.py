@@ -45,6 +45,7 @@ READING = {  # what each command reads; outputs come after it
     "demo": "demo --out new",
     "physical": "physical arm.toml",
     "show": "show arm.toml",
+    "completion": "completion bash",
 }
 
 
