@@ -1,6 +1,8 @@
 """What mkdocs calls: pages that are made, not written, and where they stand in the list."""
 
+import re
 from pathlib import Path
+from typing import Any
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
@@ -9,7 +11,7 @@ from docsite.commands import command_pages, commands
 from docsite.gallery import exhibits, gallery_index
 from docsite.interface import interface_pages
 from docsite.markdown import moved
-from docsite.notebook import notebook_page
+from docsite.notebook import executed, notebook_page
 from modeler.robot import builtin_names
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -22,7 +24,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     made = {
         "gallery/index.md": [f"gallery/{name}.md" for name in builtin_names()],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
-        "python/index.md": list(interface_pages())[1:],
+        "python/index.md": [*notebooks(), *list(interface_pages())[1:]],
     }
     for section in config.nav or []:
         for pages in section.values():
@@ -39,6 +41,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path, content in made.items():
         files.append(File.generated(config, path, content=content))
     return files
+
+
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """Links to notebooks lead to the pages that show them."""
+    return re.sub(r"\]\((?:\.\./)*([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
 
 
 def home_pages() -> dict[str, str]:
@@ -64,9 +71,12 @@ def gallery_pages() -> dict[str, str | bytes]:
     return pages
 
 
+def notebooks() -> dict[str, Path]:
+    """{page: file} of the notebooks of docs/."""
+    found = sorted((ROOT / "docs").glob("*.ipynb"))
+    return {f"notebooks/{path.stem}.md": path for path in found}
+
+
 def notebook_pages() -> dict[str, str]:
-    """Every notebook of docs/ as a page."""
-    return {
-        f"notebooks/{path.stem}.md": notebook_page(path.read_text(encoding="utf-8"))
-        for path in sorted((ROOT / "docs").glob("*.ipynb"))
-    }
+    """Every notebook as a page."""
+    return {page: notebook_page(executed(path)) for page, path in notebooks().items()}

@@ -36,6 +36,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/physical-parameters.md",
        "docs/reproduce.md",
        "docs/excitation.md",
+       "docs/python.md",
        "docs/controller.md",
        )  # fmt: skip
 PAGES = sorted(

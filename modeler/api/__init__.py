@@ -27,10 +27,12 @@ from modeler.api.chain import compare as compare
 from modeler.api.chain import compile_model as compile_model
 from modeler.api.chain import derive as derive
 from modeler.api.chain import diagnose as diagnose
+from modeler.api.chain import file_and_span as file_and_span
 from modeler.api.chain import fit as fit
 from modeler.api.chain import generate as generate
 from modeler.api.chain import identified as identified
 from modeler.api.chain import load as load
+from modeler.api.chain import log_map as log_map
 from modeler.api.chain import observe as observe
 from modeler.api.chain import own_effect as own_effect
 from modeler.api.chain import read_currents as read_currents
@@ -49,6 +51,7 @@ from modeler.api.improving import add as add
 from modeler.api.improving import auto as auto
 from modeler.api.improving import undo as undo
 from modeler.api.letters import physical as physical
+from modeler.api.looking import look_at as look_at
 from modeler.api.postures import at_home as at_home
 from modeler.api.postures import home as home
 from modeler.api.reports import write_report as write_report

@@ -8,17 +8,19 @@ from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis
 from modeler.fit import IdentifiedModel
 from modeler.fit.side_by_side import SideBySide
+from modeler.logs.look import Look
 from modeler.pages.additions import write_additions
 from modeler.pages.comparison import write_report as write_comparison
 from modeler.pages.contest import write_contest
 from modeler.pages.estimators import write_estimators
 from modeler.pages.fitted import write_fit
+from modeler.pages.log import write_log_page
 from modeler.pages.report import write_diagnosis
 from modeler.robot import Robot
 from modeler.scoring.contest import Contest
 from modeler.showing import show
 
-Reported = Robot | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide
+Reported = Robot | Look | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide
 """What has a page."""
 
 
@@ -26,8 +28,8 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
     """Write the page of a result; it needs no other file.
 
     Args:
-        thing: a robot, a model (its fit; of one with additions, what they gained), a comparison,
-            models side by side, a diagnosis, or estimators side by side.
+        thing: a robot, a look at a log, a model (its fit; of one with additions, what they
+            gained), a comparison, models side by side, a diagnosis, or estimators side by side.
         path: of an .html file.
         notes: lines for the foot of the page: where the logs come from.
 
@@ -39,6 +41,8 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
     if isinstance(thing, Robot):
         show(thing, place)
         return place
+    if isinstance(thing, Look):
+        return write_log_page(place, thing, thing.doubts, notes)
     if isinstance(thing, SideBySide):
         return write_estimators(place, thing.robot, thing.tried, [*thing.data, *notes])
     if isinstance(thing, IdentifiedModel):

@@ -5,15 +5,14 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import compile_model, derive, generate, observe
-from modeler.api.chain import file_and_span, log_map
+from modeler.api import compile_model, derive, file_and_span, generate, log_map, look_at, observe
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.robots import read_told
 from modeler.compiled import CompiledModel
 from modeler.core.errors import ModelerError
 from modeler.fit import identify
-from modeler.logs import LogMap, Table, map_from_table, map_from_words
-from modeler.logs.look import Look, look
+from modeler.logs import LogMap, map_from_table, map_from_words
+from modeler.logs.look import Look
 from modeler.observation.findings import findings_of_fit
 from modeler.observation.read import read_log
 from modeler.observation.window import window
@@ -29,9 +28,7 @@ def run_log(args: argparse.Namespace) -> Json:
     place, span = file_and_span(args.log)
     compiled = _compiled(args.robot)
     mapping = map_from_words(args.map) if compiled is None else log_map(compiled, args.map)
-    joints = () if compiled is None else compiled.spec.joints
-    table = Table(Path(place), mapping, joints, any_topic=True)
-    seen = look(table, mapping, joints, span or (None, None))
+    seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
     if compiled is not None:
         doubts += [

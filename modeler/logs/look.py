@@ -10,6 +10,7 @@ import numpy as np
 
 from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
+from modeler.core.presented import Presented
 from modeler.logs.columns import Stream
 from modeler.logs.guess import RATES, Guess, guesses, log_text
 from modeler.logs.mapping import LogMap
@@ -77,7 +78,7 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class Look(Presented):
     """All that a log shows by itself.
 
     Attributes:

@@ -1,19 +1,23 @@
 """Logs, observations of them, and motions."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from modeler.core.presented import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, Table
 from modeler.excite.result import Exciting
-from modeler.notebook.figures import log_figure
+from modeler.logs.look import Look
+from modeler.notebook.figures import log_figure, picture_figure
 from modeler.observation import DataReport, Log, Observation
+from modeler.pages.log import channel_rows, clock_line, log_pictures
 from modeler.simulate import SimulatedLog
 
 
 def present_logs() -> None:
-    """Log, SimulatedLog, Observation, DataReport, Exciting."""
+    """Look, Log, SimulatedLog, Observation, DataReport, Exciting."""
+    present(Look, Presentation("a look at a log", _look_summary, _look_tables, _look_figures))
     present(Log, Presentation("a log", _log_summary, _log_tables, _log_figures))
     present(SimulatedLog, Presentation("a simulated log", _simulated_summary, _simulated_tables,
                                        _simulated_figures))  # fmt: skip
@@ -21,6 +25,23 @@ def present_logs() -> None:
                                       _observation_tables))  # fmt: skip
     present(DataReport, Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables))
     present(Exciting, Presentation("a motion", _motion_summary, _motion_tables))
+
+
+def _look_summary(seen: Look) -> str:
+    clock = "no clock" if seen.clock is None else clock_line(seen.clock)
+    lines = [f"{seen.name}: {seen.rows} rows, {len(seen.channels)} channels", clock]
+    lines += [f"note: {note}" for note in seen.notes]
+    return "\n".join([*lines, *([f"doubt: {doubt}" for doubt in seen.doubts] or ["no doubts"])])
+
+
+def _look_tables(seen: Look) -> Tables:
+    head, *rows = channel_rows(seen)
+    columns = tuple((name, "") for name in head)
+    return {"channels": lambda: Table(f"channels of {seen.name}", columns, tuple(map(tuple, rows)))}
+
+
+def _look_figures(seen: Look) -> Figures:
+    return {picture.name: partial(picture_figure, picture) for picture in log_pictures(seen)}
 
 
 def _log_summary(log: Log) -> str:

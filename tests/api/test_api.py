@@ -77,6 +77,16 @@ def test_a_load_is_fitted_as_by_the_command(tmp_path: Path, chain, logs) -> None
     assert len(model.table("loads")) == len(told.loads) > 0
 
 
+def test_a_look_at_a_log(folder: Path, logs) -> None:
+    seen = api.look_at(logs[0])
+    assert {"q1", "q2", "tau1", "tau2"} <= set(seen.table().column("channel"))
+    assert "no doubts" in seen.summary() and len(repr(seen)) < 200
+    assert seen.plot()._repr_png_().startswith(b"\x89PNG")
+    assert api.write_report(seen, folder / "log.html").exists()
+    piece = api.look_at(f"{logs[0]}@1:3", session()["compiled"])
+    assert piece.clock.duration == pytest.approx(2.0, abs=0.01)
+
+
 def test_a_model_is_saved_opened_and_reduced(tmp_path: Path, chain) -> None:
     model = api.fit(*chain)
     again = api.open_model(api.save(model, tmp_path / "m.json"))

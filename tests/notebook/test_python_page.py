@@ -1,0 +1,45 @@
+"""docs/python.md names every function of the API, and every table and figure of every result."""
+
+import re
+from pathlib import Path
+
+import modeler.api as api
+from modeler.core.presented import presented
+from tests.notebook.session import session
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text(encoding="utf-8")
+
+
+def rows(title: str) -> list[list[str]]:
+    """The cells of the table below a title."""
+    part = PAGE.split(f"## {title}\n")[1].split("\n## ")[0]
+    lines = [line for line in part.splitlines() if line.startswith("|")][2:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+
+
+def test_every_function_stands_there() -> None:
+    told = set(re.findall(r"`(\w+)\(", " ".join(row[0] for row in rows("Functions"))))
+    offered = {
+        name
+        for name, thing in vars(api).items()
+        if callable(thing) and not isinstance(thing, type) and name[0] != "_"
+    }
+    assert told == offered - {"Mapped", "AnyLog"}
+
+
+def test_every_table_and_figure_stands_there() -> None:
+    made = session()
+    told = {row[0]: [set(cell.split(", ")) - {""} for cell in row[1:]] for row in rows(
+        "What results show")}  # fmt: skip
+    assert told.pop("look")[0] == {"channels"}
+    for name, (tables, figures) in told.items():
+        shown = presented(type(made[name]))
+        assert shown is not None
+        there = set(shown.tables(made[name]))
+        assert there <= tables and tables - there <= {"loads", "gains", "waterfall"}, name
+        drawn = {re.sub(r"\w+@\w+", "EFFECT@J", re.sub(r" \d+$", " J", f))
+                 for f in shown.figures(made[name])}  # fmt: skip
+        assert drawn <= figures and figures - drawn <= {"waterfall"}, name
+    shown_by_all = {n for n in made if presented(type(made[n])) and presented(type(made[n])).tables(
+        made[n])}  # fmt: skip
+    assert shown_by_all <= {*told, "better", "better comparison", "report"}
