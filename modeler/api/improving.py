@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from modeler.api.chain import AnyLog, read_logs, recompile
+from modeler.api.chain import AnyLog, Mapped, read_logs, recompile
 from modeler.api.steps import Steps, silent
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
@@ -20,6 +20,7 @@ def add(
     logs: Sequence[AnyLog],
     holdout: Sequence[AnyLog] = (),
     joint: str | None = None,
+    mapping: Mapped = (),
 ) -> IdentifiedModel:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
 
@@ -29,12 +30,13 @@ def add(
         logs: to fit to.
         holdout: logs of other motion to judge on.
         joint: None: where it explains most.
+        mapping: as of `read_logs`.
 
     Raises:
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    compiled, given = _given(model, logs, holdout)
+    compiled, given = _given(model, logs, holdout, mapping)
     return add_effect(model, compiled, effect, joint, given)
 
 
@@ -43,23 +45,24 @@ def auto(
     logs: Sequence[AnyLog],
     holdout: Sequence[AnyLog] = (),
     progress: Callable[[float], None] | None = None,
+    mapping: Mapped = (),
 ) -> IdentifiedModel:
     """The model with all that a diagnosis on these logs names and that lowers the error.
 
     Raises:
         DataError: nothing that can be added is missing.
     """
-    compiled, given = _given(model, logs, holdout)
+    compiled, given = _given(model, logs, holdout, mapping)
     return auto_added(model, compiled, given, progress)[0]
 
 
-def undo(model: IdentifiedModel, logs: Sequence[AnyLog]) -> IdentifiedModel:
+def undo(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> IdentifiedModel:
     """The model without the effect that was added last, fitted again to the logs.
 
     Raises:
         DataError: none was added.
     """
-    return undone(model, _given(model, logs, ())[1])
+    return undone(model, _given(model, logs, (), mapping)[1])
 
 
 def auto_added(
@@ -91,9 +94,9 @@ def auto_added(
 
 
 def _given(
-    model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog]
+    model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped
 ) -> tuple[CompiledModel, Logs]:
     compiled = recompile(model)
-    given = Logs(read_logs(compiled, logs), read_logs(compiled, holdout))
+    given = Logs(*(read_logs(compiled, some, mapping) for some in (logs, holdout)))
     check_apart(given.fitted, given.held_out)
     return compiled, given

@@ -237,10 +237,11 @@ def _channel(table: Table, name: str, values: np.ndarray, guessed: str) -> Chann
 def _resolution(values: np.ndarray) -> float:
     """The step of the grid that the values lie on; 0 if they lie on none."""
     levels = np.unique(values)
-    if len(levels) < 3 or len(levels) > 0.8 * len(values):
+    if len(levels) < 3:
         return 0.0
     steps = np.diff(levels)
-    step = float(np.median(steps[steps <= 2.0 * np.quantile(steps, 0.25)]))
+    steps = steps[steps > 1e-9 * (levels[-1] - levels[0])]  # what rounding parts is one level
+    step = float(np.quantile(steps, 0.01, method="lower"))
     off = np.abs(steps / step - np.round(steps / step))
     return step if float(np.quantile(off, 0.9)) < 0.05 else 0.0
 

@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 import scipy.io
 
-from modeler.api import compare
+from modeler.api import add, compare, undo
 from modeler.cli import main
 from modeler.fit import load_model
 from modeler.robot import builtin_text
@@ -98,6 +98,8 @@ def test_from_python_too(ground):
     found = compare(model, [ground / "b.mat"], mapping).as_dict()
     twin = compare(model, [ground / "b.parquet"]).as_dict()
     assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
+    better = add(model, "asymmetric_viscous", [ground / "a.mat"], mapping=mapping)
+    assert undo(better, [ground / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
 
 
 MAP = ["--map", "time=run.t:ms", "--map", "q1=-run.x:mm", "--map", "tau<j>=run.F:kN"]

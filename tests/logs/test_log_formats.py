@@ -5,7 +5,7 @@ import pytest
 
 from modeler.api import read_logs
 from modeler.core.errors import DataError
-from modeler.logs import Table
+from modeler.logs import Table, map_from_table
 from tests.logs import writers
 from tests.logs.writers import MAPPING, ROS, under
 
@@ -66,7 +66,7 @@ def test_units_that_a_file_states_are_used_and_told(case, tmp_path):
 def test_other_topics_hold_their_last_message(case, tmp_path):
     path = writers.mcap(tmp_path / "run.mcap", case.table)
     mapping = ROS | {"temperature1": "motor/heat.temperature"}
-    table = Table(path, _map(case, mapping), case.compiled.spec.joints)
+    table = Table(path, map_from_table(mapping, "mapping"), case.compiled.spec.joints)
     heat = table.measured("temperature1")
     assert np.isnan(heat[:50]).all()
     assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
@@ -84,12 +84,6 @@ def test_of_several_topics_one_is_chosen(case, tmp_path):
     assert log.tau[:, 0] == pytest.approx(case.table["tau1"], rel=1e-14)
     with pytest.raises(DataError, match="topic /x: no messages of it; the topics are /"):
         read_logs(case.compiled, [path], {**ROS, "topic": "/x"})
-
-
-def _map(case, mapping):
-    from modeler.api import log_map
-
-    return log_map(case.compiled, mapping)
 
 
 def test_messages_of_some_joints_do_not_break_the_others(case, tmp_path):

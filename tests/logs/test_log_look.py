@@ -11,6 +11,7 @@ from modeler.core.errors import DataError
 from modeler.logs import LogMap, Table, map_from_table
 from modeler.logs.look import look
 from modeler.pages.log import log_pictures
+from modeler.simulate import SimulationSettings
 from tests.logs import writers
 from tests.logs.writers import parquet
 
@@ -123,7 +124,9 @@ def test_resolution_limits_and_missing_values(capsys, tmp_path, table):
     table["tau_3"][40:47] = np.nan
     raw, _ = seen(capsys, tmp_path, table)
     by = {channel["name"]: channel for channel in raw["channels"]}
-    assert by["pos_1"]["resolution"] == pytest.approx(step) and by["pos_2"]["resolution"] == 0.0
+    assert by["pos_1"]["resolution"] == pytest.approx(step) and by["tau_1"]["resolution"] == 0.0
+    encoder = 4.0 * 360.0 / SimulationSettings().encoder_counts  # deg
+    assert by["pos_2"]["resolution"] == pytest.approx(encoder, rel=1e-6)
     ((end, share),) = by["tau_2"]["limits"]
     assert end == pytest.approx(top) and share == pytest.approx(0.1, abs=0.03)
     assert by["tau_3"]["missing"] == 7 and by["tau_1"]["limits"] == by["tau_3"]["limits"] == []
