@@ -11,7 +11,7 @@ from docsite.commands import command_pages, commands
 from docsite.gallery import exhibits, gallery_index
 from docsite.interface import interface_pages
 from docsite.markdown import moved
-from docsite.notebook import notebook_page
+from docsite.notebook import executed, notebook_page
 from modeler.robot import builtin_names
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -24,7 +24,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     made = {
         "gallery/index.md": [f"gallery/{name}.md" for name in builtin_names()],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
-        "python/index.md": list(interface_pages())[1:],
+        "python/index.md": [*notebooks(), *list(interface_pages())[1:]],
     }
     for section in config.nav or []:
         for pages in section.values():
@@ -71,9 +71,12 @@ def gallery_pages() -> dict[str, str | bytes]:
     return pages
 
 
+def notebooks() -> dict[str, Path]:
+    """{page: file} of the notebooks of docs/."""
+    found = sorted((ROOT / "docs").glob("*.ipynb"))
+    return {f"notebooks/{path.stem}.md": path for path in found}
+
+
 def notebook_pages() -> dict[str, str]:
-    """Every notebook of docs/ as a page."""
-    return {
-        f"notebooks/{path.stem}.md": notebook_page(path.read_text(encoding="utf-8"))
-        for path in sorted((ROOT / "docs").glob("*.ipynb"))
-    }
+    """Every notebook as a page."""
+    return {page: notebook_page(executed(path)) for page, path in notebooks().items()}

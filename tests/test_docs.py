@@ -25,6 +25,7 @@ from modeler.simulate.hidden_catalogue import HIDDEN
 
 ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",
+       "docs/logs.md",
        "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
        "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
        "docs/diagnosis.md", "docs/converting.md",

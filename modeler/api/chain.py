@@ -294,10 +294,10 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
     return with_essential_only(model, f"model of {model.spec.robot}")
 
 
-def compare(model: IdentifiedModel, logs: Sequence[AnyLog]) -> Comparison:
+def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
     compiled = recompile(model)
-    prediction, _ = predict(model, read_logs(compiled, logs), compiled)
+    prediction, _ = predict(model, read_logs(compiled, logs, mapping), compiled)
     return compare_prediction(prediction)
 
 
@@ -307,11 +307,12 @@ def diagnose(
     holdout: Sequence[AnyLog] = (),
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
+    mapping: Mapped = (),
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled = recompile(model)
     robot = robot_from_text(model.robot_text, "robot of the model")
     known = Known(robot.catalogue, robot.coupling)
-    given, kept = read_logs(compiled, logs), read_logs(compiled, holdout)
+    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
     check_apart(given, kept)
     return find_missing(model, compiled, given, kept, without, progress=progress, known=known)

@@ -9,7 +9,7 @@ from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.places import ModelFile
 from modeler.compare import compare
-from modeler.compare.together import predict_together
+from modeler.compare.together import check_joints, predict_together
 from modeler.core.errors import DataError
 from modeler.fit import IdentifiedModel, load_model
 from modeler.fit.reduced import with_essential_only
@@ -32,12 +32,13 @@ def run_contest(args: argparse.Namespace) -> Json:
         raise DataError(f"{', '.join(places)}: got models only; expected at least one log")
     names = _names(places)
     models = [_loaded(place, args.essential) for place in places]
+    check_joints(models, names)
     with progress("predicting") as bar:
         compiled = []
         for k, model in enumerate(models):
             compiled.append(model.compile() if args.run_embedded_c else recompile(model))
             bar((k + 1) / (len(models) + 1))
-        read = [read_logs(own, logs) for own in compiled]
+        read = [read_logs(own, logs, args.map) for own in compiled]
         check_logs(given(logs, read[0]), [])
         predictions, _ = predict_together(models, compiled, read, names)
         found = contest(names, predictions)

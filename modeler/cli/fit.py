@@ -17,6 +17,7 @@ from modeler.core.files import write_atomically
 from modeler.fit import FitResult, IdentifiedModel, save_model, with_verdict
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.findings import findings_of_fit
+from modeler.pages.fitted import write_fit
 from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
 
@@ -75,6 +76,9 @@ def _written(
     for line in (*observation.report.lines(), "", *lines, *model.fit.lines()):
         say(line)
     say(f"written: {args.out}")
+    if args.report is not None:
+        place = write_fit(Path(args.report), model, observation.report.summary(), args.out)
+        say(f"written: {place}")
     if args.robot_out is not None:
         stated = _own(robot_from_text(model.robot_text, "robot of the model"), model.fit)
         text = with_parameters(model.robot_text, stated) if stated else model.robot_text

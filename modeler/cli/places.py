@@ -34,10 +34,6 @@ class Word(str):
     """A text that names no file."""
 
 
-class MapWord(Word):
-    """A line of a mapping, or a file of such lines."""
-
-
 class Input(str):
     """A file that is read."""
 
@@ -47,6 +43,12 @@ class Input(str):
     def file(self) -> Path:
         """Where it is."""
         return Path(self)
+
+
+class MapWord(Input):
+    """A line of a mapping, or a file of such lines."""
+
+    what = "the mapping that is read"
 
 
 class ModelFile(Input):

@@ -46,7 +46,7 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
     return Picture(
         name=f"joint_{name}_residual",
         title=f"Joint {name}: does the residual still have structure?",
-        caption=_CAPTION,
+        caption=_caption(any(panel.title.startswith("Temperature") for panel in drawn)),
         panels=tuple(rows),
         heights=tuple(1.0 / len(rows) for _ in rows),
         widths=(1 / 3, 1 / 3, 1 / 3),
@@ -56,20 +56,31 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
 
 _EMPTY = Panel("", "", "", ())
 
-_CAPTION = (
+
+def _caption(heated: bool) -> str:
+    """How to read the panels; `heated` where one of them is over temperature."""
+    return f"{_FIRST}{_HEATED if heated else ''} {_LAST}"
+
+
+_FIRST = (
     f"{_CLOUD.named.capitalize()}: samples. {_MEAN.named.capitalize()}: mean of the residual in "
     "each bin, whiskers two standard errors (from the spread between separate passes through the "
     f"bin; none where there was only one). A {_MEAN.named} line that leaves zero by more than its "
     "whiskers is a pattern the model does not have: a step at zero velocity looks like Coulomb "
     "friction, a slope like viscous friction, a wave over position like gravity or ripple, a slope "
     "over acceleration like inertia, a curve that starts anew at every reversal (travel) like "
-    f"presliding. Over temperature, {_MEAN.named} is motion in the positive and {_BACK.named} in "
-    "the negative direction: friction that changes moves them apart or together. The percentage is "
-    "the share of the residual variance that such a curve predicts on motion not used to draw it; "
-    "of a temperature, what it adds to the direction of motion. A flat spectrum is noise, a narrow "
-    "peak over frequency an oscillation, a narrow peak over waves per turn something that turns: "
-    "teeth, magnets, rollers. Waves per turn of the motor are those per turn of the joint over the "
-    "gear ratio, which a robot file does not hold."
+    "presliding."
+)
+_HEATED = (
+    f" Over temperature, {_MEAN.named} is motion in the positive and {_BACK.named} in the negative "
+    "direction: friction that changes moves them apart or together."
+)
+_LAST = (
+    "The percentage is the share of the residual variance that such a curve predicts on motion not "
+    "used to draw it; of a temperature, what it adds to the direction of motion. A flat spectrum "
+    "is noise, a narrow peak over frequency an oscillation, a narrow peak over waves per turn "
+    "something that turns: teeth, magnets, rollers. Waves per turn of the motor are those per turn "
+    "of the joint over the gear ratio, which a robot file does not hold."
 )
 
 

@@ -33,7 +33,7 @@ def predict_together(
     Raises:
         DataError: other joints, no usable row, or none that counts for every model.
     """
-    _check_joints(models, names)
+    check_joints(models, names)
     first = models[0].processing
     made = [
         predict(_processed_as(model, first), read, own)
@@ -80,7 +80,13 @@ def _same_rows(one: Prediction, other: Prediction) -> bool:
     )
 
 
-def _check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> None:
+def check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> None:
+    """Refuse models of robots whose joints differ.
+
+    Raises:
+        DataError: names the first of them.
+    """
+
     def joints(model: IdentifiedModel) -> list[tuple[str, str]]:
         return [(joint.name, joint.effort_unit) for joint in model.spec.joints]
 

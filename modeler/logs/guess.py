@@ -1,5 +1,6 @@
 """Whose column is which, guessed from names and ranges: lines for [log], to be checked."""
 
+import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -169,16 +170,26 @@ def log_text(found: Sequence[Guess], joints: Sequence[JointSpec] = ()) -> str:
         told = f"  # {one.why}" if one.why == "by its range" else ""
         if one.own == "time" or one.labels == ("",):
             key = one.own if one.own == "time" else f"{one.own}{own[0]}"
-            lines.append(f'{key} = "{one.columns[0]}{_once(one.columns[0], unit)}"{told}')
+            written = _quoted(f"{one.columns[0]}{_once(one.columns[0], unit)}")
+            lines.append(f"{key} = {written}{told}")
             continue
         mark = _mark(one.labels, own)
         if mark == "{name}" and not named:
-            pairs = ", ".join(f'{j} = "{n}"' for j, n in zip(own, one.labels, strict=False))
+            pairs = ", ".join(
+                f"{_quoted(j) if not j.isalnum() else j} = {_quoted(n)}"
+                for j, n in zip(own, one.labels, strict=False)
+            )
             lines.append(f"names = {{{pairs}}}  # in the order of the log: which joint is which?")
             named = True
         column = one.template.replace("{}", mark)
-        lines.append(f'"{one.own}<j>" = "{column}{_once(one.columns[0], unit)}"{told}')
+        written = _quoted(f"{column}{_once(one.columns[0], unit)}")
+        lines.append(f'"{one.own}<j>" = {written}{told}')
     return "\n".join(lines) + "\n" if len(lines) > 1 else ""
+
+
+def _quoted(text: str) -> str:
+    """A text in TOML, whatever it holds."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _once(column: str, unit: str) -> str:

@@ -137,7 +137,7 @@ def look(
     Raises:
         DataError: no rows in that span, or a time column without values.
     """
-    values = {name: table.numbers(name) for name in table.names if table.is_numeric(name)}
+    values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
     values = _within(table, values, span, joints)
     found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
     units = {name: one.unit for one in found for name in one.columns if one.unit}
@@ -195,7 +195,8 @@ def _clock(
     time = values[name]
     if guess is not None and guess.unit and not table.unit(name):
         time = time * unit_named(guess.unit).factor
-    steps = np.diff(time[np.isfinite(time)])
+    known = time[np.isfinite(time)]
+    steps = np.diff(known)
     if not len(steps):
         raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
     step = float(np.median(steps))
@@ -209,10 +210,10 @@ def _clock(
         gaps=int(gaps.size),
         lost=int(np.sum(np.round(steps[gaps] / step) - 1.0)) if gaps.size else 0,
         largest=float(steps[widest]) if gaps.size else 0.0,
-        at=float(time[widest]) if gaps.size else 0.0,
+        at=float(known[widest]) if gaps.size else 0.0,
         repeated=int(np.sum(steps == 0.0)),
         back=int(np.sum(steps < 0.0)),
-        duration=float(np.nanmax(time) - np.nanmin(time)),
+        duration=float(known.max() - known.min()),
     )
 
 
@@ -336,7 +337,10 @@ def _alike(a: np.ndarray, b: np.ndarray) -> float:
 def _ratio(name: str, position: str, slope: np.ndarray, speed: np.ndarray) -> str:
     """What a speed is times the derivative of its position, if not 1, and what that looks like."""
     both = np.isfinite(slope) & np.isfinite(speed)
-    ratio = float(slope[both] @ speed[both]) / float(slope[both] @ slope[both])
+    size = float(slope[both] @ slope[both])
+    if not 0.0 < size < np.inf:
+        return ""
+    ratio = float(slope[both] @ speed[both]) / size
     if abs(ratio - 1.0) < _NEAR:
         return ""
     if abs(ratio + 1.0) < _NEAR:

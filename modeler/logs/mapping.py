@@ -2,7 +2,6 @@
 
 import dataclasses
 import difflib
-import math
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -13,9 +12,11 @@ from typing import Any
 
 from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
+from modeler.core.json_text import shown
 from modeler.logs.units import EXAMPLES, Unit, find_unit
 
 _NONE: Mapping = MappingProxyType({})
+_LARGEST = 1e100  # beyond, products are no numbers any more
 _KEYS = ("column", "unit", "sign", "scale", "offset")
 _SETTINGS = ("topic", "names", "rate")
 _BRACKETS = re.compile(r"(.*\S)\s+\[([^\[\]]+)\]")
@@ -116,7 +117,9 @@ def map_from_table(table: Any, where: str, strict: bool = False) -> LogMap:
     }
     topic = table.get("topic", "")
     if not isinstance(topic, str):
-        raise DataError(f'{where}, topic: got {topic!r}; expected a name such as "/joint_states"')
+        raise DataError(
+            f'{where}, topic: got {shown(topic)}; expected a name such as "/joint_states"'
+        )
     layers = (entries,) if entries else ()
     return LogMap(layers, _names(table.get("names", {}), where), topic, _rate(table, where))
 
@@ -190,7 +193,7 @@ def _entry(value: Any, where: str, key: str) -> Entry:
     table = {"column": value} if isinstance(value, str) else value
     if not isinstance(table, Mapping):
         raise DataError(
-            f"{where}: got {value!r}; expected the name of a column, or a table such as "
+            f"{where}: got {shown(value)}; expected the name of a column, or a table such as "
             '{column = "position_2", unit = "deg", sign = -1}'
         )
     for name in table:
@@ -200,7 +203,7 @@ def _entry(value: Any, where: str, key: str) -> Entry:
             )
     column = table.get("column", key.replace(JOINT, "{j}"))
     if not isinstance(column, str) or not column.strip():
-        raise DataError(f'{where}: column is {column!r}; expected a name such as "position_2"')
+        raise DataError(f'{where}: column is {shown(column)}; expected a name such as "position_2"')
     columns, bracket = _bracket(column)
     unit = table.get("unit", bracket)
     sign, scale, offset = (_float(table, name, where) for name in ("sign", "scale", "offset"))
@@ -224,14 +227,15 @@ def _unit(text: Any, where: str) -> Unit | None:
         return None
     unit = find_unit(text) if isinstance(text, str) else None
     if unit is None:
-        raise DataError(f"{where}: got unit {text!r}; expected a unit such as {EXAMPLES}")
+        raise DataError(f"{where}: got unit {shown(text)}; expected a unit such as {EXAMPLES}")
     return unit
 
 
 def _float(table: Mapping[str, Any], name: str, where: str) -> float:
     value = table.get(name, 0.0 if name == "offset" else 1.0)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise DataError(f"{where}: {name} is {value!r}; expected a number")
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not number or not -_LARGEST <= value <= _LARGEST:
+        raise DataError(f"{where}: {name} is {shown(value)}; expected a number")
     return float(value)
 
 
@@ -249,7 +253,8 @@ def _names(value: Any, where: str) -> dict[str, str]:
     if isinstance(value, Mapping) and all(isinstance(name, str) for name in value.values()):
         return {str(joint): name for joint, name in value.items()}
     raise DataError(
-        f'{where}, names: got {value!r}; expected a table such as {{1 = "waist", 2 = "shoulder"}}'
+        f"{where}, names: got {shown(value)}; expected a table such as "
+        '{1 = "waist", 2 = "shoulder"}'
     )
 
 

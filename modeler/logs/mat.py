@@ -27,7 +27,7 @@ def read_mat(path: Path, wanted: Wanted) -> Columns:
         for name, value in _values(content):
             if isinstance(value, np.ndarray) and value.dtype.kind in "iufb":
                 found.append(Held(name, value))
-            elif not isinstance(value, np.ndarray | str | float | int):
+            elif np.asarray(value).dtype.kind in "OV":
                 other.append(name)
     notes = []
     if other:

@@ -16,6 +16,7 @@ from modeler.logs.units import Unit, find_unit
 
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
 _SHOWN = 40  # names of columns that a message lists
+_FEW = 6
 
 
 class Table:
@@ -115,6 +116,12 @@ class Table:
         ]
         if stated:
             lines.append(f"by the units that the file states: {', '.join(stated)}")
+        unknown = [
+            n for n, t in self.found.units.items() if n in self._columns and not find_unit(t)
+        ]
+        if unknown:
+            named = ", ".join(f'{name} "{self.found.units[name]}"' for name in unknown[:_FEW])
+            lines.append(f"the file states units that are not understood, taken as SI: {named}")
         if self._rate:
             lines.append(f"no time column: rows counted at {self._rate:g} Hz")
         return lines
@@ -198,5 +205,6 @@ class Table:
         wanted = name if entry is None else entry.columns[-1]
         return (
             f"no column {self.called(name)}{near(wanted, there)}; the columns are "
-            f"{', '.join(there[:_SHOWN])}; add it or rename the one that holds it"
+            f"{', '.join(there[:_SHOWN])}; add it or rename the one that holds it, or say which "
+            f"it is: --map {name}=COLUMN"
         )

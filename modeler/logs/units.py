@@ -97,6 +97,13 @@ _TABLE: Mapping[str, Unit] = MappingProxyType({
     "degF": _unit(5.0 / 9.0, HEAT, -32.0), "°F": _unit(5.0 / 9.0, HEAT, -32.0),
     "percent": _unit(0.01, NONE), "%": _unit(0.01, NONE),
 })  # fmt: skip
+_WORDS = {
+    "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad", "revolution": "rev",
+    "revolutions": "rev", "turns": "rev", "second": "s", "seconds": "s", "minutes": "min",
+    "millisecond": "ms", "milliseconds": "ms", "meter": "m", "meters": "m", "metre": "m",
+    "metres": "m", "millimeter": "mm", "millimeters": "mm", "newton": "N", "newtons": "N",
+    "ampere": "A", "amperes": "A", "amps": "A", "volt": "V", "volts": "V", "celsius": "degC",
+}  # fmt: skip
 _PREFIXES = {
     "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
 }  # fmt: skip
@@ -142,6 +149,7 @@ def _simple(name: str) -> Unit | None:
     """A number, a unit of the table, or one with a prefix."""
     if name[0].isdigit():
         return _unit(float(name), NONE) if float(name) > 0.0 else None
+    name = _WORDS.get(name.lower(), name)
     if name in _TABLE:
         return _TABLE[name]
     prefix, rest = name[0], name[1:]

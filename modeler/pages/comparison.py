@@ -42,8 +42,9 @@ _REGION_PHRASES = {
     "fast +": "fast in the positive direction",
 }
 _HEAD = (
-    "joint", Cell("relative error", "bar"), "rms residual", "rms torque", "largest residual",
-    Cell("at", "text"), "R\u00b2", "repeatable", "noise", "mean residual", "samples",
+    "joint", Cell("relative error", "bar"), "rms residual", "sigma", "rms measured",
+    "largest residual", Cell("at", "text"), "R\u00b2", "repeatable", "noise", "mean residual",
+    "samples",
 )  # fmt: skip
 
 
@@ -191,6 +192,7 @@ def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Cell
         Cell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
         Cell(percent(item.relative_error), "bar", share),
         f"{item.rms:.3g} {unit}",
+        "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
         f"{item.largest.value:.3g} {unit}",
         Cell(f"{item.largest.time:.2f} s of {item.largest.log}", "text"),
@@ -211,12 +213,15 @@ def _log_table(comparison: Comparison) -> list[Table]:
         [
             item.log,
             str(item.samples),
-            or_dash(item.relative_error, ".1%"),
+            *(or_dash(error, ".1%") for error in item.by_unit.values()),
             *(or_dash(error, ".1%") for _, error in item.joints),
         ]
         for item in comparison.logs
     ]
-    return [Table(("log", "samples", "all", *names), rows, "Relative error by log.")]
+    units = comparison.by_unit
+    every = ["all"] if len(units) == 1 else [f"all {unit}" for unit in units]
+    caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
+    return [Table(("log", "samples", *every, *names), rows, caption)]
 
 
 def _joint_section(comparison: Comparison, item: JointComparison) -> Section:

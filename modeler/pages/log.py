@@ -7,7 +7,18 @@ import numpy as np
 
 from modeler.logs.guess import template_of
 from modeler.logs.look import Channel, Clock, Look
-from modeler.pages.sheet import Code, Figure, Items, Lead, Origin, Section, Sheet, Table, write_page
+from modeler.pages.sheet import (
+    Cell,
+    Code,
+    Figure,
+    Items,
+    Lead,
+    Origin,
+    Section,
+    Sheet,
+    Table,
+    write_page,
+)
 from modeler.pictures.picture import COLORS, SLATE, Curve, Panel, Picture, Points, Style
 from modeler.pictures.thinning import thin_curves, thin_points
 
@@ -32,7 +43,7 @@ def write_log_page(
     head, *rows = channel_rows(seen)
     sections = [
         Section("Doubts", [Items([("", line) for line in doubts])] if doubts else [Lead("None.")]),
-        Section("Channels", [Table(head, rows), *map(Figure, channel_pictures(seen))]),
+        Section("Channels", [_table(head, rows), *map(Figure, channel_pictures(seen))]),
     ]
     picture = clock_picture(seen)
     if seen.clock is not None and picture is not None:
@@ -44,10 +55,20 @@ def write_log_page(
         (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
         sections,
         Origin(logs=(seen.name,)),
+        [("rows", str(seen.rows)), ("clock", clock_line(seen.clock) if seen.clock else "none")],
         provenance=[*seen.notes, *provenance],
         command="log",
     )
     return write_page(path, sheet, "log.html")
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    """Units and remarks are text."""
+    texts = (1, len(head) - 1)
+    return Table(
+        [Cell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
+        [[Cell(cell, "text") if k in texts else cell for k, cell in enumerate(r)] for r in rows],
+    )
 
 
 def clock_line(clock: Clock) -> str:
@@ -130,7 +151,11 @@ def clock_picture(seen: Look) -> Picture | None:
     steps = 1e3 * np.diff(seen.time)
     rows = thin_points(seen.time[1:], steps)
     dots = Points("step", seen.time[1:][rows], steps[rows], Style(SLATE, width=2.0))
-    panel = Panel("", _time_label(seen), "step of the clock [ms]", (dots,))
+    reach = (
+        min(0.0, float(np.nanmin(steps))),
+        float(max(np.nanmax(steps), 2 * np.nanmedian(steps))),
+    )
+    panel = Panel("", _time_label(seen), "step of the clock [ms]", (dots,), y_range=reach)
     caption = (
         "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
         "dots at or below 0 times that repeat or go back."

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.by_unit import WORDS
 from modeler.diagnose.search import Search, Step
 from modeler.diagnose.sentences import percent
 from modeler.pages.axes import Axis, axis_of
@@ -133,7 +134,8 @@ def figures(item: Shown) -> str:
         return f"{text}."
     return (
         f"{text}, {told(before - item.rival)} with the flexible rival, which stands for any smooth "
-        f"law of what was measured. Percent of the joint's rms torque, {size:.3g} {item.unit}."
+        f"law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, {size:.3g} "
+        f"{item.unit}."
     )
 
 

@@ -31,12 +31,12 @@ def torque_picture(item: Shown) -> Picture:
     rows = item.without.rows
     joint = item.without.data.compiled.spec.joints[item.j]
     log, start, end = worst_stretch(item)
-    time, segment = rows.time[item.j], rows.segment[item.j]
+    time, pieces = rows.time[item.j], _pieces(item)
     near = (rows.run[item.j] == log) & (time >= start - _BESIDE) & (time <= end + _BESIDE)
     measured, what = rows.y[item.j], WORDS[joint.effort_unit]
 
     def curve(label: str, y: np.ndarray, style: Style) -> Curve:
-        return Curve(label, *broken(segment[near], time[near], y[near]), style)
+        return Curve(label, *broken(pieces[near], time[near], y[near]), style)
 
     name = item.without.data.observation.logs[log]
     x_label, pick = f"time in {name} [s]", item.step.pick
@@ -81,6 +81,15 @@ def worst_stretch(item: Shown) -> tuple[int, float, float]:
         if inside[k] > best[0]:
             best = (float(inside[k]), int(log), float(t[k]), float(t[stop[k] - 1]))
     return best[1], best[2], best[3]
+
+
+def _pieces(item: Shown) -> np.ndarray:
+    """(rows_j,) number of the piece of each row: no line is drawn over rows that do not count."""
+    time, segment = item.without.rows.time[item.j], item.without.rows.segment[item.j]
+    steps = np.diff(time)
+    inside = steps[np.diff(segment) == 0]
+    longest = 1.5 * float(np.median(inside)) if inside.size else np.inf
+    return np.concatenate([[0], np.cumsum((np.diff(segment) != 0) | (steps > longest))])
 
 
 def _caption(item: Shown, what: str, window: tuple[float, float], log: str) -> str:

@@ -28,14 +28,14 @@ def values_table(
             "set aside" if p.sigma is None else f"{p.value:.5g}",
             "" if p.sigma is None else _plain(told_spread(p.value, p.sigma, p.interval)) or "0",
             _share(p),
-            Cell(p.unit, "text"),
-            Cell(sums.get(p.name, ""), "values"),
+            Cell(p.unit, "unit"),
+            Cell(sums.get(p.name, ""), "why"),
         ]
         for p in parameters
     ]
     head = (
-        "parameter", "value", "sigma", Cell("% sigma", "bar"), Cell("unit", "text"),
-        Cell("is the sum of", "values"),
+        "parameter", "value", "sigma", Cell("% sigma", "bar"), Cell("unit", "unit"),
+        Cell("is the sum of", "why"),
     )  # fmt: skip
     return Table(head, rows, caption)
 

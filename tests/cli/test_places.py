@@ -23,7 +23,8 @@ from modeler.codegen import write_emitted
 from modeler.robot.builtin import builtin_file
 from tests.modules import module
 
-FILES = ("arm.toml", "arm.par", "m.json", "a.parquet", "b.csv", "other.parquet", "load.parquet")
+FILES = ("arm.toml", "arm.par", "m.json", "a.parquet", "b.csv", "other.parquet", "load.parquet",
+         "names.toml")  # fmt: skip
 
 READING = {  # what each command reads; outputs come after it
     "derive": "derive arm.toml",
@@ -32,6 +33,7 @@ READING = {  # what each command reads; outputs come after it
     "convert": "convert arm.par --out new.toml",
     "simulate": "simulate arm.toml --out new.csv",
     "excite": "excite arm.toml --choose 1 --from a.parquet b.csv",
+    "log": "log a.parquet --robot arm.toml --map names.toml",
     "fit": "fit arm.toml a.parquet b.csv@0:4 --payload-log load.parquet --out new.json",
     "compare": "compare m.json a.parquet@2:",
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
@@ -82,7 +84,8 @@ def test_every_argument_says_what_it_is() -> None:
 def cases() -> Iterator[tuple[str, str, str, str]]:
     """Command, output, input that it is given, and what the refusal calls that."""
     read = "the robot file that is read"
-    whats = {"arm.toml": read, "arm.par": read, "m.json": "the model that is read"}
+    whats = {"arm.toml": read, "arm.par": read, "m.json": "the model that is read",
+             "names.toml": "the mapping that is read"}  # fmt: skip
     for command, action in actions():
         if isinstance(action.type, type) and issubclass(action.type, Output):
             words = READING[command].replace("@", " ").split()

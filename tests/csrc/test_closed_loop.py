@@ -77,7 +77,7 @@ def test_the_model_follows_a_motion_that_pd_alone_does_not(programs, machine):
     """At 3 Hz, with encoders of 1e6 counts and speeds filtered at 150 Hz; rms over all joints.
 
     Measured: 0.32 mrad with the model, 73 mrad with its gravity only, 145 mrad without; the motion
-    is 170 mrad rms. What is left grows with the lag of the speeds (0.05 mrad without).
+    is 148 mrad rms. What is left grows with the lag of the speeds (0.12 mrad without).
     """
     by_cmake, by_pkg_config = programs
     model = driven(machine, by_cmake, "model")

@@ -12,7 +12,7 @@ from docsite.commands import command_pages, commands
 from docsite.gallery import exhibit, gallery_index
 from docsite.interface import exported, interface_pages
 from docsite.markdown import cell, code, table
-from docsite.notebook import notebook_page
+from docsite.notebook import executed, notebook_page
 from modeler.api import derive, generate, load
 from modeler.cli import main
 from modeler.robot import builtin_names
@@ -112,7 +112,8 @@ def test_a_notebook_becomes_a_page() -> None:
     outputs = [
         {"output_type": "stream", "text": ["fit\n", "done\n"]},
         {"output_type": "display_data", "data": {"image/png": "iVBO\nRw0=\n", "text/plain": "f"}},
-        {"output_type": "execute_result", "data": {"text/html": "<b>1</b>", "text/plain": "1"}},
+        {"output_type": "execute_result", "data": {"text/html": "<p>\n\n1</p>", "text/plain": "1"}},
+        {"output_type": "execute_result", "data": {"text/latex": "$x$", "text/plain": "x"}},
         {"output_type": "execute_result", "data": {"text/plain": ["2"]}},
     ]
     cells = [
@@ -123,4 +124,12 @@ def test_a_notebook_becomes_a_page() -> None:
     page = notebook_page(json.dumps({"cells": cells}))
     assert page.startswith("# Title\nwords\n\n```python\nx = 1\n```\n\n```text\nfit\ndone\n```\n")
     assert 'src="data:image/png;base64,iVBORw0="' in page and "```text\n2\n```" in page
-    assert 'srcdoc="&lt;b&gt;1&lt;/b&gt;"' in page and "left out" not in page
+    assert '<div class="result">\n<p>\n1</p>\n</div>\n' in page and "```latex\n$x$\n```" in page
+    assert "left out" not in page
+
+
+def test_a_notebook_that_cannot_be_run_is_shown_as_it_is(tmp_path, monkeypatch) -> None:
+    path = tmp_path / "a.ipynb"
+    path.write_text('{"cells": []}')
+    monkeypatch.setattr("docsite.notebook.RUNS_WITH", ("no_such_package",))
+    assert executed(path) == '{"cells": []}'

@@ -7,7 +7,9 @@ import pyarrow.parquet as pq
 import pytest
 import scipy.io
 
+from modeler.api import compare
 from modeler.cli import main
+from modeler.fit import load_model
 from modeler.robot import builtin_text
 from tests.logs.writers import parquet
 
@@ -89,6 +91,15 @@ def numbers(value):
     return [float(value)] if isinstance(value, int | float) else []
 
 
+def test_from_python_too(ground):
+    model = load_model(ground / "p.json")
+    mapping = {"time": "run.t [ms]", "q1": {"column": "run.x", "unit": "mm", "sign": -1},
+               "tau1": "run.F [kN]"}  # fmt: skip
+    found = compare(model, [ground / "b.mat"], mapping).as_dict()
+    twin = compare(model, [ground / "b.parquet"]).as_dict()
+    assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
+
+
 MAP = ["--map", "time=run.t:ms", "--map", "q1=-run.x:mm", "--map", "tau<j>=run.F:kN"]
 
 
@@ -100,6 +111,12 @@ def test_map_does_what_log_does(ground, tmp_path, capsys):
     assert values(tmp_path / "f.json") == pytest.approx(values(ground / "p.json"), rel=1e-12)
     argv = ["estimators", "emps", ground / "a.mat", "--holdout", ground / "b.mat", *MAP]
     status, _, err = run(capsys, *argv, "--methods", "weighted")
+    assert (status, err) == (0, "")
+
+
+def test_models_side_by_side_read_with_map(ground, capsys):
+    models = [ground / "m.json", ground / "p.json"]
+    status, _, err = run(capsys, "compare", *models, ground / "b.mat", *MAP)
     assert (status, err) == (0, "")
 
 

@@ -90,3 +90,53 @@ def _map(case, mapping):
     from modeler.api import log_map
 
     return log_map(case.compiled, mapping)
+
+
+def test_messages_of_some_joints_do_not_break_the_others(case, tmp_path):
+    """A gripper often speaks on the topic of its arm."""
+    path = tmp_path / "run"
+    writers.bag(path, case.table, gripper=True)
+    (log,) = read_logs(case.compiled, [path], ROS)
+    assert log.rows == len(case.table["time"]) and not log.missing
+    assert log.q[:, 1] == pytest.approx(case.table["q2"], rel=1e-14)
+    assert "joint_states.position[finger]" in log.extra
+    assert np.isfinite(log.extra["joint_states.position[finger]"][20:]).all()
+
+
+def test_objects_of_matlab_are_told(tmp_path, monkeypatch):
+    """A timeseries comes as an opaque object."""
+    import scipy.io
+    from scipy.io.matlab import MatlabOpaque
+
+    opaque = MatlabOpaque(np.zeros(1, dtype=[("s0", "O")]))
+    content = {"ts": opaque, "q": np.zeros((30, 2)), "who": "me"}
+    monkeypatch.setattr(scipy.io, "loadmat", lambda *a, **k: content)
+    (tmp_path / "run.mat").write_bytes(b"MATLAB 5.0")
+    table = Table(tmp_path / "run.mat")
+    assert table.names == ("q[1]", "q[2]")
+    assert table.notes[0].startswith("ts left out: an object that only MATLAB reads; of a times")
+
+
+def test_structure_with_time_of_simulink(case, tmp_path):
+    import scipy.io
+
+    signals = {"values": case.table.other["pos"], "dimensions": 3.0, "label": "q"}
+    scipy.io.savemat(
+        tmp_path / "run.mat", {"out": {"time": case.table["time"], "signals": signals}}
+    )
+    table = Table(tmp_path / "run.mat")
+    assert table.numbers("out.signals.values[2]") == pytest.approx(case.table.other["pos"][:, 1])
+    assert table.numbers("out.time") == pytest.approx(case.table["time"])
+
+
+def test_units_that_are_not_understood_are_told(tmp_path):
+    h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
+    with h5py.File(tmp_path / "run.h5", "w") as file:
+        file["q1"] = np.ones(20)
+        file["q1"].attrs["units"] = "degrees"
+        file["p"] = np.ones(20)
+        file["p"].attrs["units"] = "furlong"
+    table = Table(tmp_path / "run.h5")
+    assert table.numbers("q1") == pytest.approx(np.full(20, np.pi / 180))
+    told = 'the file states units that are not understood, taken as SI: p "furlong"'
+    assert told in table.notes

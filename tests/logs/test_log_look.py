@@ -1,11 +1,16 @@
 """`modeler log`: what is told of a log that somebody has spoilt in a known way."""
 
 import json
+import tomllib
 
 import numpy as np
 import pytest
 
 from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.logs import LogMap, Table, map_from_table
+from modeler.logs.look import look
+from modeler.pages.log import log_pictures
 from tests.logs import writers
 from tests.logs.writers import parquet
 
@@ -173,3 +178,34 @@ def test_a_name_with_markup_stays_text(capsys, tmp_path, table):
     path = parquet(tmp_path / "run.parquet", table)
     assert main(["log", str(path), "--page", str(tmp_path / "page.html")]) == 0
     assert "<img src=x>" not in (tmp_path / "page.html").read_text()
+
+
+NAMES = ("time", "t [ms]", "q1", "qd1", "pos_1", "pos[2]", "i_1", "x", "temp", 'a"b', "x\\y", "{j}")
+
+
+def odd(rng, n):
+    """A column as a broken logger leaves it."""
+    t = np.arange(n) * 10.0 ** rng.integers(-9, 9)
+    return (
+        t, t[::-1], rng.normal(size=n), np.full(n, np.nan), np.full(n, 1.5),
+        np.where(rng.random(n) < 0.5, np.nan, rng.normal(size=n)), 1e300 * rng.normal(size=n),
+        np.full(n, np.inf), np.round(1e4 * rng.normal(size=n)), 1e-310 * np.sin(t),
+    )[rng.integers(10)]  # fmt: skip
+
+
+def test_whatever_is_in_it_is_told(tmp_path):
+    """JSON without NaN, a suggestion that is TOML, pictures; or one line."""
+    rng = np.random.default_rng(5)
+    for _ in range(150):
+        names = rng.choice(NAMES, size=rng.integers(1, 7), replace=False)
+        n = int(rng.choice([10, 60]))
+        path = parquet(tmp_path / "run.parquet", {str(name): odd(rng, n) for name in names})
+        try:
+            seen = look(Table(path), LogMap())
+        except DataError as error:
+            assert "\n" not in str(error)
+            continue
+        json.dumps(seen.to_json(), allow_nan=False)
+        assert log_pictures(seen) or len(names) == 1
+        if seen.suggested:
+            map_from_table(tomllib.loads(seen.suggested)["log"], "suggested")

@@ -148,8 +148,18 @@ def mcap(path: Path, table: Run) -> Path:
     return path
 
 
-def bag(path: Path, table: Run, storage: str = "sqlite3", extra_topic: str = "") -> Path:
-    """A ROS 2 bag as a folder; with another robot's joint states if a topic is given for them."""
+def bag(
+    path: Path,
+    table: Run,
+    storage: str = "sqlite3",
+    extra_topic: str = "",
+    gripper: bool = False,
+) -> Path:
+    """A ROS 2 bag as a folder.
+
+    With another robot's joint states if a topic is given for them; with those of a gripper between
+    those of the arm.
+    """
     reason = "NOT CHECKED: needs rosbags; pip install rosbags"
     rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)
     from rosbags.typesys import Stores, get_typestore
@@ -161,7 +171,15 @@ def bag(path: Path, table: Run, storage: str = "sqlite3", extra_topic: str = "")
     with rosbag2.Writer(path, version=9, storage_plugin=plugin) as writer:
         topics = ["/joint_states", *([extra_topic] if extra_topic else [])]
         connections = [writer.add_connection(topic, kind, typestore=store) for topic in topics]
-        for stamp, names, q, tau in states(table):
+        for k, (stamp, names, q, tau) in enumerate(states(table)):
+            if gripper and k % 7 == 3:
+                one, finger = np.full(1, 0.01 * k), ["finger"]
+                header = _header(store, stamp - 300_000)
+                message = JointState(
+                    header=header, name=finger, position=one, velocity=one, effort=one
+                )
+                data = store.serialize_cdr(message, kind)
+                writer.write(connections[0], stamp - 250_000, data)
             message = JointState(
                 header=_header(store, stamp), name=names, position=q, velocity=np.zeros(0),
                 effort=tau,

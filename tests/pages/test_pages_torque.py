@@ -97,3 +97,13 @@ def test_the_band_is_drawn_and_named(item: Shown) -> None:
     assert len(bands) == 1 and np.all((bands[0].high >= bands[0].low)[np.isfinite(bands[0].low)])
     assert "two standard deviations of the law" in picture.caption
     assert_all_named(picture)
+
+
+def test_no_line_is_drawn_over_rows_that_do_not_count(item: Shown) -> None:
+    """Filtered rows of joint 2 leave out its reversals: the curves break there."""
+    time = item.without.rows.time[item.j]
+    step = np.median(np.diff(time))
+    for row in torque_picture(item).panels:
+        for series in row[0].series:
+            whole = np.isfinite(series.y[:-1]) & np.isfinite(series.y[1:])
+            assert np.all(np.diff(series.x)[whole] <= 1.5 * step)

@@ -62,6 +62,7 @@ def add_fit(commands: Commands) -> None:
     _add_model(parser)
     _add_processing(parser)
     _add_load(parser)
+    add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_fit)
 
