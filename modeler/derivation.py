@@ -50,12 +50,23 @@ class Derivation(Presented):
 
 
 def load(robot: str | Path) -> Robot:
-    """The robot of that file, or the built-in robot of that name."""
+    """The robot of that file, or the built-in robot of that name.
+
+    >>> load("two-link").table().column("theta")
+    ['q1', 'q2', '0']
+    """
     return read_robot(robot)
 
 
 def derive(robot: Robot) -> Derivation:
-    """The symbolic model and the base parameters with their proof."""
+    r"""The symbolic model and the base parameters with their proof.
+
+    >>> found = derive(load("two-link"))
+    >>> found.base.rank, found.base.proof.kind
+    (10, 'exact')
+    >>> print(found.table("base").markdown().splitlines()[2])
+    | $\mathit{ZZ}_{1R}$ | $\mathit{ZZ}_{1} + L_{1}^{2} M_{2}$ | kg m2 | inertial |
+    """
     model = derive_model(robot)
     return Derivation(robot, model, base_parameters(model))
 

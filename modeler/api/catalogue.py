@@ -7,7 +7,11 @@ from modeler.robot import Robot, builtin_names, read_robot
 
 
 def robots() -> Table:
-    """The built-in robots; `load(name)` gives one."""
+    """The built-in robots; `load(name)` gives one.
+
+    >>> "ur10e" in robots().column("name")
+    True
+    """
     every = [read_robot(name) for name in builtin_names()]
     rows = tuple(
         (robot.name, robot.title, len(robot.coordinates), len(robot.moving), len(robot.loops),
@@ -22,6 +26,9 @@ def effects(robot: Robot | None = None) -> Table:
     """The catalogue of physical effects; with a robot, its own ones too.
 
     `modeler effects ID` says more of each.
+
+    >>> dict(zip(effects().column("effect"), effects().column("parameters")))["coulomb"]
+    'Fs'
     """
     known = CATALOGUE if robot is None else robot.catalogue
     rows = tuple(

@@ -54,7 +54,9 @@ Mapped = Mapping[str, Any] | Sequence[str]
 def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     """The robot with the definition of an effect that the catalogue lacks.
 
-        own_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
+    >>> robot = own_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
+    >>> robot.own_effects[0].id
+    'fan'
 
     `diagnose` then tries it, and `modeler add` can add it: the definition stands in the robot
     file that the model keeps.

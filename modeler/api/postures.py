@@ -12,6 +12,9 @@ from modeler.symbolic import HomeModes, modes_near, written
 def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
     """The assembly modes of a robot, the best first; its `table()` lists them.
 
+    >>> home(load("five-bar")).table().column("mode")
+    ['A', 'B']
+
     Args:
         robot: with loops.
         near: values that are meant, by row, rad or m; None: [home] of the robot.

@@ -36,6 +36,12 @@ Cell = str | int | float | bool | Formula | None
 class Table(Brief):
     """A table.
 
+    >>> print(Table("links", (("name", ""), ("mass", "kg")), (("arm", 1.5), ("hand", 0.25))))
+    links
+    name  mass [kg]
+    arm         1.5
+    hand       0.25
+
     Attributes:
         title: in plain text.
         columns: (name, unit); the unit is empty where there is none, or where each row has its own.
