@@ -149,12 +149,12 @@ def clock_picture(seen: Look) -> Picture | None:
     if seen.clock is None or len(seen.time) < 2:
         return None
     steps = 1e3 * np.diff(seen.time)
+    if not np.isfinite(steps).any():
+        return None
     rows = thin_points(seen.time[1:], steps)
     dots = Points("step", seen.time[1:][rows], steps[rows], Style(SLATE, width=2.0))
-    reach = (
-        min(0.0, float(np.nanmin(steps))),
-        float(max(np.nanmax(steps), 2 * np.nanmedian(steps))),
-    )
+    known = steps[np.isfinite(steps)]
+    reach = (min(0.0, float(known.min())), float(max(known.max(), 2.0 * np.median(known))))
     panel = Panel("", _time_label(seen), "step of the clock [ms]", (dots,), y_range=reach)
     caption = (
         "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
