@@ -45,6 +45,7 @@ from modeler.api.exciting import excite as excite
 from modeler.api.exciting import tell_apart as tell_apart
 from modeler.api.files import open_model as open_model
 from modeler.api.files import save as save
+from modeler.api.freeruns import free_run as free_run
 from modeler.api.gains import Load as Load
 from modeler.api.gains import fit_gains as fit_gains
 from modeler.api.improving import add as add

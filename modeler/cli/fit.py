@@ -77,7 +77,7 @@ def _written(
         say(line)
     say(f"written: {args.out}")
     if args.report is not None:
-        place = write_fit(Path(args.report), model, observation.report.summary(), args.out)
+        place = write_fit(Path(args.report), model, observation.report.lines(), args.out)
         say(f"written: {place}")
     if args.robot_out is not None:
         stated = _own(robot_from_text(model.robot_text, "robot of the model"), model.fit)

@@ -14,10 +14,11 @@ _BOUND = Style(GREY, width=1.0, dash=True)
 
 def free_run_pictures(found: FreeRun) -> tuple[Picture, ...]:
     """Positions above, their error below, window after window."""
-    return tuple(_picture(found, j) for j in range(len(found.joints)))
+    return tuple(free_run_picture(found, j) for j in range(len(found.joints)))
 
 
-def _picture(found: FreeRun, j: int) -> Picture:
+def free_run_picture(found: FreeRun, j: int) -> Picture:
+    """Position of joint `j` above, its error below."""
     joint = found.joints[j]
     above, below = _panels(found, j)
     return Picture(

@@ -6,11 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
+from modeler.core.presented import Presented
 from modeler.freerun.stability import Stability
 
 
 @dataclass(frozen=True)
-class JointFreeRun:
+class JointFreeRun(Brief):
     """One joint.
 
     Attributes:
@@ -37,7 +39,7 @@ class JointFreeRun:
 
 
 @dataclass(frozen=True)
-class Controlled:
+class Controlled(Brief):
     """The robot under a controller that follows the logged commands.
 
     Attributes:
@@ -58,7 +60,7 @@ class Controlled:
     tracking: Mapping[str, float | None]
     torque: Mapping[str, float | None]
 
-    def summary(self) -> list[str]:
+    def lines(self) -> list[str]:
         """As text."""
         parts = [("integral action", self.integral), ("feedforward", self.forward)]
         fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
@@ -77,7 +79,7 @@ class Controlled:
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
+class Path(Brief):
     """Measured and simulated positions of one window, for pictures.
 
     Attributes:
@@ -93,7 +95,7 @@ class Path:
 
 
 @dataclass(frozen=True, eq=False)
-class FreeRun:
+class FreeRun(Presented):
     """The fitted robot left to itself under the logged torques.
 
     Attributes:
@@ -149,7 +151,7 @@ class FreeRun:
             )
         lines += ["", self.stability.sentence()]
         if self.controlled is not None:
-            lines += ["", *self.controlled.summary()]
+            lines += ["", *self.controlled.lines()]
         return "\n".join([*lines, *([""] if self.doubts else []), *self.doubts])
 
     def to_json(self) -> dict[str, Any]:

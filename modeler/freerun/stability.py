@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import expm
 
+from modeler.core.brief import Brief
 from modeler.freerun.plant import Plant
 
 _STEP = 1e-5  # of a difference quotient, rad or m, and rad/s or m/s
@@ -44,7 +45,7 @@ class Along:
 
 
 @dataclass(frozen=True)
-class Stability:
+class Stability(Brief):
     """What becomes of small errors along the motion.
 
     Attributes:

@@ -16,7 +16,7 @@ from tests.notebook.session import HIDDEN, reached, session
 NAMES = [
     "robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "report",
     "model", "fit", "better", "addition", "comparison", "diagnosis", "estimators", "modes",
-    "contest", "motion", "physical",
+    "contest", "free run", "motion", "physical",
 ]  # fmt: skip
 
 
