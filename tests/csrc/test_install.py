@@ -210,12 +210,12 @@ def test_a_kind_that_was_left_by_another_signature_is_not_taken(folder, tmp_path
 
 
 def test_a_destination_goes_before_the_prefix(folder, tmp_path):
-    run("make", "install", "PREFIX=/opt/robots", f"DESTDIR={tmp_path / 'stage'}", where=folder)
-    staged = tmp_path / "stage" / "opt" / "robots"
+    run("make", "install", "PREFIX=/srv/robots", f"DESTDIR={tmp_path / 'stage'}", where=folder)
+    staged = tmp_path / "stage" / "srv" / "robots"
     assert (staged / "include" / "emps" / "emps.h").is_file()
     for text in (staged / "lib").rglob("emps*"):
         assert str(tmp_path) not in text.read_text() if text.is_file() else True
-    run("make", "uninstall", "PREFIX=/opt/robots", f"DESTDIR={tmp_path / 'stage'}", where=folder)
+    run("make", "uninstall", "PREFIX=/srv/robots", f"DESTDIR={tmp_path / 'stage'}", where=folder)
     assert not files(staged)
 
 
