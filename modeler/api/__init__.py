@@ -16,6 +16,7 @@ figure (`plot(name)`), and HTML for a notebook; docs/python.md lists them. The f
 that a stage has too are that stage's, with the usual choices; use the stages for others.
 """
 
+import modeler.api.door as door
 import modeler.notebook as notebook
 from modeler.api.catalogue import effects as effects
 from modeler.api.catalogue import estimators as estimators
@@ -72,3 +73,4 @@ from modeler.observation import Processing as Processing
 from modeler.robot import Robot as Robot
 
 notebook.register()
+door.guard(globals())

@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Callable, Sequence
 
 from modeler.api.chain import AnyLog, Mapped, compile_model, generate, identified, read_currents
+from modeler.api.door import fitting
 from modeler.api.steps import Steps, silent
 from modeler.compiled import CompiledModel
 from modeler.core.contract import ModuleSpec
@@ -38,6 +39,10 @@ class Load:
     mass: float | None
     link: str | None = None
     moved: bool = False
+
+    def __post_init__(self) -> None:
+        """One log alone stands for a list of it."""
+        object.__setattr__(self, "logs", fitting("Load", "logs", Sequence[AnyLog], self.logs))
 
     def payloads(self, loaded: Sequence[Log]) -> list[Payload]:
         """It, as the fit knows it; one for each log if it was taken off in between."""

@@ -5,6 +5,7 @@ import argparse
 from modeler.api import generate
 from modeler.cli.console import Json, complain, say, working
 from modeler.cli.robots import robot_of
+from modeler.codegen import edited_leftovers
 from modeler.core.contract import Emitted, FittedSpec, FunctionSpec
 from modeler.core.errors import DataError
 from modeler.derivation import derive
@@ -23,6 +24,11 @@ def run_generate(args: argparse.Namespace) -> Json:
         say(f"  {name}")
     for function in spec.functions:
         say(_told(function))
+    for name in edited_leftovers(emitted, args.out):
+        complain(
+            f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "
+            "was edited since, so it stays: remove it, or keep it elsewhere"
+        )
     result = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
     return result if fitted is None else result | _say_fitted(fitted)
 

@@ -8,6 +8,10 @@ from modeler.core.contract import FunctionSpec, ModuleSpec
 EXAMPLES = ("example_computed_torque", "example_residual_observer")
 """Templates, and names of the programs."""
 
+SELF_CHECK = "self_check"
+PROGRAMS = (SELF_CHECK, *EXAMPLES)
+"""All programs that a folder may hold: their C files stand beside the library's."""
+
 
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
     """Those of a module: none without values, nor where a joint of q has no motor to obey."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.codegen.examples import call_head, example_values, examples_of
+from modeler.codegen.examples import SELF_CHECK, call_head, example_values, examples_of
 from modeler.codegen.render import render
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
@@ -62,7 +62,7 @@ def package_files(
         **values,
         "package": _package(spec, code),
         "examples": examples,
-        "programs": ("self_check", *examples),
+        "programs": (SELF_CHECK, *examples),
         "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
         "every": _functions(spec),
         "home": _home(spec),
@@ -76,7 +76,7 @@ def package_files(
         f"{prefix}.pc.in": "package.pc.in",
         f"{prefix}-config.cmake": "config.cmake",
         f"{prefix}-config-version.cmake": "config-version.cmake",
-        "self_check.c": "self_check.c",
+        f"{SELF_CHECK}.c": "self_check.c",
         "README.md": "README.md",
     }
     texts = {name: render(template, **given) for name, template in names.items()}

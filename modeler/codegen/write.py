@@ -14,7 +14,9 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
 
     A file that says the same already keeps its time, so that `make` has nothing to do. Other files
     of the folder are left alone: it may be the user's controller. What is written is recorded
-    beside it (`generated.sha256`), so that the next run knows its own files from the user's.
+    beside it (`generated.sha256`), so that the next run knows its own files from the user's. Those
+    of an earlier run that are no longer emitted are removed, unless they were edited: see
+    `edited_leftovers`.
 
     Args:
         emitted: the files.
@@ -45,8 +47,34 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
     _save(folder, {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}})
     for name in changed:
         write_atomically(folder / name, new[name])
-    _save(folder, {**record, **sums})
+    gone = _remove(folder, {name: sums for name, sums in record.items() if name not in new})
+    _save(folder, {**{n: s for n, s in record.items() if n not in gone}, **sums})
     return tuple(changed)
+
+
+def edited_leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
+    """Files of an earlier run that are no longer emitted, and stay because they were edited.
+
+    Args:
+        emitted: what `write_emitted` wrote.
+        folder: where.
+    """
+    known = read_record(Path(folder)) or {}
+    return sorted(name for name in known if name not in emitted.files)
+
+
+def _remove(folder: Path, stale: Record) -> set[str]:
+    """Removes the files of an earlier run that say what it wrote; returns their names.
+
+    A record may come from anybody: what lies outside of the folder is no file of ours.
+    """
+    gone = set()
+    for name, sums in stale.items():
+        path = folder / name
+        if Path(name).name == name and checksum(path.read_bytes()) in sums:
+            path.unlink()
+            gone.add(name)
+    return gone
 
 
 def _content(path: Path) -> bytes | None:

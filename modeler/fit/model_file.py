@@ -1,6 +1,7 @@
 """The MODEL file: one JSON file with all that later commands need; it can be mailed."""
 
 import json
+import shlex
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -19,6 +20,7 @@ from modeler.fit.integrity import CHECKSUMS, check_checksums, check_estimate, ch
 from modeler.fit.result import FitResult, fit_from_json
 from modeler.observation import DataReport, Log, Processing
 from modeler.observation.log import shared_rows
+from modeler.robot import builtin_names
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -254,8 +256,12 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         raw = parse_json(path.read_bytes())
     except OSError as error:
+        if str(path) in builtin_names():
+            raise _a_robot(path) from None
         raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     except JsonError as error:
+        if _is_robot_file(path):
+            raise _a_robot(path) from None
         raise ManifestError(
             f"{path}: not a model file: it {error}; expected the output of `modeler fit --out`"
         ) from None
@@ -269,6 +275,20 @@ def _read(path: Path) -> dict[str, Any]:
             "the model again"
         )
     return raw
+
+
+def _is_robot_file(path: Path) -> bool:
+    try:
+        return "mdh" in tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (ValueError, RecursionError):  # of TOML, or of UTF-8
+        return path.suffix.lower() == ".toml"
+
+
+def _a_robot(path: Path) -> ManifestError:
+    return ManifestError(
+        f"{path}: is a robot; expected a model: make one with "
+        f"`modeler fit {shlex.quote(str(path))} LOG --out MODEL.json`"
+    )
 
 
 def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:

@@ -8,6 +8,7 @@ import numpy as np
 from modeler.core.estimators import titled
 from modeler.fit import IdentifiedModel
 from modeler.fit.result import FitResult
+from modeler.pages.following import after_fit
 from modeler.pages.sheet import (
     Cell,
     Items,
@@ -46,11 +47,10 @@ def write_fit(
         sections=_sections(model),
         origin=Origin(place, [log.name for log in model.logs], False),
         facts=_facts(fit),
-        next=(f"modeler compare {place} OTHER_LOG --report compare.html",
-              f"modeler diagnose {place} LOG --holdout OTHER_LOG --report diagnosis.html"),
+        next=after_fit(place),
         provenance=provenance,
         command="fit",
-    )  # fmt: skip
+    )
     return write_page(path, sheet, "fit.html")
 
 

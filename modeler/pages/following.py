@@ -7,6 +7,15 @@ from pathlib import Path
 from modeler.diagnose import Diagnosis
 
 
+def after_fit(model: str) -> list[str]:
+    """Judge the model on other data, and look for what it lacks."""
+    own = _listed([model])
+    return [
+        f"modeler compare {own} OTHER_LOG --report compare.html",
+        f"modeler diagnose {own} LOG --holdout OTHER_LOG --report diagnosis.html",
+    ]
+
+
 def after_compare(model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool) -> str:
     """Look for what is missing; after training data, look at other data first.
 

@@ -88,7 +88,18 @@ def read_robot(robot: str | Path) -> Robot:
     if not found:
         raise RobotError(_not_found(path))
     check_known_format(path)
+    _check_no_model(path, text)
     return robot_from_text(text, str(path))
+
+
+def _check_no_model(path: Path, text: str) -> None:
+    """A model file is JSON, a robot file never starts as JSON does."""
+    if text.lstrip().startswith("{"):
+        what = "a model file" if '"modeler model"' in text else "JSON"
+        raise RobotError(
+            f"{path}: is {what}; expected a robot: give its robot file (TOML) or the name of a "
+            "built-in one; models are taken by `modeler compare`, `add` and others"
+        )
 
 
 def robot_from_text(text: str, where: str) -> Robot:

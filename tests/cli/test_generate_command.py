@@ -1,7 +1,10 @@
 """`modeler generate MODEL --out DIR`: every kind of model, and what is refused."""
 
 import dataclasses
+import html
 import json
+import re
+import shlex
 
 import numpy as np
 import pytest
@@ -41,6 +44,48 @@ def run(capsys, *words):
     capsys.readouterr()
     status = main([str(word) for word in words])
     return status, *capsys.readouterr()
+
+
+def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_path):
+    """But an example that somebody edited, which is told."""
+    assert run(capsys, "generate", place, "--out", tmp_path)[0] == 0
+    (tmp_path / "example_computed_torque.c").write_text("mine")
+    status, _, err = run(capsys, "generate", "two-link", "--out", tmp_path)
+    assert status == 0 and len(err.splitlines()) == 1
+    assert f"{tmp_path}: example_computed_torque.c is of an earlier generate" in err
+    left = {path.name for path in tmp_path.iterdir()}
+    assert "two_link.c" in left and not {name for name in left if "fitted" in name}
+    assert {name for name in left if "example" in name} == {"example_computed_torque.c"}
+
+
+def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_path):
+    log = place.parent / "log.parquet"
+    status, _, err = run(capsys, "fit", place, log, "--out", tmp_path / "m.json")
+    assert status == 1 and len(err.splitlines()) == 1
+    assert f"{place}: is a model file; expected a robot" in err
+    file = tmp_path / "arm.toml"
+    file.write_text(load("two-link").text)
+    for robot in (file, "two-link"):
+        status, _, err = run(capsys, "compare", robot, log)
+        assert status == 1 and len(err.splitlines()) == 1
+        assert f"{robot}: is a robot; expected a model: make one with `modeler fit {robot} " in err
+
+
+def test_the_page_of_a_fit_names_a_file_with_a_blank(place, capsys, tmp_path):
+    """And may be asked for as `derive` has it: --page."""
+    model, page = tmp_path / "my arm.json", tmp_path / "p.html"
+    words = ("fit", "two-link", place.parent / "log.parquet", "--out", model, "--page", page)
+    assert run(capsys, *words)[0] == 0
+    commands = re.findall(r"modeler (?:compare|diagnose) [^<]*", html.unescape(page.read_text()))
+    assert len(commands) >= 2
+    assert {shlex.split(command)[2] for command in commands} == {str(model)}
+
+
+@pytest.mark.parametrize("command", ["fit", "compare", "diagnose", "add", "estimators"])
+def test_every_page_may_be_called_page(command, capsys):
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    assert re.search(r"--report[ A-Z.a-z]*, --page", capsys.readouterr().out)
 
 
 def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):

@@ -14,9 +14,11 @@ import sympy
 import modeler
 from modeler.base import grouping_matrix
 from modeler.codegen import emit, write_emitted
+from modeler.codegen.examples import PROGRAMS
 from modeler.codegen.names import module_prefix, symbol_macros
 from modeler.core.contract import module_from_json
 from modeler.core.errors import EmitError, ModelerError
+from tests.codegen.fitted_library import fitted_of
 from tests.modules import STRICT, compiled, compiler, module, states
 from tests.repository import ROOT
 from tests.robots import TREES
@@ -253,6 +255,20 @@ def test_names_that_would_clash_are_refused():
         symbol_macros("arm", ["é"])
     with pytest.raises(EmitError, match=r"math\.h is a header of C; choose another"):
         module_prefix("Math")
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_no_robot_has_the_name_of_a_program_beside_it(program):
+    with pytest.raises(EmitError, match=rf"{program}\.c is a program of every emitted folder"):
+        module_prefix(program.replace("_", "-"))
+
+
+def test_every_program_of_a_folder_is_known_by_name():
+    """So a robot cannot be called as one that is added later: all C files without its prefix."""
+    made = module("wrist")
+    files = emit(made.model, made.base, fitted_of(made.emitted.spec)).files
+    others = {name[:-2] for name in files if name.endswith(".c") and "wrist" not in name}
+    assert {name for name in others if not name.startswith("modeler_")} == set(PROGRAMS)
 
 
 def test_macros_of_symbols_are_apart_from_all_others():

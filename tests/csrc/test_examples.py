@@ -71,6 +71,27 @@ def test_the_examples_follow_the_motion_and_see_a_push(fitted):
     assert np.all(np.abs(np.delete(seen, 1)) < 0.05 * size)
 
 
+@pytest.mark.parametrize("name", ["example_computed_torque", "example_residual_observer"])
+def test_a_line_that_is_no_sample_is_told(fitted, name):
+    """Too short, too long, no number: status 1; the end of the input after a line: status 0."""
+    folder, plant = fitted
+    width = plant.joints * (5 if name == "example_computed_torque" else 3)
+    good = " ".join(["0.1"] * width)
+    short = " ".join(["0.1"] * (width - 1))
+
+    def ran(text: str) -> tuple[int, int, str]:
+        found = subprocess.run([folder / name], input=text, capture_output=True, text=True)
+        return found.returncode, len(found.stdout.splitlines()), found.stderr
+
+    for text in ("", "\n", good, f"{good}\n", f"{good}\r\n\n"):
+        assert ran(text) == (0, int("0.1" in text), "")
+    for bad, count in ((short, width - 1), (f"{good} 1", width), (f"{short} x", width - 1)):
+        for text in (f"{good}\n{bad}", f"{good}\n{bad}\n{good}\n"):
+            status, answers, told = ran(text)
+            assert (status, answers) == (1, 1)
+            assert f"a line has {count}" in told and f"expected {width}: q, qd, " in told
+
+
 def test_the_controller_carries_what_friction_remembers(tmp_path):
     """A bristle on joint 2 of the machine: the error there falls from 2.5 to 0.07 mrad rms.
 

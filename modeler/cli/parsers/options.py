@@ -78,9 +78,9 @@ def add_map(parser: argparse._ActionsContainer) -> None:
 
 
 def add_page(parser: argparse.ArgumentParser, kind: type[Output] = Output) -> None:
-    """`--report PAGE.html`."""
+    """`--report PAGE.html`, which may be called `--page` as `derive` and `log` call it."""
     parser.add_argument(
-        "--report", metavar="PAGE.html", type=kind, help="write one self-contained page"
+        "--report", "--page", metavar="PAGE.html", type=kind, help="write one self-contained page"
     )
 
 
