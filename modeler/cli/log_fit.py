@@ -23,10 +23,11 @@ Span = tuple[float | None, float | None] | None
 
 @dataclass(frozen=True)
 class Heard:
-    """What a fit says: its relative error, and lines of doubt; infinite if it cannot be made."""
+    """What a fit says: relative error, infinite without fit; doubts; if it is usable."""
 
     error: float
     lines: tuple[str, ...]
+    usable: bool = False
 
 
 def doubts_of_fit(
@@ -34,16 +35,17 @@ def doubts_of_fit(
 ) -> tuple[tuple[str, ...], bool]:
     """What contradicts the robot; and whether the log fits without what ranges say of positions.
 
-    A guess by range is believed if it halves the error of the log as it stands; what goes wrong
-    under a guess is never told of the log.
+    A guess by range is believed if it halves the error of the log as it stands, or alone is
+    usable; what goes wrong under a guess is never told of the log.
     """
     plain = _heard(compiled, place, span, _mapped(seen.plain, mapping), seen)
     if seen.suggested == seen.plain:
         return plain.lines, False
     guessed = _heard(compiled, place, span, _mapped(seen.suggested, mapping), seen)
-    if guessed.error < _BETTER * plain.error:
+    better = guessed.error < _BETTER * plain.error and guessed.usable >= plain.usable
+    if better or (guessed.usable and not plain.usable):
         return guessed.lines, False
-    return plain.lines, plain.error < float("inf")
+    return plain.lines, plain.usable
 
 
 def _mapped(text: str, mapping: LogMap) -> LogMap:
@@ -73,4 +75,4 @@ def _heard(
                      "torque unexplained")  # fmt: skip
     fresh = [line for line in dict.fromkeys(lines) if not line.endswith(seen.notes)]
     longer = [line for line in fresh if not any(o != line and o.endswith(line) for o in fresh)]
-    return Heard(result.relative_error, tuple(longer))
+    return Heard(result.relative_error, tuple(longer), verdict is not None and verdict.usable)
