@@ -58,5 +58,17 @@ from modeler.api.postures import home as home
 from modeler.api.reports import write_report as write_report
 from modeler.api.simulating import simulate as simulate
 from modeler.api.trials import side_by_side as side_by_side
+from modeler.compare import Comparison as Comparison
+from modeler.compiled import CompiledModel as CompiledModel
+from modeler.core.contract import Emitted as Emitted
+from modeler.diagnose import Diagnosis as Diagnosis
+from modeler.fit import FitResult as FitResult
+from modeler.fit import IdentifiedModel as IdentifiedModel
+from modeler.fit import Payload as Payload
+from modeler.freerun import Asked as Asked
+from modeler.observation import Log as Log
+from modeler.observation import Observation as Observation
+from modeler.observation import Processing as Processing
+from modeler.robot import Robot as Robot
 
 notebook.register()

@@ -28,10 +28,13 @@ def run_contest(args: argparse.Namespace) -> Json:
     """Prints the errors by joint and model, and who is better; writes page and pictures."""
     places = models_of(args)
     logs = [place for place in args.logs if not isinstance(place, ModelFile)]
-    if not logs:
-        raise DataError(f"{', '.join(places)}: got models only; expected at least one log")
-    names = _names(places)
     models = [_loaded(place, args.essential) for place in places]
+    if not logs:
+        raise DataError(
+            f"{', '.join(places)}: got models only; expected a log too, as in run.csv or "
+            "run.parquet; name at least one after them"
+        )
+    names = _names(places)
     check_joints(models, names)
     with progress("predicting") as bar:
         compiled = []

@@ -40,7 +40,8 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
             f'"{path.suffix or "no suffix"}"; convert or rename it'
         )
     if reader is None or not path.is_file():
-        raise DataError(f"{path}: there is no such file; check the path")
+        ending = "" if reader else ", which ends in .parquet, .csv or another ending of a log"
+        raise DataError(f"{path}: there is no such file; check the path{ending}")
     if path.stat().st_size == 0:
         raise DataError(f"{path}: the file is empty; record or copy it again")
     return reader(path, wanted)

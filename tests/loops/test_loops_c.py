@@ -51,6 +51,7 @@ def test_strict_compilers_have_nothing_to_say(name, cc, tmp_path):
 
 def test_a_program_closes_the_loop_under_sanitizers(tmp_path):
     write("five-bar", tmp_path)
+    (tmp_path / "self_check.c").unlink()  # a program of its own
     (tmp_path / "main.c").write_text(PROGRAM, encoding="utf-8")
     sources = sorted(str(path) for path in tmp_path.glob("*.c"))
     command = [
