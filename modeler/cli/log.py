@@ -1,26 +1,21 @@
 """`modeler log FILE`: what is in a log, before anything is fitted to it."""
 
 import argparse
-import tomllib
+import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import compile_model, derive, file_and_span, generate, log_map, look_at, observe
+from modeler.api import compile_model, derive, file_and_span, generate, log_map, look_at
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.log_fit import doubts_of_fit
 from modeler.cli.robots import read_told
 from modeler.compiled import CompiledModel
-from modeler.core.errors import ModelerError
-from modeler.fit import identify
-from modeler.logs import LogMap, map_from_table, map_from_words
+from modeler.logs import map_from_words
 from modeler.logs.look import Look
-from modeler.observation.findings import findings_of_fit
-from modeler.observation.read import read_log
-from modeler.observation.window import window
 from modeler.pages.log import channel_rows, clock_line, log_pictures, write_log_page
 from modeler.pictures.files import write_files
 
 _WIDEST = 44  # letters of a cell
-_POOR = 0.2  # relative error of a fit that is told
 
 
 def run_log(args: argparse.Namespace) -> Json:
@@ -31,9 +26,11 @@ def run_log(args: argparse.Namespace) -> Json:
     seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
     if compiled is not None:
-        doubts += [
-            line for line in _of_fit(compiled, place, span, mapping, seen) if line not in doubts
-        ]
+        heard, stands = doubts_of_fit(compiled, place, span, mapping, seen)
+        if stands:  # it fits as it is: a range alone is no doubt
+            doubts = [line for line in doubts if line not in seen.ranged]
+            seen = dataclasses.replace(seen, suggested=seen.plain)
+        doubts += [line for line in heard if line not in doubts]
     for line in _lines(seen, doubts):
         say(line)
     written = _written(args, seen, doubts)
@@ -48,30 +45,6 @@ def _compiled(robot: str | None) -> CompiledModel | None:
     read = read_told(robot)
     with working(f"deriving {read.name}"):
         return compile_model(generate(derive(read)))
-
-
-def _of_fit(
-    compiled: CompiledModel, place: str | Path, span: tuple[float | None, float | None] | None,
-    mapping: LogMap, seen: Look,
-) -> list[str]:  # fmt: skip
-    """What contradicts the robot, once it is fitted to the log; or why it cannot be fitted."""
-    if seen.suggested:
-        mapping = map_from_table(tomllib.loads(seen.suggested)["log"], "guessed [log]")
-    try:
-        with working("fitting"):
-            log = read_log(place, compiled.spec, mapping)
-            log = log if span is None else window(log, *span)
-            observation = observe(compiled, [log])
-            result = identify(observation, "weighted", compiled)
-            found = findings_of_fit(compiled, observation, result.beta)
-    except ModelerError as error:
-        return [f"as a log of {compiled.spec.robot} it cannot be fitted: {error}"]
-    heard = [*log.notes, *(fault.line for fault in found)]
-    lines = [line for line in heard if not line.endswith(seen.notes)]
-    told = (
-        f"a fit of {observation.robot} leaves {result.relative_error:.1%} of the torque unexplained"
-    )
-    return [*lines, told] if result.relative_error > _POOR else lines
 
 
 def _lines(seen: Look, doubts: Sequence[str]) -> list[str]:

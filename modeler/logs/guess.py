@@ -1,6 +1,6 @@
 """Whose column is which, guessed from names and ranges: lines for [log], to be checked."""
 
-import json
+import dataclasses
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.contract import JointSpec
-from modeler.logs.units import find_unit
+from modeler.logs.rates import Pair, pairs_of, units_of
+from modeler.logs.units import ANGLE, CURRENT, FORCE, LENGTH, TIME, TORQUE, Powers, find_unit
 
 
 def _words(text: str) -> frozenset[str]:
@@ -18,25 +19,27 @@ def _words(text: str) -> frozenset[str]:
 _WORDS: Mapping[str, frozenset[str]] = {
     "time": _words("t time timestamp stamp clock zeit temps sec seconds"),
     "temperature": _words("temp temperature temperatures heat"),
-    "current": _words("current currents cur i iq amp amps"),
-    "tau": _words("tau torque torques trq effort moment moments load force f"),
+    "current": _words("strom current currents cur i iq amp amps"),
+    "tau": _words("tau torque torques drehmoment kraft trq effort moment moments load force f"),
     "qdd": _words("qdd ddq acc accel acceleration accelerations"),
-    "qd": _words("qd dq qdot vel velocity velocities speed speeds omega"),
-    "q": _words("q pos position positions angle angles theta enc encoder x"),
+    "qd": _words("qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega"),
+    "q": _words("q winkel pos position positions angle angles theta enc encoder x"),
 }
+_KINDS: Mapping[Powers, str] = {
+    TIME: "time", ANGLE: "q", LENGTH: "q", (0, 0, -1, 1, 0, 0): "qd", (1, 0, -1, 0, 0, 0): "qd",
+    TORQUE: "tau", FORCE: "tau", CURRENT: "current",
+}  # fmt: skip
 _ASKED = _words("qc cmd command commanded desired des target ref reference set setpoint")
-_LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)")
+_LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)|(?<=[ _.])([A-Z])$")
+_UNIT = re.compile(r"\s+[\[(]([^\[\]()]+)[\])]$")
 _SPLIT = re.compile(r"[^A-Za-zµ°]+|(?<=[a-z])(?=[A-Z])")
 _COUNTS = 5000.0  # span of whole numbers from which on a position is in counts
 _TURNS = 7.0  # rad; a joint that goes further in either way is likely in degrees
 _LONG = 3.0  # m; an axis that is longer is likely in mm
+_FAR = 30.0  # rad; with a speed that agrees: nearly five turns
 _STRONG = 200.0  # A
 _HEAVY = 1e4  # N m
-
-RATES: Mapping[str, float] = {
-    "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
-}  # fmt: skip
-"""Units of speeds of revolute joints, in rad/s."""
+_MIGHTY = 1e6  # N
 
 
 @dataclass(frozen=True)
@@ -47,20 +50,26 @@ class Guess:
         own: our name of it: "time", "q", "tau", ...
         template: name of the columns, "{}" for what tells joints apart.
         labels: of the columns, in their order; ("",) without.
-        unit: guessed or stated; "" for SI.
-        why: why that unit.
+        units: of the columns, guessed or stated; "" for SI.
+        why: why those units.
     """
 
     own: str
     template: str
     labels: tuple[str, ...]
-    unit: str = ""
+    units: tuple[str, ...] = ()
     why: str = ""
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names in the file."""
         return tuple(self.template.replace("{}", label) for label in self.labels)
+
+    def without_range(self) -> "Guess":
+        """The same, without units that rest on a range."""
+        if self.why != "by its range":
+            return self
+        return dataclasses.replace(self, units=("",) * len(self.labels), why="")
 
 
 def guesses(
@@ -79,28 +88,63 @@ def guesses(
         groups.setdefault(template, []).append(label)
     found: dict[str, Guess] = {}
     for template, labels in groups.items():
-        own = _role(template)
+        names = [template.replace("{}", label) for label in labels]
+        own = _role(template) or _by_unit(names, stated)
+        if own == "time" and not all(_rises(columns[name]) for name in names):
+            own = "tau" if template.lower().split()[:1] == ["t"] else ""
         better = own in found and len(labels) > len(found[own].labels)
         if own and (own not in found or better):
-            found[own] = Guess(own, template, tuple(labels))
+            found[own] = Guess(own, template, tuple(labels), ("",) * len(labels))
     if "time" not in found:
-        clock = next((name for name, v in columns.items() if _steady(v)), None)
+        taken = {name for one in found.values() for name in one.columns}
+        free = (name for name in columns if name not in taken)
+        clock = next((name for name in free if _steady(columns[name])), None)
         if clock is not None:
-            found["time"] = Guess("time", clock, ("",))
+            found["time"] = Guess("time", clock, ("",), ("",))
     order = ("time", "q", "qd", "qdd", "qc", "tau", "current", "temperature")
     known = [found[own] for own in order if own in found]
-    slides = bool(joints) and all(joint.unit == "m" for joint in joints)
-    return [_with_unit(one, columns, stated, slides) for one in known]
+    rates = _rates(found, columns, stated)
+    return [
+        _with_units(one, columns, stated, slides_of(one.labels, joints), rates) for one in known
+    ]
+
+
+def slides_of(labels: Sequence[str], joints: Sequence[JointSpec]) -> list[bool]:
+    """Whether each column is of a prismatic joint; by name, else by its place."""
+    by = {joint.name: joint.unit == "m" for joint in joints}
+    if not set(by) <= set(labels):
+        by = {label: joint.unit == "m" for label, joint in zip(labels, joints, strict=False)}
+    return [by.get(label, False) for label in labels]
+
+
+def _rates(
+    found: Mapping[str, Guess], columns: Mapping[str, np.ndarray], stated: Mapping[str, str]
+) -> dict[str, Pair]:
+    """Positions with the speed of their joint, by the name of the position."""
+    if not {"time", "q", "qd"} <= set(found):
+        return {}
+    clock = found["time"].columns[0]
+    time = columns[clock]
+    named = (
+        "" if clock in stated else _named(clock) or _ranged("time", time[np.isfinite(time)], False)
+    )
+    unit = find_unit(named) if named else None
+    speeds = dict(zip(found["qd"].labels, found["qd"].columns, strict=True))
+    positions = zip(found["q"].labels, found["q"].columns, strict=True)
+    names = [(q, speeds[label]) for label, q in positions if label in speeds]
+    time = time * (1.0 if unit is None else unit.factor)
+    return {pair.position: pair for pair in pairs_of(names, columns, time)}
 
 
 def template_of(name: str) -> tuple[str, str]:
     """`pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`."""
-    match = _LABEL.search(name)
-    if match is None:
+    end = _UNIT.search(name)
+    head = name[: end.start()] if end is not None and find_unit(end[1]) is not None else name
+    match = _LABEL.search(head)
+    if match is None or head[: match.start()].strip() == "":
         return name, ""
-    place = match.start(1) if match[1] else match.start(2)
-    label = match[1] or match[2]
-    return f"{name[:place]}{{}}{name[place + len(label) :]}", label
+    group = match.lastindex or 1
+    return f"{name[: match.start(group)]}{{}}{name[match.end(group) :]}", match[group]
 
 
 def _role(template: str) -> str:
@@ -120,87 +164,88 @@ def _steady(values: np.ndarray) -> bool:
     return bool(len(steps) and np.isfinite(steps).all() and 0 < steps.max() < 3 * steps.min())
 
 
-def _with_unit(
-    one: Guess, columns: Mapping[str, np.ndarray], stated: Mapping[str, str], slides: bool
-) -> Guess:
-    """The guess with its unit: what the name or the file says, else what the range suggests."""
-    for name in one.columns:
-        text = stated.get(name) or _named(name)
-        if text:
-            return Guess(one.own, one.template, one.labels, text, "stated")
-    values = [v for name in one.columns if len(v := columns[name][np.isfinite(columns[name])])]
-    if not values:
-        return one
-    text = _ranged(one.own, values, slides)
-    return Guess(one.own, one.template, one.labels, text, "by its range" if text else "")
+def _rises(values: np.ndarray) -> bool:
+    """True of a column that goes up, as a time does, but for a few rows."""
+    steps = np.diff(values[np.isfinite(values)])
+    return bool(len(steps) == 0 or np.mean(steps >= 0.0) > 0.9)
+
+
+def _by_unit(names: Sequence[str], stated: Mapping[str, str]) -> str:
+    """What columns are by the unit that their names or the file state, if no word says it."""
+    unit = find_unit(stated.get(names[0]) or _named(names[0]) or "?")
+    return "" if unit is None else _KINDS.get(unit.powers, "")
+
+
+def _with_units(
+    one: Guess, columns: Mapping[str, np.ndarray], stated: Mapping[str, str],
+    slides: Sequence[bool], rates: Mapping[str, Pair],
+) -> Guess:  # fmt: skip
+    """The guess with its units: what names or the file say, else what speeds or ranges suggest."""
+    told = tuple(stated.get(name) or _named(name) for name in one.columns)
+    if any(told):
+        return dataclasses.replace(one, units=told, why="stated")
+    known = [columns[name][np.isfinite(columns[name])] for name in one.columns]
+    units = [
+        "" if not len(v) else _ranged(one.own, v, s) for v, s in zip(known, slides, strict=True)
+    ]
+    if one.own == "q":
+        units = [
+            _by_rate(rates.get(name), unit, v)
+            for name, unit, v in zip(one.columns, units, known, strict=True)
+        ]
+    free = [
+        one.own not in ("q", "qc") or not (slide or _settled(rates.get(name)))
+        for name, slide in zip(one.columns, slides, strict=True)
+    ]
+    units = _alike(units, free, slides)
+    return dataclasses.replace(one, units=tuple(units), why="by its range" if any(units) else "")
+
+
+def _settled(pair: Pair | None) -> bool:
+    """True if a speed says what its position is in."""
+    return pair is not None and bool(units_of(pair.ratio)) and units_of(pair.ratio) != ("", "")
+
+
+def _by_rate(pair: Pair | None, unit: str, values: np.ndarray) -> str:
+    """The unit of a position, where its speed decides; where it agrees, only a far way does."""
+    units = None if pair is None else units_of(pair.ratio)
+    if units is None or unit in ("mm", "rev/COUNTS"):
+        return unit
+    if units == ("", ""):
+        return unit if float(np.ptp(values)) > _FAR else ""
+    return "" if units[0] == "rad" else units[0]
+
+
+def _alike(units: Sequence[str], free: Sequence[bool], slides: Sequence[bool]) -> list[str]:
+    """Columns that say nothing of their own follow the others, if most of them have one unit."""
+    for unit in sorted(set(units) - {""}):
+        if 2 * sum(u == unit for u in units) > sum(free):
+            own = ["mN" if unit == "mN m" and s else unit for s in slides]
+            return [u or (o if f else "") for u, o, f in zip(units, own, free, strict=True)]
+    return [*units]
 
 
 def _named(name: str) -> str:
-    """A unit at the end of a name: `t [ms]`, `pos (deg)`, `speed_rpm`."""
-    match = re.search(r"[\[(]([^\[\]()]+)[\])]$|_([A-Za-z]+)\d*$", name)
-    text = "" if match is None else (match[1] or match[2])
-    return text if len(text) > 1 and find_unit(text) is not None else ""
+    """A unit at the end of a name: `t [ms]`, `pos (deg)`, `Joint A [°]`, `speed_rpm`."""
+    match = re.search(r"(\s?)[\[(]([^\[\]()]+)[\])]$|_([A-Za-z]+)\d*$", name)
+    text = "" if match is None else (match[2] or match[3])
+    sure = len(text) > 1 or text == "°" or (match is not None and match[1])
+    return text if text and sure and find_unit(text) is not None else ""
 
 
-def _ranged(own: str, values: Sequence[np.ndarray], slides: bool) -> str:
-    span = max(float(np.ptp(v)) for v in values)
+def _ranged(own: str, values: np.ndarray, slides: bool) -> str:
+    if not len(values):
+        return ""
+    span = float(np.ptp(values))
     if own == "time":
-        step = float(np.median(np.diff(values[0])))
+        step = float(np.median(np.diff(values))) if len(values) > 1 else 0.0
         return "" if step <= 0.2 else "ms" if step < 100 else "us" if step < 1e5 else "ns"
     if own in ("q", "qc"):
-        if span > _COUNTS and all((v == np.round(v)).all() for v in values):
+        if span > _COUNTS and (values == np.round(values)).all():
             return "rev/COUNTS"
         if slides:
             return "mm" if span > _LONG else ""
-        return "deg" if max(float(np.abs(v).max()) for v in values) > _TURNS else ""
+        return "deg" if float(np.abs(values).max()) > _TURNS else ""
     if own == "tau":
-        return "mN m" if span > _HEAVY and not slides else ""
+        return ("mN" if slides else "mN m") if span > (_MIGHTY if slides else _HEAVY) else ""
     return "mA" if own == "current" and span > _STRONG else ""
-
-
-def log_text(found: Sequence[Guess], joints: Sequence[JointSpec] = ()) -> str:
-    """The guesses as a table [log] to paste; "" if there are none, or all is ours already."""
-    count = max(len(one.labels) for one in found) if found else 0
-    own = [joint.name for joint in joints] or [str(k + 1) for k in range(count)]
-    lines, named = ["[log]  # guessed from names and ranges: check every line"], False
-    for one in found:
-        unit = f" [{one.unit}]" if one.unit else ""
-        if not unit and all(c in (one.own, *(one.own + j for j in own)) for c in one.columns):
-            continue  # ours already
-        told = f"  # {one.why}" if one.why == "by its range" else ""
-        if one.own == "time" or one.labels == ("",):
-            key = one.own if one.own == "time" else f"{one.own}{own[0]}"
-            written = _quoted(f"{one.columns[0]}{_once(one.columns[0], unit)}")
-            lines.append(f"{key} = {written}{told}")
-            continue
-        mark = _mark(one.labels, own)
-        if mark == "{name}" and not named:
-            pairs = ", ".join(
-                f"{_quoted(j) if not j.isalnum() else j} = {_quoted(n)}"
-                for j, n in zip(own, one.labels, strict=False)
-            )
-            lines.append(f"names = {{{pairs}}}  # in the order of the log: which joint is which?")
-            named = True
-        column = one.template.replace("{}", mark)
-        written = _quoted(f"{column}{_once(one.columns[0], unit)}")
-        lines.append(f'"{one.own}<j>" = {written}{told}')
-    return "\n".join(lines) + "\n" if len(lines) > 1 else ""
-
-
-def _quoted(text: str) -> str:
-    """A text in TOML, whatever it holds."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
-
-
-def _once(column: str, unit: str) -> str:
-    """The unit, unless the column's name ends in it already."""
-    return "" if column.endswith(unit) else unit
-
-
-def _mark(labels: Sequence[str], own: Sequence[str]) -> str:
-    """What stands for the label in a pattern."""
-    if set(own) <= set(labels):
-        return "{j}"
-    if all(label.isdigit() for label in labels):
-        return "{n-1}" if "0" in labels else "{n}"
-    return "{name}"

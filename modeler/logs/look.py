@@ -1,9 +1,8 @@
 """What is in a log: clock, channels, doubts; numbers only, whoever shows them."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -12,14 +11,14 @@ from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
 from modeler.core.presented import Presented
 from modeler.logs.columns import Stream
-from modeler.logs.guess import RATES, Guess, guesses, log_text
+from modeler.logs.guess import Guess, guesses
+from modeler.logs.log_text import absent_roles, log_text, unlike_si
 from modeler.logs.mapping import LogMap
+from modeler.logs.rates import moves, rate_doubts
 from modeler.logs.table import Table
 from modeler.logs.units import unit_named
 
 _GAP = 1.5  # of the median step
-_LIKE = 0.95  # correlation from which on a speed is the derivative of a position
-_NEAR = 0.1  # relative; of a ratio that is a matter of units
 _HELD = 3  # rows in a row at the extreme value that make it a limit
 _STUCK = 0.005  # share of the rows
 _SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
@@ -38,6 +37,7 @@ class Clock:
         largest: gap, s; `at`: s, where it begins.
         repeated: steps of 0; `back`: steps to an earlier time.
         duration: s.
+        tick: s; what the steps differ by at least, 0 if they lie on no grid.
     """
 
     column: str
@@ -50,6 +50,7 @@ class Clock:
     repeated: int
     back: int
     duration: float
+    tick: float
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,8 @@ class Look(Presented):
         notes: of reading.
         doubts: what contradicts itself or looks like another unit.
         suggested: a [log] to paste, guessed; "" if a mapping is there already.
+        plain: the same without what ranges say of positions.
+        ranged: doubts about positions that rest on their range alone.
         time: (n,) s, or row numbers without a clock.
         values: (n,) of every channel, in its unit.
     """
@@ -103,6 +106,8 @@ class Look(Presented):
     notes: tuple[str, ...]
     doubts: tuple[str, ...]
     suggested: str
+    plain: str
+    ranged: tuple[str, ...]
     time: np.ndarray
     values: Mapping[str, np.ndarray]
 
@@ -140,20 +145,41 @@ def look(
     values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
     values = _within(table, values, span, joints)
     found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
-    units = {name: one.unit for one in found for name in one.columns if one.unit}
+    units = {n: u for one in found for n, u in zip(one.columns, one.units, strict=True) if u}
     time, clock = _clock(table, values, found)
     shown = {name: table.in_unit(name, v) for name, v in values.items()}
     channels = tuple(_channel(table, name, v, units.get(name, "")) for name, v in shown.items())
-    doubts = [*_of_clock(clock), *_units(found), *_rates(found, values, time)]
-    doubts += [
-        f"{channel.name} never changes: is it connected?" for channel in channels
-        if channel.constant
-    ]  # fmt: skip
-    suggested = "" if mapping.layers else log_text(found, joints)
+    pairs = _pairs(found)
+    doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
+    doubts += [*rate_doubts(pairs, values, time), *_dead(channels, shown, values, pairs)]
+    bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
+    suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values))
+                        for f in (found, bare))  # fmt: skip
+    ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
     return Look(
         table.path.name, len(time), clock, channels, table.found.streams, table.notes,
-        tuple(doubts), suggested, time, shown,
+        tuple(doubts), suggested, plain, ranged, time, shown,
     )  # fmt: skip
+
+
+def _pairs(found: Sequence[Guess]) -> list[tuple[str, str]]:
+    """Columns of position and speed of the joints that have both."""
+    by = {one.own: dict(zip(one.labels, one.columns, strict=True)) for one in found}
+    positions, speeds = by.get("q", {}), by.get("qd", {})
+    return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
+
+
+def _dead(
+    channels: Sequence[Channel], names: Iterable[str],
+    values: Mapping[str, np.ndarray], pairs: Sequence[tuple[str, str]],
+) -> list[str]:  # fmt: skip
+    """Channels that never change, but for the speed 0 of a joint that rests."""
+    rest = {speed for position, speed in pairs if not moves(values[position])}
+    return [
+        f"{channel.name} never changes: is it connected?"
+        for channel, name in zip(channels, names, strict=True)
+        if channel.constant and not (name in rest and channel.low == 0.0)
+    ]
 
 
 def _plain(channel: dict[str, Any]) -> dict[str, Any]:
@@ -193,8 +219,8 @@ def _clock(
     if name not in values:
         return np.arange(len(next(iter(values.values()), ())), dtype=float), None
     time = values[name]
-    if guess is not None and guess.unit and not table.unit(name):
-        time = time * unit_named(guess.unit).factor
+    if guess is not None and guess.units[0] and not table.unit(name):
+        time = time * unit_named(guess.units[0]).factor
     known = time[np.isfinite(time)]
     steps = np.diff(known)
     if not len(steps):
@@ -214,7 +240,18 @@ def _clock(
         repeated=int(np.sum(steps == 0.0)),
         back=int(np.sum(steps < 0.0)),
         duration=float(known.max() - known.min()),
+        tick=_tick(even, step),
     )
+
+
+def _tick(steps: np.ndarray, step: float) -> float:
+    """What steps of a clock differ by, if they are whole multiples apart; else 0."""
+    off = np.abs(steps - step)
+    off = off[off > 1e-4 * step]
+    if not off.size:
+        return 0.0
+    tick = float(off.min())
+    return tick if np.quantile(np.abs(off / tick - np.round(off / tick)), 0.9) < 0.05 else 0.0
 
 
 def _channel(table: Table, name: str, values: np.ndarray, guessed: str) -> Channel:
@@ -279,78 +316,9 @@ def _of_clock(clock: Clock | None) -> list[str]:
         lines.append(f"{clock.column} repeats itself in {clock.repeated} rows: delete them")
     if clock.gaps:
         lines.append(
-            f"{clock.column} has {clock.gaps} gaps, the widest {clock.largest:.4g} s at "
-            f"{clock.at:.4g} s"
+            f"{clock.column} has {clock.gaps} gap{'s' * (clock.gaps > 1)}, the widest "
+            f"{clock.largest:.4g} s at {clock.at:.4g} s"
         )
-    if clock.jitter > _JITTER:
+    if clock.jitter > max(_JITTER, clock.tick * clock.rate):
         lines.append(f"{clock.column} is uneven: its steps differ by {clock.jitter:.0%}")
     return lines
-
-
-def _units(found: Sequence[Guess]) -> list[str]:
-    """Columns whose range looks like another unit than SI, where nobody states one."""
-    lines = []
-    for one in found:
-        if one.why != "by its range":
-            continue
-        columns = one.columns[0] if len(one.columns) == 1 else one.template.replace("{}", "*")
-        what = "counts of an encoder" if one.unit == "rev/COUNTS" else one.unit
-        lines.append(f"{columns} looks like {what}, by its range; say so in [log] or with --map")
-    return lines
-
-
-def _rates(found: Sequence[Guess], values: Mapping[str, np.ndarray], time: np.ndarray) -> list[str]:
-    """Speeds that are not the derivative of their position: unit, sign, order."""
-    by = {one.own: one for one in found}
-    if "q" not in by or "qd" not in by or len(by["q"].columns) != len(by["qd"].columns):
-        return []
-    with np.errstate(all="ignore"):
-        slopes = [np.gradient(values[name], time) for name in by["q"].columns]
-    speeds = [values[name] for name in by["qd"].columns]
-    lines, like = [], np.array([[_alike(a, b) for b in speeds] for a in slopes])
-    for j, name in enumerate(by["qd"].columns):
-        position = by["q"].columns[j]
-        if abs(like[j, j]) < _LIKE:
-            other = int(np.argmax(np.abs(like[:, j])))
-            if other != j and abs(like[other, j]) > _LIKE:
-                lines.append(
-                    f"{name} is the derivative of {by['q'].columns[other]}, not of {position}: are "
-                    "columns exchanged?"
-                )
-            elif np.isfinite(like[j, j]):
-                lines.append(
-                    f"{name} is not the derivative of {position} (correlation {like[j, j]:.2f})"
-                )
-            continue
-        line = _ratio(name, position, slopes[j], speeds[j])
-        if line:
-            lines.append(line)
-    return lines
-
-
-def _alike(a: np.ndarray, b: np.ndarray) -> float:
-    both = np.isfinite(a) & np.isfinite(b)
-    if both.sum() < 10 or not a[both].std() > 0.0 or not b[both].std() > 0.0:
-        return np.nan
-    return float(np.corrcoef(a[both], b[both])[0, 1])
-
-
-def _ratio(name: str, position: str, slope: np.ndarray, speed: np.ndarray) -> str:
-    """What a speed is times the derivative of its position, if not 1, and what that looks like."""
-    both = np.isfinite(slope) & np.isfinite(speed)
-    size = float(slope[both] @ slope[both])
-    if not 0.0 < size < np.inf:
-        return ""
-    ratio = float(slope[both] @ speed[both]) / size
-    if abs(ratio - 1.0) < _NEAR:
-        return ""
-    if abs(ratio + 1.0) < _NEAR:
-        return f"{name} has the other sign of the derivative of {position}"
-    pairs = [
-        (abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a.removesuffix("/s"), b)
-        for a, b in permutations(RATES, 2)
-        if a != "rpm"
-    ]
-    off, first, second = min(pairs)
-    words = f": {position} in {first} and {name} in {second}?" if off < _NEAR else ""
-    return f"{name} is {ratio:.3g} times the derivative of {position}{words}"

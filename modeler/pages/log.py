@@ -77,8 +77,8 @@ def clock_line(clock: Clock) -> str:
     parts.append(f"jitter {100 * clock.jitter:.2g} % of a step" if clock.jitter > 1e-6 else "even")
     if clock.gaps:
         parts.append(
-            f"{clock.gaps} gaps, about {clock.lost} rows lost, the widest {clock.largest:.4g} s "
-            f"at {clock.at:.4g} s"
+            f"{clock.gaps} gap{'s' * (clock.gaps > 1)}, about {clock.lost} rows lost, "
+            f"the widest {clock.largest:.4g} s at {clock.at:.4g} s"
         )
     else:
         parts.append("no gaps")

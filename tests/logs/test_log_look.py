@@ -98,7 +98,7 @@ SPOILT = [
     ("vel_2", lambda t: np.sin(99.0 * t["time"]), "vel_2 is not the derivative of pos_2"),
     ("vel_2", lambda t: 3.0 * t["vel_2"], "vel_2 is 3 times the derivative of pos_2"),
     ("tau_1", lambda t: 0.0 * t["tau_1"], "tau_1 never changes: is it connected?"),
-    ("tau_1", lambda t: 1e3 * t["tau_1"], "tau_* looks like mN m, by its range"),
+    ("tau_1", lambda t: 1e3 * t["tau_1"], "tau_1 looks like mN m, by its range"),
     ("time", lambda t: 1e3 * t["time"], "time looks like ms, by its range"),
     ("time", lambda t: 1e6 * t["time"], "time looks like us, by its range"),
     ("i_1", lambda t: 100.0 * t["tau_1"], "i_1 looks like mA, by its range"),

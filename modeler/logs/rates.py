@@ -1,0 +1,140 @@
+"""Speeds against the derivatives of their positions: units, signs, exchanged columns."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+
+RATES: Mapping[str, float] = {
+    "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
+}  # fmt: skip
+"""Units of speeds of revolute joints, in rad/s."""
+
+_LIKE = 0.95  # correlation from which on a speed is the derivative of a position
+_NEAR = 0.1  # relative; of a ratio that is a matter of units
+_MOVES = 100.0  # spans of resolution or noise from which on a joint moves
+_LEAST = 10  # rows
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A position, and the speed that should be its derivative.
+
+    Attributes:
+        position, speed: names of the columns.
+        ratio: of the speed to the derivative; NaN if they are not alike, or the joint rests.
+    """
+
+    position: str
+    speed: str
+    ratio: float
+
+
+def pairs_of(
+    names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
+) -> list[Pair]:
+    """The ratio of every speed to the derivative of its position."""
+    found = []
+    for position, speed in names:
+        slope = slope_of(values[position], time)
+        like = moves(values[position]) and abs(_alike(slope, values[speed])) >= _LIKE
+        found.append(Pair(position, speed, _ratio(slope, values[speed]) if like else np.nan))
+    return found
+
+
+def slope_of(values: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """(n,) derivative by differences of neighbours; NaN or infinite where time stands still."""
+    with np.errstate(all="ignore"):
+        return np.asarray(np.gradient(values, time))
+
+
+def moves(values: np.ndarray) -> bool:
+    """True of a position that goes beyond its resolution and its noise.
+
+    The noise is that of third differences, the median of their size: a motion has none.
+    """
+    known = values[np.isfinite(values)]
+    if len(known) < _LEAST:
+        return False
+    steps = np.abs(np.diff(known))
+    noise = float(np.median(np.abs(np.diff(known, 3)))) / (0.6745 * np.sqrt(20.0))
+    span = float(np.ptp(known))
+    least = float(np.min(steps, where=steps > 1e-9 * span, initial=np.inf))
+    grid = least if np.isfinite(least) and _on_grid(steps, least) else 0.0
+    return span > _MOVES * max(noise, grid)
+
+
+def _on_grid(steps: np.ndarray, step: float) -> bool:
+    off = np.abs(steps / step - np.round(steps / step))
+    return float(np.quantile(off, 0.9)) < 0.05
+
+
+def units_of(ratio: float) -> tuple[str, str] | None:
+    """Units of position and speed that such a ratio looks like; ("", "") if they agree."""
+    if not np.isfinite(ratio):
+        return None
+    if abs(abs(ratio) - 1.0) < _NEAR:
+        return "", ""
+    tried = [
+        (abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a.removesuffix("/s"), b)
+        for a, b in permutations(RATES, 2)
+        if a != "rpm"
+    ]
+    off, first, second = min(tried)
+    return (first, second) if off < _NEAR else None
+
+
+def rate_doubts(
+    names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
+) -> list[str]:
+    """Speeds that are not the derivative of their position, of the joints that move."""
+    names = [(q, qd) for q, qd in names if moves(values[q])]
+    slopes = {q: slope_of(values[q], time) for q, _ in names}
+    lines = []
+    for pair in pairs_of(names, values, time):
+        speed = values[pair.speed]
+        line = _told(pair) if np.isfinite(pair.ratio) else _unlike(pair, slopes, speed)
+        lines += [line] if line else []
+    return lines
+
+
+def _unlike(pair: Pair, slopes: Mapping[str, np.ndarray], speed: np.ndarray) -> str:
+    own = _alike(slopes[pair.position], speed)
+    if not np.isfinite(own):
+        return ""
+    others = {q: abs(_alike(slope, speed)) for q, slope in slopes.items() if q != pair.position}
+    other = max(others, key=lambda q: np.nan_to_num(others[q]), default="")
+    if other and others[other] > _LIKE:
+        return (
+            f"{pair.speed} is the derivative of {other}, not of {pair.position}: are columns "
+            "exchanged?"
+        )
+    return f"{pair.speed} is not the derivative of {pair.position} (correlation {own:.2f})"
+
+
+def _told(pair: Pair) -> str:
+    """What a speed is times the derivative of its position, if not 1, and what that looks like."""
+    if abs(pair.ratio - 1.0) < _NEAR:
+        return ""
+    if abs(pair.ratio + 1.0) < _NEAR:
+        return f"{pair.speed} has the other sign of the derivative of {pair.position}"
+    units = units_of(pair.ratio)
+    words = f": {pair.position} in {units[0]} and {pair.speed} in {units[1]}?" if units else ""
+    return f"{pair.speed} is {pair.ratio:.3g} times the derivative of {pair.position}{words}"
+
+
+def _alike(a: np.ndarray, b: np.ndarray) -> float:
+    both = np.isfinite(a) & np.isfinite(b)
+    if both.sum() < _LEAST:
+        return np.nan
+    with np.errstate(all="ignore"):
+        if not a[both].std() > 0.0 or not b[both].std() > 0.0:
+            return np.nan
+        return float(np.corrcoef(a[both], b[both])[0, 1])
+
+
+def _ratio(slope: np.ndarray, speed: np.ndarray) -> float:
+    both = np.isfinite(slope) & np.isfinite(speed)
+    size = float(slope[both] @ slope[both])
+    return float(slope[both] @ speed[both]) / size if 0.0 < size < np.inf else np.nan
