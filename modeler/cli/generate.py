@@ -5,7 +5,7 @@ import argparse
 from modeler.api import generate
 from modeler.cli.console import Json, complain, say, working
 from modeler.cli.robots import robot_of
-from modeler.codegen import edited_leftovers
+from modeler.codegen import leftovers
 from modeler.core.contract import Emitted, FittedSpec, FunctionSpec
 from modeler.core.errors import DataError
 from modeler.derivation import derive
@@ -24,7 +24,7 @@ def run_generate(args: argparse.Namespace) -> Json:
         say(f"  {name}")
     for function in spec.functions:
         say(_told(function))
-    for name in edited_leftovers(emitted, args.out):
+    for name in leftovers(emitted, args.out):
         complain(
             f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "
             "was edited since, so it stays: remove it, or keep it elsewhere"

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from modeler.codegen.examples import EXAMPLES
 from modeler.codegen.record import RECORD, Record, checksum, read_record, record_text
 from modeler.core.contract import Emitted
 from modeler.core.errors import ModelerError
@@ -14,9 +15,8 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
 
     A file that says the same already keeps its time, so that `make` has nothing to do. Other files
     of the folder are left alone: it may be the user's controller. What is written is recorded
-    beside it (`generated.sha256`), so that the next run knows its own files from the user's. Those
-    of an earlier run that are no longer emitted are removed, unless they were edited: see
-    `edited_leftovers`.
+    beside it (`generated.sha256`), so that the next run knows its own files from the user's. What
+    had the values of a model goes where none are emitted, unless it was edited (`leftovers`).
 
     Args:
         emitted: the files.
@@ -47,31 +47,34 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
     _save(folder, {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}})
     for name in changed:
         write_atomically(folder / name, new[name])
-    gone = _remove(folder, {name: sums for name, sums in record.items() if name not in new})
+    gone = _remove(folder, {n: s for n, s in record.items() if n in _unwanted(emitted)})
     _save(folder, {**{n: s for n, s in record.items() if n not in gone}, **sums})
     return tuple(changed)
 
 
-def edited_leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
-    """Files of an earlier run that are no longer emitted, and stay because they were edited.
+def _unwanted(emitted: Emitted) -> set[str]:
+    """Files that hold a model's values, or need them, and are not emitted now."""
+    stems = (f"{emitted.spec.prefix}_fitted", *EXAMPLES)
+    return {f"{stem}{kind}" for stem in stems for kind in (".c", ".h")} - emitted.files.keys()
+
+
+def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
+    """Files with a model's values that are not emitted now, and stay because they were edited.
 
     Args:
         emitted: what `write_emitted` wrote.
         folder: where.
     """
     known = read_record(Path(folder)) or {}
-    return sorted(name for name in known if name not in emitted.files)
+    return sorted(known.keys() & _unwanted(emitted))
 
 
 def _remove(folder: Path, stale: Record) -> set[str]:
-    """Removes the files of an earlier run that say what it wrote; returns their names.
-
-    A record may come from anybody: what lies outside of the folder is no file of ours.
-    """
+    """Removes the files of an earlier run that say what it wrote; returns their names."""
     gone = set()
     for name, sums in stale.items():
         path = folder / name
-        if Path(name).name == name and checksum(path.read_bytes()) in sums:
+        if checksum(path.read_bytes()) in sums:
             path.unlink()
             gone.add(name)
     return gone

@@ -20,7 +20,6 @@ from modeler.fit.integrity import CHECKSUMS, check_checksums, check_estimate, ch
 from modeler.fit.result import FitResult, fit_from_json
 from modeler.observation import DataReport, Log, Processing
 from modeler.observation.log import shared_rows
-from modeler.robot import builtin_names
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -256,9 +255,10 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         raw = parse_json(path.read_bytes())
     except OSError as error:
-        if str(path) in builtin_names():
-            raise _a_robot(path) from None
-        raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+        raise ManifestError(
+            f"{path}: cannot be read ({error.strerror}); check the path; expected a model, which "
+            "`modeler fit --out` writes, no robot"
+        ) from None
     except JsonError as error:
         if _is_robot_file(path):
             raise _a_robot(path) from None

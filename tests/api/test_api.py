@@ -250,7 +250,7 @@ REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     ),
     "no loops": (lambda chain, logs: api.home(api.load("emps")), "no loop to close"),
     "undo": (lambda chain, logs: api.undo(api.fit(*chain), logs[:1]), "no effect was added"),
-    "page": (lambda chain, logs: api.write_report("x", "x.html"), "got str; expected a robot"),  # type: ignore[arg-type]
+    "page": (lambda chain, logs: api.write_report("x", "x.html"), "as thing; expected a robot"),  # type: ignore[arg-type]
     "model file": (lambda chain, logs: api.open_model("none.json"), "none.json"),
     "values": (lambda chain, logs: session()["physical"].values("am"), "no value of am"),
 }  # fmt: skip

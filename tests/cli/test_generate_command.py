@@ -65,10 +65,13 @@ def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_
     assert f"{place}: is a model file; expected a robot" in err
     file = tmp_path / "arm.toml"
     file.write_text(load("two-link").text)
-    for robot in (file, "two-link"):
+    for robot, told in (
+        (file, f"is a robot; expected a model: make one with `modeler fit {file} "),
+        ("two-link", "expected a model, which `modeler fit --out` writes, no robot"),
+    ):
         status, _, err = run(capsys, "compare", robot, log)
         assert status == 1 and len(err.splitlines()) == 1
-        assert f"{robot}: is a robot; expected a model: make one with `modeler fit {robot} " in err
+        assert f"{robot}: " in err and told in err
 
 
 def test_the_page_of_a_fit_names_a_file_with_a_blank(place, capsys, tmp_path):

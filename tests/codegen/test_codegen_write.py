@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.codegen import edited_leftovers, write, write_emitted
+from modeler.codegen import leftovers, write, write_emitted
 from modeler.codegen.record import RECORD, checksum
 from modeler.core.contract import Emitted
 from modeler.core.errors import ModelerError
@@ -81,28 +81,31 @@ def test_a_folder_without_a_record_is_taken_where_it_says_the_same(emitted, tmp_
 def test_another_robot_in_the_same_folder_and_back(emitted, tmp_path):
     write_emitted(emitted, tmp_path)
     write_emitted(module("wrist").emitted, tmp_path)
-    (tmp_path / "emps.c").write_text("mine")
-    with pytest.raises(ModelerError, match=r"over emps\.c, not known to be of an earlier"):
+    (tmp_path / "emps.c").write_text("edited")
+    with pytest.raises(ModelerError, match=r"over emps\.c, edited since"):
         write_emitted(emitted, tmp_path)
     (tmp_path / "emps.c").write_text(emitted.files["emps.c"])
     assert "Makefile" in write_emitted(emitted, tmp_path)
 
 
+EXAMPLE = "example_residual_observer.c"
+
+
 def test_what_is_no_longer_emitted_goes_unless_it_was_edited(emitted, tmp_path):
     """As the functions with fitted values do, where the robot without a model comes after it."""
-    more = {"emps_fitted.c": "old", "emps_fitted.h": "old", "example.c": "old"}
+    more = {"emps_fitted.c": "old", "emps_fitted.h": "old", EXAMPLE: "old"}
     with_values = dataclasses.replace(emitted, files=emitted.files | more)
     (tmp_path / "controller.c").write_text("mine")
     write_emitted(with_values, tmp_path)
-    (tmp_path / "example.c").write_text("edited")
+    (tmp_path / EXAMPLE).write_text("edited")
     assert write_emitted(emitted, tmp_path) == ()
-    assert set(contents(tmp_path)) == {*emitted.files, RECORD, "controller.c", "example.c"}
-    assert edited_leftovers(emitted, tmp_path) == ["example.c"]
-    with pytest.raises(ModelerError, match=r"over example\.c, edited since"):
+    assert set(contents(tmp_path)) == {*emitted.files, RECORD, "controller.c", EXAMPLE}
+    assert leftovers(emitted, tmp_path) == [EXAMPLE]
+    with pytest.raises(ModelerError, match=f"over {EXAMPLE}, edited since"):
         write_emitted(with_values, tmp_path)
-    (tmp_path / "example.c").write_text("old")  # as it was: ours again
+    (tmp_path / EXAMPLE).write_text("old")  # as it was: ours again
     write_emitted(emitted, tmp_path)
-    assert edited_leftovers(emitted, tmp_path) == [] and not (tmp_path / "example.c").exists()
+    assert leftovers(emitted, tmp_path) == [] and not (tmp_path / EXAMPLE).exists()
 
 
 def test_a_record_removes_nothing_outside_of_its_folder(emitted, tmp_path):
