@@ -1,6 +1,7 @@
 """Emitted files to disk, over what an earlier run wrote and over nothing else."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from modeler.codegen.examples import EXAMPLES
@@ -74,9 +75,10 @@ def _remove(folder: Path, stale: Record) -> set[str]:
     gone = set()
     for name, sums in stale.items():
         path = folder / name
-        if checksum(path.read_bytes()) in sums:
-            path.unlink()
-            gone.add(name)
+        with suppress(OSError):  # what cannot be read or removed stays
+            if checksum(path.read_bytes()) in sums:
+                path.unlink()
+                gone.add(name)
     return gone
 
 

@@ -226,7 +226,7 @@ def test_nothing_is_written_into_another_programs_robot_file(
         if there_is_one:
             place.write_text("theirs")
         words = READING[command].split()
-        option = action.option_strings[-1]
+        option = action.option_strings[0]
         if option in words:
             words[words.index(option) + 1] = str(place)
         else:

@@ -90,7 +90,7 @@ def test_the_order_of_models_and_logs_is_free(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["a.json", "b.json"], "got models only; expected at least one log"),
+        (["a.json", "b.json"], "got models only; expected a log too"),
         (["a.json", "a.json", "other.parquet"], "got this model twice"),
         (["a.json", "scara.json", "other.parquet"], "expected those of"),
         (["a.json", "b.json", "other.parquet", "other.parquet"], "give each row once"),
