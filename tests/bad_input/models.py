@@ -84,7 +84,7 @@ DAMAGED = [
           "bad.json"),
     model("NaN among its numbers", "refused", set_at(*VALUE, to=float("nan")), "bad.json"),
     model("a lone surrogate", "ends", text(lambda t: t.replace("two-link", "\\ud800", 1)), ""),
-    model("a robot file", "refused", lambda r: r["robot_text"], "bad.json", "is a robot; expected a model"),
+    model("a robot file", "refused", lambda r: r["robot_text"], "bad.json", "is a robot"),
     row("model: a log", "refused", "compare a.csv b.csv", "a.csv", "not a model file"),
     row("model: Parquet", "refused", "compare c.parquet b.csv", "c.parquet", "not a model file"),
     row("model: none", "refused", "compare nowhere.json b.csv", "nowhere.json"),
