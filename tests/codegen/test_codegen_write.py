@@ -108,6 +108,23 @@ def test_what_is_no_longer_emitted_goes_unless_it_was_edited(emitted, tmp_path):
     assert leftovers(emitted, tmp_path) == [] and not (tmp_path / EXAMPLE).exists()
 
 
+def test_what_cannot_be_removed_stays_and_is_told(emitted, tmp_path, monkeypatch):
+    with_values = dataclasses.replace(emitted, files=emitted.files | {EXAMPLE: "old"})
+    write_emitted(with_values, tmp_path)
+
+    real = Path.unlink
+
+    def refused(path: Path, missing_ok: bool = False) -> None:
+        if path.name == EXAMPLE:
+            raise PermissionError(13, "Permission denied", str(path))
+        real(path, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", refused)
+    assert write_emitted(emitted, tmp_path) == ()
+    monkeypatch.undo()
+    assert (tmp_path / EXAMPLE).read_text() == "old" and leftovers(emitted, tmp_path) == [EXAMPLE]
+
+
 def test_a_record_removes_nothing_outside_of_its_folder(emitted, tmp_path):
     folder, other = tmp_path / "c", tmp_path / "other.c"
     write_emitted(emitted, folder)

@@ -149,7 +149,8 @@ def test_the_page_of_a_fit_has_values_sums_and_doubts(made: Made) -> None:
     assert f"{made.before.fit.condition_number:.4g}" in text
     assert "modeler compare" in text
     told = made.page("fit.html").partition("How this was made")[2]
-    assert all(len(line) > 20 for line in re.findall(r"<li>(.*?)</li>", told))
+    lines = re.findall(r"<li>(.*?)</li>", told)
+    assert "train.parquet" in lines[0] and all(len(line) > 20 for line in lines)
 
 
 def test_a_sum_is_the_base_parameter(made: Made) -> None:
