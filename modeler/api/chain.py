@@ -129,12 +129,14 @@ def read_currents(
 def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
     """Which columns of logs are ours: [log] of the robot file, and `mapping` over it."""
     stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
-    given = (
-        map_from_table(mapping, "mapping", strict=True)
-        if isinstance(mapping, Mapping)
-        else map_from_words(mapping)
-    )
-    return given.over(stated)
+    return given_map(mapping).over(stated)
+
+
+def given_map(mapping: Mapped) -> LogMap:
+    """A mapping as it was given, by itself."""
+    if isinstance(mapping, Mapping):
+        return map_from_table(mapping, "mapping", strict=True)
+    return map_from_words(mapping)
 
 
 def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
