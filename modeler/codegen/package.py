@@ -7,6 +7,7 @@ from typing import Any
 
 from modeler.codegen.examples import SELF_CHECK, call_head, example_values, examples_of
 from modeler.codegen.render import render
+from modeler.codegen.single import of_precision
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
 C_INTERFACE = 1
@@ -82,7 +83,7 @@ def package_files(
     texts = {name: render(template, **given) for name, template in names.items()}
     for name in examples:
         texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    return texts
+    return of_precision(spec.precision, texts)
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
