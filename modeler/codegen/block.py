@@ -253,7 +253,8 @@ class _Writer:
             if not node.static:
                 pairs = zip(node.args, signed, strict=True)
                 signed = [self._spread(abs(arg), text) for arg, text in pairs]
-            return power_text(*signed, target)
+            base, exponent = signed
+            return power_text(base, exponent, target)
         if node.op == "sign" and node.args[0] in self.widths:
             width = self.widths[node.args[0]]
             return Text(f"{target.smooth_sign}({signed[0].text}, {width})", ATOM)
