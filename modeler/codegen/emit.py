@@ -30,6 +30,7 @@ from modeler.codegen.package import package_files
 from modeler.codegen.render import render
 from modeler.codegen.single import WIDE, of_precision
 from modeler.codegen.symbols import SymbolLines, symbol_lines
+from modeler.codegen.target import OF_PRECISION
 from modeler.core.choices import Precision
 from modeler.core.contract import (
     CLOSURE_RUNTIME,
@@ -136,7 +137,7 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
     places = graph_places(model.geometry.coordinates, constants, parameters)
     closed = model.closure is not None
     functions = closed_functions(model, base) if closed else tree_functions(model, base)
-    blocks = [(f, _block(f, places)) for f in functions]
+    blocks = [(f, _block(f, places, precision)) for f in functions]
     spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
@@ -158,7 +159,7 @@ def _fitted_unit(
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
-    blocks = [(f, _block(f, module.places, turning)) for f in functions]
+    blocks = [(f, _block(f, module.places, module.spec.precision, turning)) for f in functions]
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
@@ -245,12 +246,15 @@ def _loops(model: SymbolicModel, precision: Precision) -> dict[str, Any] | None:
 
 
 def _block(
-    function: Function, places: dict[str, str], turning: Mapping[int, str] | None = None
+    function: Function,
+    places: dict[str, str],
+    precision: Precision,
+    turning: Mapping[int, str] | None = None,
 ) -> Block | None:
     if not function.entries:
         return None
     outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
-    return make_block(outputs, places, turning)
+    return make_block(outputs, places, turning, OF_PRECISION[precision])
 
 
 def _written(prefix: str, function: Function, block: Block | None) -> _Written:

@@ -71,8 +71,8 @@ def _word(match: re.Match[str]) -> str:
         return re.sub(r"^modeler_", "modelerf_", _NAMES.get(word, word))
     if match["text"]:
         return word.replace("%lf", "%f").replace("%.17g", "%.9g")
-    if match["number"] and re.fullmatch(r"[\d.]+([eE][+-]?\d+)?", word) and not word.isdigit():
-        return number_in_single(word)
+    if match["number"] and re.fullmatch(r"[\d.]+([eE][+-]?\d+)?f?", word) and not word.isdigit():
+        return number_in_single(word.removesuffix("f"))
     return word
 
 
