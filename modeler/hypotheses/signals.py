@@ -6,7 +6,6 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import cont2discrete, lfilter
 
 from modeler.core.brief import Brief
 from modeler.effects import Memory
@@ -201,6 +200,8 @@ class Signals(Brief):
 
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    from scipy.signal import lfilter  # it takes long to load
+
     numerator, denominator = _oscillator(step, frequency, damping)
     first = load[0]
     return first + lfilter(numerator, denominator, load - first)
@@ -209,6 +210,8 @@ def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -
 @lru_cache(maxsize=1024)
 def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points."""
+    from scipy.signal import cont2discrete
+
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
     numerator, denominator, _ = cont2discrete(
         ([w**2], [1.0, 2.0 * damping * w, w**2]), step, method="foh"
