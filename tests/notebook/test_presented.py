@@ -207,6 +207,6 @@ def test_what_is_shown_later_is_loaded_under_its_name(monkeypatch: pytest.Monkey
     monkeypatch.setattr(presented_module, "_PRESENTATIONS", found := {})
     notebook.register()
     assert later and not found
-    for load in {*later.values()}:
-        load()
+    for say in {*later.values()}:
+        say()
     assert {kind.__name__ for kind in found} == later.keys()
