@@ -10,13 +10,19 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
 from modeler.compiled.bind_fused import Functions, FusedLibrary, Samples, fused_library
 
+T = TypeVar("T")
+
 BLOCK = 16384
 """Samples that are reduced by themselves."""
+
+PAST = 64
+"""Rows that are multiplied with each other are at most so many samples apart."""
 
 _DENSE = 4096  # those of a robot whose whole regressor is evaluated: 13 MB of 400 values each
 
@@ -122,6 +128,49 @@ def of_samples(
     return _merged(library, pattern, _mapped(one, _blocks(len(given.q), BLOCK)), state)
 
 
+def products_of_samples(
+    pattern: Pattern, functions: Functions, given: Samples, last: np.ndarray, first: int = 0
+) -> list[np.ndarray]:
+    """Sums over t of x_j(t - k) x_j(t)^T, x_j = [W_j y_j], for k = first .. last_j, joint by joint.
+
+    Rows out of use, and of samples with a row that is not finite, count as zeros; k = 0 is the Gram
+    matrix. Threads and blocks as for triangles.
+
+    Args:
+        pattern: of the entries, whose order is joint after joint.
+        functions: that evaluate them.
+        given: checked arrays, samples one step apart.
+        last: (n,) at most `PAST`.
+        first: smallest k.
+
+    Returns:
+        (last_j - first + 1, k + 1, k + 1) of each joint, over its own k columns and the torque.
+    """
+    library, lags = fused_library(), np.ascontiguousarray(last, dtype=np.intc)
+    assert lags.max(initial=0) <= PAST and len(lags) == len(pattern.columns)
+    counts = [max(int(lag) - first + 1, 0) for lag in lags]
+    sizes = [count * size * size for count, size in zip(counts, pattern.sizes, strict=True)]
+
+    def one(block: slice) -> np.ndarray:
+        out, past = np.zeros(sum(sizes)), min(PAST, block.start)
+        part = given.part(slice(block.start - past, block.stop))
+        library.products(
+            pattern.rows_of_entries, functions, part, past, library.level(), first, lags, out
+        )
+        return out
+
+    total = np.zeros(sum(sizes))
+    for part in _mapped(one, _blocks(len(given.q), BLOCK)):
+        total += part
+    ends = np.cumsum(sizes)
+    return [
+        part.reshape(count, size, size)[:, : len(own) + 1, : len(own) + 1]
+        for part, count, size, own in zip(
+            np.split(total, ends[:-1]), counts, pattern.sizes, pattern.columns, strict=True
+        )
+    ]
+
+
 def of_dense(
     pattern: Pattern,
     evaluate: Callable[[slice], tuple[np.ndarray, np.ndarray]],
@@ -202,7 +251,7 @@ def _blocks(samples: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, samples)) for i in range(0, samples, size)]
 
 
-def _mapped(function: Callable[[slice], Triangles], blocks: list[slice]) -> Iterator[Triangles]:
+def _mapped(function: Callable[[slice], T], blocks: list[slice]) -> Iterator[T]:
     """The function of each block, in their order; in threads where there are several."""
     threads = min(len(blocks), os.cpu_count() or 1)
     if threads < 2:

@@ -1,17 +1,15 @@
 """The compiled model of a robot: dynamics over arrays of samples."""
 
 from collections.abc import Mapping
-from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from modeler.compiled.bind import Library, check_names
-from modeler.compiled.bind_fused import Functions, Samples
 from modeler.compiled.build import build_library
-from modeler.compiled.fused import Pattern, Triangles, of_dense, of_samples, pattern_of
-from modeler.core.checks import as_mask, as_samples, as_vector, same_samples
+from modeler.compiled.reducing import Reducing
+from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import LoopError, ManifestError, ShapeError
 from modeler.core.presented import Presented
@@ -24,7 +22,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Presented):
+class CompiledModel(Reducing, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
@@ -76,58 +74,6 @@ class CompiledModel(Presented):
         self._library.observation(states["q"], states["qd"], states["qdd"], W, status, signals)
         self._check(status, states["q"])
         return W
-
-    def triangles(
-        self, q: Any, qd: Any, qdd: Any, tau: Any, use: Any = None, s: Any = None,
-        weight: Any = None, state: Triangles | None = None,
-    ) -> Triangles:  # fmt: skip
-        """R of [W_j tau_j] = Q R for the rows of each joint, without W, by Householder reflections.
-
-        The singular values of R are those of [W_j tau_j] up to rounding of the largest, also where
-        W^T W has lost the small ones (Golub and Van Loan 2013, Matrix Computations, section 5.2).
-        Of a joint's columns only those that can enter its torque take part. Results do not depend
-        on the number of threads. Samples with a row in use that is not finite, or whose loops do
-        not close, are left out and marked in the result.
-
-        Args:
-            q: positions.
-            qd: velocities.
-            qdd: accelerations.
-            tau: (n, joints) N m or N.
-            use: (n, joints) rows to use, the others may hold anything; None: all.
-            s: signals of effects, where there are any.
-            weight: (n, joints) what a row and its torque are multiplied by; None: 1.
-            state: of earlier samples, which these are added to.
-        """
-        wanted = {"q": q, "qd": qd, "qdd": qdd, "tau": tau}
-        if weight is not None:
-            wanted["weight"] = weight
-        arrays = {k: as_samples(a, k, self._joints, finite=False) for k, a in wanted.items()}
-        samples = same_samples(arrays)
-        rows = None if use is None else as_mask(use, "use", (samples, self._joints))
-        read = self._signals(s, samples, finite=False)
-        given = Samples(
-            arrays["q"], arrays["qd"], arrays["qdd"], arrays["tau"], read, rows,
-            arrays.get("weight"),
-        )  # fmt: skip
-        if self._loops:
-            return of_dense(self._pattern, partial(self._closed, given), given, state)
-        name = f"{self.spec.prefix}_base_regressor_nonzeros"
-        functions = Functions(self._library.address(name), len(self.spec.signals))
-        return of_samples(self._pattern, functions, given, state)
-
-    @cached_property
-    def _pattern(self) -> Pattern:
-        return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
-
-    def _closed(self, given: Samples, block: slice) -> tuple[np.ndarray, np.ndarray]:
-        """The base regressor of a block, and where the loops do not close."""
-        function, part = self._functions["base_regressor"], given.part(block)
-        out = np.zeros((len(part.q), *function.outputs[0].shape))
-        status = np.zeros(len(out), dtype=np.intc)
-        states = [array for array in (part.q, part.qd, part.qdd, part.s) if array is not None]
-        self._library.batch(function, states, out, status)
-        return out, status != 0
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
         """Tau, (n, joints), by the Newton-Euler recursion."""
