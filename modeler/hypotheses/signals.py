@@ -10,6 +10,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.effects import Memory
 from modeler.observation.bristle import bristle
+from modeler.observation.closable import nearest_closed
 from modeler.observation.motion import Segment
 from modeler.observation.signals import signals_of
 
@@ -164,6 +165,12 @@ class Signals(Brief):
         step[j] = size
         ahead[kind] = ahead[kind] + step
         behind[kind] = behind[kind] - step
+        if (
+            kind == 0
+        ):  # beside the last posture that closes the loops there may be one that does not
+            nearest = nearest_closed(model, ahead[0], behind[0])
+            if nearest is not None:
+                ahead[0], behind[0] = ahead[0][nearest], behind[0][nearest]
         forth, back = (
             model.inverse_dynamics(q, v, a, beta, self.read) for q, v, a in (ahead, behind)
         )

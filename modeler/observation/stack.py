@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.observation.closable import without_open
 from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, with_every_joint
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment
@@ -41,6 +42,7 @@ def observe(
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
+        LoopError: hardly a sample closes the loops.
     """
     prepared = prepare(model.spec, logs, processing or Processing())
     return observed(model, logs, prepared, every_joint)
@@ -53,7 +55,9 @@ def observed(
 
     Raises:
         DataError: no usable row.
+        LoopError: hardly a sample closes the loops.
     """
+    prepared, open_times = without_open(model, logs, prepared)
     parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
@@ -63,7 +67,10 @@ def observed(
         choices=prepared.choices,
         trembles=prepared.trembles,
         band=prepared.band,
-        logs=tuple(_log_report(log, run, prepared, stretches) for run, log in enumerate(logs)),
+        logs=tuple(
+            dataclasses.replace(_log_report(log, run, prepared, stretches), open_times=times)
+            for run, (log, times) in enumerate(zip(logs, open_times, strict=True))
+        ),
         joints=_joint_reports(model, parts, floors, stretches),
     )
     if not any(part.used.any() for part in stretches):
