@@ -3,9 +3,11 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.band import (
@@ -62,15 +64,41 @@ class Prepared:
     band: float
 
 
-def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
+@dataclass(frozen=True, eq=False)
+class Mending(Brief):
+    """Logs to be mended once, however often they are prepared: it is the same for any filters.
+
+    Attributes:
+        logs: as they were read.
+        spec: the robot's manifest.
+    """
+
+    logs: Sequence[Log]
+    spec: ModuleSpec
+
+    @cached_property
+    def mended(self) -> list[tuple[Log, tuple[Damage, ...]]]:
+        """What `repaired` makes of each."""
+        return [repaired(log, self.spec) for log in self.logs]
+
+
+def prepare(
+    spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: Mending | None = None
+) -> Prepared:
     """Mend, split, resample, choose the cut-offs, filter and differentiate.
+
+    Args:
+        spec: the robot's manifest.
+        logs: read with it.
+        processing: what is asked of it.
+        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, a log of another robot, a value that cannot be, nothing long enough to
             differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
-    mended = [repaired(log, spec) for log in logs]
+    mended = (mending or Mending(logs, spec)).mended
     if not processing.keep_damaged:
         logs = [log for log, _ in mended]
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]

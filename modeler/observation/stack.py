@@ -12,7 +12,7 @@ from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, w
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-from modeler.observation.prepare import Prepared, prepare, with_floors
+from modeler.observation.prepare import Mending, Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport, JointReport, LogReport
 from modeler.observation.row_filter import row_filter
@@ -28,6 +28,7 @@ def observe(
     logs: Sequence[Log],
     processing: Processing | None = None,
     every_joint: bool = False,
+    mending: Mending | None = None,
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
@@ -39,12 +40,13 @@ def observe(
         logs: read with the same manifest.
         processing: None: automatic. For held-out logs `report.processing` of the fit.
         every_joint: mask low speeds also on joints whose dry friction the model lacks.
+        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    prepared = prepare(model.spec, logs, processing or Processing())
+    prepared = prepare(model.spec, logs, processing or Processing(), mending)
     return observed(model, logs, prepared, every_joint)
 
 
