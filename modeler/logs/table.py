@@ -144,6 +144,21 @@ class Table:
             lines.append(f"no time column: rows counted at {self._rate:g} Hz")
         return lines
 
+    @property
+    def whole(self) -> bool:
+        """True if these are all rows of the file."""
+        return self._part is None
+
+    @property
+    def before(self) -> int:
+        """Rows of the file that stand before these."""
+        return 0 if self._part is None else self._part.before
+
+    @property
+    def rated(self) -> bool:
+        """True if time is counted from the rate, for want of a column."""
+        return self._rate is not None
+
     def __contains__(self, name: str) -> bool:
         return name in self._units
 
@@ -188,8 +203,7 @@ class Table:
         if name not in self:
             raise DataError(f"{self.path}: {self._absent(name)}")
         if name == "time" and self._rate:
-            before = 0 if self._part is None else self._part.before
-            return np.arange(before, before + self.rows) / self._rate
+            return np.arange(self.before, self.before + self.rows) / self._rate
         try:
             values = self._columns[self._taken.get(name, name)].numbers()
         except NotNumbers as why:
