@@ -1,0 +1,13 @@
+"""Every line, in the order of the report."""
+
+from benchmarks import callgrind, folder, least_squares, memory, regressor, start, streams
+
+LINES = (
+    *start.LINES,
+    *regressor.LINES,
+    *callgrind.LINES,
+    *folder.LINES,
+    *memory.LINES,
+    *least_squares.LINES,
+    *streams.LINES,
+)
