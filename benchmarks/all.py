@@ -1,6 +1,6 @@
 """Every line, in the order of the report."""
 
-from benchmarks import callgrind, folder, least_squares, memory, regressor, start, streams
+from benchmarks import answers, callgrind, folder, least_squares, memory, regressor, start, streams
 
 LINES = (
     *start.LINES,
@@ -10,4 +10,5 @@ LINES = (
     *memory.LINES,
     *least_squares.LINES,
     *streams.LINES,
+    *answers.LINES,
 )
