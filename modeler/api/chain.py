@@ -1,15 +1,12 @@
-"""The chain: from a robot to its C, from logs to a model, from a model to what it lacks."""
+"""The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 from modeler.api.ways import Asked, estimated
-from modeler.compare import Comparison
-from modeler.compare import compare as compare_prediction
-from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.choices import Method, Precision
@@ -20,8 +17,6 @@ from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate_robot
 from modeler.derivation import load as load
-from modeler.diagnose import Diagnosis, Known
-from modeler.diagnose import diagnose as find_missing
 from modeler.fit import (
     FitResult,
     IdentifiedModel,
@@ -41,8 +36,7 @@ from modeler.observation.findings import findings_of_fit
 from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
-from modeler.showing import show as show
-from modeler.simulate import SimulatedLog, write_log
+from modeler.simulate.log import SimulatedLog, write_log
 
 AnyLog = str | Path | Log | SimulatedLog
 """A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
@@ -296,27 +290,3 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
         DataError: the model was saved by a version that kept none.
     """
     return with_essential_only(model, f"model of {model.spec.robot}")
-
-
-def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
-    """Measured against predicted torque on logs, after the processing of the fit."""
-    compiled = recompile(model)
-    prediction, _ = predict(model, read_logs(compiled, logs, mapping), compiled)
-    return compare_prediction(prediction)
-
-
-def diagnose(
-    model: IdentifiedModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
-    without: Sequence[str] = (),
-    progress: Callable[[float], None] | None = None,
-    mapping: Mapped = (),
-) -> Diagnosis:
-    """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
-    compiled = recompile(model)
-    robot = robot_from_text(model.robot_text, "robot of the model")
-    known = Known(robot.catalogue, robot.coupling)
-    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
-    check_apart(given, kept)
-    return find_missing(model, compiled, given, kept, without, progress=progress, known=known)

@@ -1,4 +1,4 @@
-"""The library's functions, declared from the manifest; nothing else knows cffi."""
+"""The library's functions, declared from the manifest; with bind_fused.py all that knows cffi."""
 
 import re
 from collections.abc import Sequence
@@ -98,6 +98,10 @@ class Library:
 
     def _function(self, role: str) -> Any:
         return getattr(self._library, f"{self.spec.prefix}_{role}")
+
+    def address(self, name: str) -> int:
+        """Where a function of the library stands, for C that calls it; the caller holds this."""
+        return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
 
     def batch(
         self,
