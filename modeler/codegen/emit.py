@@ -10,6 +10,7 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.cuda import check_cuda, cuda_file
 from modeler.codegen.fitted import (
     UNIT,
     check_values,
@@ -79,6 +80,7 @@ def emit(
     base: BaseParameters,
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -87,6 +89,7 @@ def emit(
         base: the base parameters of the same model.
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
+        cuda: add the kernels of `codegen.cuda`, of a robot without loops.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -97,12 +100,17 @@ def emit(
     module = _module(model, base, precision)
     spec, values = module.spec, module.values
     code = _code(spec, values)
+    if cuda:
+        check_cuda(spec)
+        compact = next(f for f, _ in module.blocks if f.role == "base_regressor_nonzeros")
+        kernels = cuda_file(spec, compact, module.places, values)
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
         values |= {"spec": spec}
         code |= unit
     files = {
         **code,
+        **(kernels if cuda else {}),
         **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
         MANIFEST: spec.to_json(),

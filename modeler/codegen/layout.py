@@ -123,7 +123,7 @@ def body_lines(function: Function, block: Block | None) -> list[str]:
     size = output_size(function.output)
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
-    lines = [f"(void){name};" for name in _unread(function, block)]
+    lines = [f"(void){name};" for name in unread(function, block)]
     if len(zeros) > _FEW:
         lines.append(f"for (int i = 0; i < {size}; i++)")
         lines.append(f"    {function.output.name}[i] = 0.0;")
@@ -143,7 +143,7 @@ def output_size(argument: ArgumentSpec) -> int:
     return size
 
 
-def _unread(function: Function, block: Block | None) -> Iterable[str]:
+def unread(function: Function, block: Block | None) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     read = block.symbols if block else frozenset()
     for argument in function.inputs:
