@@ -6,6 +6,7 @@ from pathlib import Path
 
 from modeler.base import BaseParameters, base_parameters
 from modeler.base.render import as_latex, as_markdown, as_text
+from modeler.core.choices import Precision
 from modeler.core.contract import Emitted, FittedSpec
 from modeler.core.formulas import Formulas
 from modeler.core.presented import Presented
@@ -79,6 +80,7 @@ def generate(
     folder: str | Path | None = None,
     force: bool = False,
     fitted: FittedSpec | None = None,
+    precision: Precision = "double",
 ) -> Emitted:
     """The C module; written to `folder` if one is given.
 
@@ -87,6 +89,7 @@ def generate(
         folder: made if it is not there.
         force: write also over files that no earlier run wrote, or that were edited since.
         fitted: values of its base parameters; functions that have them are added.
+        precision: `double`, or `single`: then all numbers of the C are `float`.
 
     Raises:
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
@@ -94,7 +97,7 @@ def generate(
     """
     from modeler.codegen import emit, write_emitted  # who derives need not wait for it
 
-    emitted = emit(derivation.model, derivation.base, fitted)
+    emitted = emit(derivation.model, derivation.base, fitted, precision)
     emitted = dataclasses.replace(emitted, log=derivation.robot.log)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from modeler.api.ways import Asked, estimated
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
-from modeler.core.choices import Method
+from modeler.core.choices import Method, Precision
 from modeler.core.contract import Emitted, ModuleSpec
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.window import file_and_window
@@ -70,6 +70,7 @@ def generate(
     source: Derivation | IdentifiedModel,
     folder: str | Path | None = None,
     force: bool = False,
+    precision: Precision = "double",
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -77,6 +78,7 @@ def generate(
         source: what was derived, or a fitted model.
         folder: the module is written there if it is given.
         force: write also over files that no earlier run wrote, or that were edited since.
+        precision: `double`, or `single`: then all numbers of the C are `float`.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -84,9 +86,9 @@ def generate(
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
     """
     if isinstance(source, Derivation):
-        return generate_robot(source, folder, force)
+        return generate_robot(source, folder, force, precision=precision)
     derivation, _ = _emitted_anew(source)
-    return generate_robot(derivation, folder, force, fitted_spec(source))
+    return generate_robot(derivation, folder, force, fitted_spec(source), precision)
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

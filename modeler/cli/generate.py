@@ -21,7 +21,8 @@ def run_generate(args: argparse.Namespace) -> Json:
     spec, fitted = emitted.spec, emitted.spec.fitted
     for line in () if model is None else model.warning:
         complain(line)
-    say(f"{spec.robot}: {len(spec.base)} base parameters, written to {args.out}:")
+    single = ", single precision" if spec.precision == "single" else ""
+    say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
     for name in sorted(emitted.files):
         say(f"  {name}")
     for function in spec.functions:
@@ -54,10 +55,10 @@ def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitt
         from modeler.api.chain import generate as generate_of_model
 
         with working(f"deriving {model.spec.robot}"):
-            return generate_of_model(model, args.out, args.force)
+            return generate_of_model(model, args.out, args.force, args.precision)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
-        return generate(derive(robot), args.out, args.force)
+        return generate(derive(robot), args.out, args.force, args.precision)
 
 
 def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:

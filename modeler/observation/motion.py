@@ -24,7 +24,8 @@ MISSING = "have no measured position or torque, or a damaged one"
 BRIDGES = "lie beside missing positions, as near as the position filter reaches"
 CONTRADICTED = "have impossible derivatives, or lie as near to them as the position filter reaches"
 SATURATED = "have a torque at its limit"
-CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED)
+OPEN = "have positions with which the loops cannot be closed"
+CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN)
 """In this order; the first that applies counts."""
 
 
@@ -134,8 +135,8 @@ def _causes(
         SATURATED: piece.clipped & (not keep_saturated),
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
-    for k, name in enumerate(CAUSES):
-        cause[(cause < 0) & flags[name]] = k
+    for name, flagged in flags.items():
+        cause[(cause < 0) & flagged] = CAUSES.index(name)
     return cause
 
 
