@@ -12,14 +12,14 @@ from sympy.polys.fields import FracElement
 from sympy.polys.rings import PolyElement, PolyRing
 
 
-class Fraction(FracElement):  # type: ignore[misc]  # sympy has no types
+class Fraction(FracElement):
     """numer / denom without common divisors, which are looked for among the letters in them."""
 
     def new(self, numer: PolyElement, denom: PolyElement) -> "Fraction":
         """numer / denom, cancelled."""
         # sympy is quick where one of them has one term.
         found = numer.cancel(denom) if min(len(numer), len(denom)) < 2 else cancelled(numer, denom)
-        return self.raw_new(*found)  # type: ignore[no-any-return]
+        return self.raw_new(*found)
 
 
 @lru_cache(maxsize=4096)
@@ -29,7 +29,7 @@ def cancelled(numer: PolyElement, denom: PolyElement) -> tuple[PolyElement, Poly
     degrees = [max(exponents) for exponents in zip(*numer, *denom, strict=True)]
     used = tuple(i for i, degree in enumerate(degrees) if degree)
     if len(used) == ring.ngens or not used:
-        return numer.cancel(denom)  # type: ignore[no-any-return]
+        return numer.cancel(denom)
     small = _of(ring, used)
     top, bottom = (_carried(part, small, used) for part in (numer, denom))
     top, bottom = top.cancel(bottom)

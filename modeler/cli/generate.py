@@ -58,7 +58,7 @@ def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitt
             return generate_of_model(model, args.out, args.force, args.precision)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
-        return generate(derive(robot), args.out, args.force, args.precision)
+        return generate(derive(robot), args.out, args.force, precision=args.precision)
 
 
 def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:
