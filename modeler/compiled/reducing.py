@@ -53,8 +53,8 @@ class Reducing:
         """
         given = self._measured((q, qd, qdd, tau, weight), use, s)
         if self.spec.closure is not None:
-            return of_dense(self._pattern, partial(self._closed, given), given, state)
-        return of_samples(self._pattern, self._entries, given, state)
+            return of_dense(self.pattern, partial(self._closed, given), given, state)
+        return of_samples(self.pattern, self._entries, given, state)
 
     def products(
         self, q: Any, qd: Any, qdd: Any, tau: Any, last: Any, use: Any = None, s: Any = None,
@@ -83,7 +83,7 @@ class Reducing:
         if self.spec.closure is not None:
             raise ManifestError(f"{self.spec.robot} has loops: products of rows are not emitted")
         given = self._measured((q, qd, qdd, tau, None), use, s)
-        return products_of_samples(self._pattern, self._entries, given, np.asarray(last), first)
+        return products_of_samples(self.pattern, self._entries, given, np.asarray(last), first)
 
     def _measured(self, values: tuple[Any, Any, Any, Any, Any], use: Any, s: Any) -> Samples:
         """Checked arrays; values may be not finite, and the last of them None."""
@@ -105,7 +105,8 @@ class Reducing:
         return Functions(self._library.address(name), len(self.spec.signals))
 
     @cached_property
-    def _pattern(self) -> Pattern:
+    def pattern(self) -> Pattern:
+        """Which columns can enter the torque of each joint."""
         return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
 
     def _closed(self, given: Samples, block: slice) -> tuple[np.ndarray, np.ndarray]:

@@ -1,10 +1,12 @@
 """Residuals that remember: what that does to the standard deviations."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.estimate.least_squares import Estimate
+from modeler.estimate.passing import repeated_rows, residual_of
 from modeler.observation import Observation
 from modeler.observation.row_filter import SPREAD
 
@@ -40,7 +42,12 @@ class Colour:
 
 
 def coloured(
-    observation: Observation, W: np.ndarray, y: np.ndarray, counted: np.ndarray, estimate: Estimate
+    observation: Observation,
+    W: np.ndarray | None,
+    y: np.ndarray,
+    counted: np.ndarray,
+    estimate: Estimate,
+    at: Sequence[int] | None = None,
 ) -> Colour:
     """By how much autocorrelated residuals raise the standard deviations.
 
@@ -57,11 +64,14 @@ def coloured(
 
     Args:
         observation: says which row is which sample and joint.
-        W: (rows, c).
+        W: (rows, c); None: that of the observation, row by row as they pass.
         y: (rows,).
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
+        at: (c,) columns of the observation that W would have, in order; None: all.
     """
+    if W is None:
+        return _passing(observation, y, counted, estimate, at)
     C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
@@ -71,14 +81,58 @@ def coloured(
         sample = observation.row_sample[own]
         r = _at_least(autocorrelation(residual[own], sample, observation.segment), filtered)
         rms = np.sqrt(np.mean(residual[own] ** 2))
-        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.pull[own] * rms
+        if own_way is None:
+            rows = W[own] @ C / estimate.sigma[j]
+        else:
+            assert own_way.pull is not None
+            rows = own_way.pull[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:
             memory.append((joint.name, told * _spacing(observation)))
+    return Colour(_factors(C, extra), tuple(memory))
+
+
+def _factors(C: np.ndarray, extra: np.ndarray) -> np.ndarray:
     white = np.diag(C)
     ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
-    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory))
+    return np.sqrt(np.maximum(ratio, 1.0))
+
+
+def _passing(
+    observation: Observation,
+    y: np.ndarray,
+    counted: np.ndarray,
+    estimate: Estimate,
+    at: Sequence[int] | None,
+) -> Colour:
+    """As `coloured`, while the rows pass."""
+    c = len(observation.names)
+    places = np.arange(c) if at is None else np.asarray(at, dtype=int)
+    own_way, filtered = estimate.influence, _of_the_filter(observation)
+    if own_way is None:
+        beta = np.zeros(c)
+        beta[places] = estimate.beta
+        residual = y - observation.y + residual_of(observation, beta)
+    else:
+        residual = own_way.residual
+    matrices, memories, memory = [], [], []
+    for j, joint in enumerate(observation.joints):
+        own = counted & (observation.row_joint == j)
+        r, A = np.ones(1), np.zeros((c, len(places)))
+        if own.any():
+            sample, left = observation.row_sample[own], residual[own]
+            r = _at_least(autocorrelation(left, sample, observation.segment), filtered)
+            if own_way is None:
+                A[places] = estimate.covariance / estimate.sigma[j]
+            else:
+                A[places] = own_way.bread * np.sqrt(np.mean(left**2))
+            if told := int(np.sum(r > _TOLD)) - 1:
+                memory.append((joint.name, told * _spacing(observation)))
+        matrices.append(A)
+        memories.append(r)
+    extra = repeated_rows(observation, counted, matrices, memories)
+    return Colour(_factors(estimate.covariance, extra), tuple(memory))
 
 
 def repeated(
