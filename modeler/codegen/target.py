@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 
+from modeler.core.choices import Precision
+
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "tanh", "abs", "pow")
 """Functions of the graph that <math.h> has; `sign` is written with comparisons."""
 
@@ -34,7 +36,7 @@ class Target:
 
     number: str
     suffix: str
-    precision: str
+    precision: Precision
     exact: int
     largest: Fraction
     functions: Mapping[str, str]
@@ -73,10 +75,13 @@ SINGLE = Target(
     exact=2**24,
     largest=_largest(24, 128),
     functions=MappingProxyType({name: f"{c}f" for name, c in _MATH.items()}),
-    sincos="modeler_sincosf",
-    smooth_sign="smooth_signf",
+    sincos="modelerf_sincos",
+    smooth_sign="smooth_sign",
     sign="(float)(({0} > 0.0f) - ({0} < 0.0f))",
 )
+
+OF_PRECISION: Mapping[Precision, Target] = MappingProxyType({"double": DOUBLE, "single": SINGLE})
+"""Targets of one sample."""
 
 TILE = Target(
     number="modeler_lanes",

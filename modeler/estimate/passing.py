@@ -7,7 +7,7 @@ import numpy as np
 from modeler.estimate.compressed import Compressed, compress
 from modeler.observation import Observation
 from modeler.observation.evaluated import Evaluated
-from modeler.observation.streamed import blocks, explained, is_streamed, products, triangles
+from modeler.observation.passing import blocks, explained, is_streamed, products, triangles
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
 _ROWS = 64  # that a band matrix is applied to at a time

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.estimate.compressed import Compressed
 from modeler.observation import Observation
-from modeler.observation.streamed import is_streamed
+from modeler.observation.passing import is_streamed
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.estimate.compressed import triangle
 from modeler.estimate.passing import compressed, residual_of
 from modeler.observation import Observation
-from modeler.observation.streamed import is_streamed
+from modeler.observation.passing import is_streamed
 
 FOLDS = 8
 

@@ -21,7 +21,7 @@ from modeler.fit.parameter import estimates
 from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
-from modeler.observation.streamed import is_streamed
+from modeler.observation.passing import is_streamed
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

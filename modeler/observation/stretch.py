@@ -33,10 +33,10 @@ class Stretch(Brief):
 
         Evaluated in blocks, so that a long log needs no more memory than a short one.
         """
-        return np.concatenate([columns for _, columns in self.blocks(evaluate)])
+        return np.concatenate([values for _, values in self.blocks(evaluate)])
 
     def blocks(self, evaluate: Callable[[slice], np.ndarray]) -> Iterator[tuple[slice, np.ndarray]]:
-        """The same, block by block: rows, and their filtered columns."""
+        """The same block by block: which rows, and their values."""
         for part, window, rows in self._blocks():
             yield rows, self._means(part, evaluate(window), window, self.used[rows])
 

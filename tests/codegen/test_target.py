@@ -20,8 +20,8 @@ PLACES = {"x": "in[0]", "y": "in[1]", "L": "arm_geo_L"}
 SINGLE_SOURCE = """
 #include <math.h>
 static const float arm_geo_L = 0.3f;
-static void modeler_sincosf(float x, float *s, float *c) {{ *s = sinf(x); *c = cosf(x); }}
-static float smooth_signf(float v, float width) {{ return tanhf(v/width); }}
+static void modelerf_sincos(float x, float *s, float *c) {{ *s = sinf(x); *c = cosf(x); }}
+static float smooth_sign(float v, float width) {{ return tanhf(v/width); }}
 void f(const float *in, float *out);
 void f(const float *in, float *out)
 {{
@@ -106,4 +106,4 @@ def test_the_sign_that_turns_over_a_width_follows_the_target():
     graph = Graph()
     v = graph.symbol("x")
     made = make_block([("out[0]", graph.call("sign", v))], PLACES, {abs(v.ref): "width"}, SINGLE)
-    assert made.calls == ("const float t1 = smooth_signf(in[0], width);",)
+    assert made.calls == ("const float t1 = smooth_sign(in[0], width);",)
