@@ -23,8 +23,8 @@ class Evaluated:
             id(part.segment): signals_of(model.spec, part.segment) for part in stretches
         }
 
-    def __call__(self, s: Segment, w: slice) -> np.ndarray:
-        """(b, n, c) for the b samples of a window."""
+    def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
+        """(b, n, c) for the b samples of a window, or of indices."""
         return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read(s, w))
 
     @property
@@ -34,8 +34,8 @@ class Evaluated:
 
     @property
     def multiplies(self) -> bool:
-        """True if `products` can be had: the robot has no loops."""
-        return self._model.spec.closure is None
+        """True if `products` can be had."""
+        return self._model.emits_entries
 
     def torque(self, s: Segment, w: slice | np.ndarray, beta: np.ndarray) -> np.ndarray:
         """(b, n) torque of the model, by the inverse dynamics; w may be indices."""

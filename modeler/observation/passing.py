@@ -34,6 +34,22 @@ def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
         first += len(part.rows.centres)
 
 
+def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
+    """(m, n, c) filtered regressor of some samples (m,), ascending."""
+    if not is_streamed(observation):
+        return np.asarray(observation.columns[places])
+    found = []
+    for part, own in _stretches(observation):
+        rows = places[(places >= own.start) & (places < own.stop)] - own.start
+        if is_plain(part):
+            found.append(observation.regressor(part.segment, part.rows.centres[rows]))
+            continue
+        for block, columns in part.blocks(partial(observation.regressor, part.segment)):
+            inside = rows[(rows >= block.start) & (rows < block.stop)]
+            found.append(columns[inside - block.start])
+    return np.concatenate(found)
+
+
 def explained(
     observation: Observation, beta: np.ndarray, keep: np.ndarray | None = None
 ) -> np.ndarray:
@@ -45,11 +61,13 @@ def explained(
         return np.where(keep, found, 0.0)
     found = np.zeros(keep.shape)
     for part, own in _stretches(observation):
+        if not keep[own].any():
+            continue
         if is_plain(part):
             some = np.flatnonzero(keep[own].any(axis=1))
             torque = regressor.torque(part.segment, part.rows.centres[some], beta)
             found[own][some] = torque
-        elif keep[own].any():
+        else:
             found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
     return np.where(keep, found, 0.0)
 
