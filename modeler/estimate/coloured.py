@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.estimate.least_squares import Estimate
-from modeler.estimate.passing import repeated_rows, residual_of
+from modeler.estimate.passing import Neighbours
 from modeler.observation import Observation
+from modeler.observation.passing import explained
 from modeler.observation.row_filter import SPREAD
 
 _WORTH = 1.2  # a factor above it is said
@@ -43,7 +44,7 @@ class Colour:
 
 def coloured(
     observation: Observation,
-    W: np.ndarray | None,
+    W: np.ndarray | Neighbours,
     y: np.ndarray,
     counted: np.ndarray,
     estimate: Estimate,
@@ -64,14 +65,14 @@ def coloured(
 
     Args:
         observation: says which row is which sample and joint.
-        W: (rows, c); None: that of the observation, row by row as they pass.
+        W: (rows, c), or that of the observation while its rows pass, of the same counted.
         y: (rows,).
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
         at: (c,) columns of the observation that W would have, in order; None: all.
     """
-    if W is None:
-        return _passing(observation, y, counted, estimate, at)
+    if isinstance(W, Neighbours):
+        return _passing(W, estimate, at)
     C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
@@ -99,39 +100,32 @@ def _factors(C: np.ndarray, extra: np.ndarray) -> np.ndarray:
     return np.sqrt(np.maximum(ratio, 1.0))
 
 
-def _passing(
-    observation: Observation,
-    y: np.ndarray,
-    counted: np.ndarray,
-    estimate: Estimate,
-    at: Sequence[int] | None,
-) -> Colour:
+def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -> Colour:
     """As `coloured`, while the rows pass."""
+    observation, keep = beside.observation, beside.keep
     c = len(observation.names)
     places = np.arange(c) if at is None else np.asarray(at, dtype=int)
     own_way, filtered = estimate.influence, _of_the_filter(observation)
-    if own_way is None:
-        beta = np.zeros(c)
-        beta[places] = estimate.beta
-        residual = y - observation.y + residual_of(observation, beta)
-    else:
-        residual = own_way.residual
+    beta = np.zeros(c)
+    beta[places] = estimate.beta
+    residual = observation.torque - explained(observation, beta)
     matrices, memories, memory = [], [], []
     for j, joint in enumerate(observation.joints):
-        own = counted & (observation.row_joint == j)
         r, A = np.ones(1), np.zeros((c, len(places)))
-        if own.any():
-            sample, left = observation.row_sample[own], residual[own]
+        sample = np.flatnonzero(keep[:, j])
+        if sample.size:
+            left = residual[sample, j]
             r = _at_least(autocorrelation(left, sample, observation.segment), filtered)
             if own_way is None:
                 A[places] = estimate.covariance / estimate.sigma[j]
             else:
+                assert own_way.bread is not None  # others ask for W
                 A[places] = own_way.bread * np.sqrt(np.mean(left**2))
             if told := int(np.sum(r > _TOLD)) - 1:
                 memory.append((joint.name, told * _spacing(observation)))
         matrices.append(A)
         memories.append(r)
-    extra = repeated_rows(observation, counted, matrices, memories)
+    extra = beside.repeated(matrices, memories)
     return Colour(_factors(estimate.covariance, extra), tuple(memory))
 
 
@@ -169,8 +163,12 @@ def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> n
 
 def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows that are `lag` samples apart within a segment."""
-    right = np.searchsorted(sample, sample + lag).clip(0, len(sample) - 1)
-    together = (sample[right] == sample + lag) & (segment[sample[right]] == segment[sample])
+    if not len(sample):
+        return sample, sample
+    place = np.full(sample[-1] - sample[0] + 1 + lag, -1)
+    place[sample - sample[0]] = np.arange(len(sample))
+    right = place[sample - sample[0] + lag]
+    together = (right >= 0) & (segment[sample[right]] == segment[sample])
     return np.flatnonzero(together), right[together]
 
 

@@ -43,34 +43,44 @@ def residual_of(
     return np.asarray((observation.torque - explained(observation, beta, keep))[keep])
 
 
-def repeated_rows(
-    observation: Observation,
-    counted: np.ndarray,
-    matrices: Sequence[np.ndarray],
-    r: Sequence[np.ndarray],
-) -> np.ndarray:
-    """(k,) 2 sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l), a_j(t) = w_j(t) A_j, element by element.
+class Neighbours:
+    """Rows of the base parameters that are counted, beside those before them in their segment.
 
-    w_j(t) is the row of joint j at sample t, 0 where it is not counted; l = 1, 2, ... within
-    segments.
-
-    Args:
+    Attributes:
         observation: of the rows.
-        counted: (rows,).
-        matrices: A_j (c, k) of each joint.
-        r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
+        keep: (s, n) True where they are counted.
     """
-    keep = kept_rows(observation, counted)
-    last = [len(own) - 1 for own in r]
-    found = products(observation, keep, last) if max(last) <= _PRODUCTS else None
-    if found is None:
-        return _by_blocks(observation, keep, matrices, r)
-    total = np.zeros(matrices[0].shape[1])
-    for j, own in enumerate(found):
-        A = matrices[j][_columns(observation, j)]
-        for weight, product in zip(r[j][1:], own, strict=True):
-            total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
-    return total
+
+    def __init__(self, observation: Observation, counted: np.ndarray) -> None:
+        self.observation, self.keep = observation, kept_rows(observation, counted)
+        self._products: tuple[list[int], list[np.ndarray] | None] | None = None
+
+    def repeated(self, matrices: Sequence[np.ndarray], r: Sequence[np.ndarray]) -> np.ndarray:
+        """(k,) 2 sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l), element by element; l = 1, 2, ...
+
+        a_j(t) = w_j(t) A_j, w_j(t) the row of joint j at sample t, 0 where it is not counted.
+
+        Args:
+            matrices: A_j (c, k) of each joint.
+            r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
+        """
+        found = self._made([len(own) - 1 for own in r])
+        if found is None:
+            return _by_blocks(self.observation, self.keep, matrices, r)
+        total = np.zeros(matrices[0].shape[1])
+        for j, own in enumerate(found):
+            A = matrices[j][_columns(self.observation, j)]
+            for weight, product in zip(r[j][1:], own, strict=False):
+                total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
+        return total
+
+    def _made(self, last: list[int]) -> list[np.ndarray] | None:
+        """Products of rows up to so far apart, or farther; kept, as most fits ask twice."""
+        if max(last) > _PRODUCTS:
+            return None
+        if self._products is None or np.any(np.array(last) > self._products[0]):
+            self._products = last, products(self.observation, self.keep, last)
+        return self._products[1]
 
 
 def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
@@ -94,7 +104,7 @@ def _by_blocks(
     matrices: Sequence[np.ndarray],
     r: Sequence[np.ndarray],
 ) -> np.ndarray:
-    """As `repeated_rows`, from the columns of samples, and the last rows before them."""
+    """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
     total, longest = np.zeros(matrices[0].shape[1]), max(len(own) - 1 for own in r)
     before: list[np.ndarray] = []
     own_columns = [_columns(observation, j) for j in range(len(r))]

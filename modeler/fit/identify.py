@@ -14,7 +14,7 @@ from modeler.estimate.coloured import coloured
 from modeler.estimate.compressed import Compressed, compress
 from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
 from modeler.estimate.methods import method_of
-from modeler.estimate.passing import compressed
+from modeler.estimate.passing import Neighbours, compressed
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.parameter import estimates
@@ -98,8 +98,9 @@ def fit_equations(
     _check_enough_rows(observation, equations, int(alive.sum()))
     problem, count = _problem(observation, equations, alive, model), len(observation.names)
     estimate = estimator.estimate(problem)
+    rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
     essential = essential_parameters(problem.data, estimate, method)
-    colour = coloured(observation, equations.kept, equations.y, alive, estimate)
+    colour = coloured(observation, rows, equations.y, alive, estimate)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
     every = _parameters(estimate, essential, equations, np.sqrt(np.diag(covariance)))
     return FitResult(
@@ -121,18 +122,18 @@ def fit_equations(
         processing=observation.report.processing,
         standard=estimate.standard,
         own=estimate.sentences,
-        essential=_reduced(observation, equations, alive, essential),
+        essential=_reduced(equations, rows, alive, essential),
     )  # fmt: skip
 
 
 def _reduced(
-    observation: Observation, equations: Equations, alive: np.ndarray, essential: Essential
+    equations: Equations, rows: np.ndarray | Neighbours, alive: np.ndarray, essential: Essential
 ) -> Reduced | None:
     """The essential parameters alone, as sure as their own residuals let them be."""
     at = [equations.names.index(name) for name in essential.names]
     reduced = essential.reduced
-    W = None if equations.kept is None else equations.kept[:, at]
-    factors = coloured(observation, W, equations.y, alive, reduced, at).factors
+    W = rows if isinstance(rows, Neighbours) else rows[:, at]
+    factors = coloured(equations.observation, W, equations.y, alive, reduced, at).factors
     sigma = factors * np.sqrt(np.diag(reduced.covariance))
     units = dict(zip(equations.names, equations.units, strict=True))
     return reduced_model(essential, reduced, sigma, units)

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from modeler.compiled.fused import Pattern, Triangles, no_rows, of_rows
-from modeler.observation.evaluated import Evaluated
+from modeler.observation.evaluated import Evaluated, near
 from modeler.observation.observation import Observation
 from modeler.observation.stretch import Stretch
 
@@ -55,21 +55,20 @@ def explained(
 ) -> np.ndarray:
     """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
     regressor = observation.regressor
-    keep = np.ones(observation.used.shape, dtype=bool) if keep is None else keep
     if not isinstance(regressor, Evaluated):
         found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
-        return np.where(keep, found, 0.0)
-    found = np.zeros(keep.shape)
+        return found if keep is None else np.where(keep, found, 0.0)
+    found = np.zeros(observation.used.shape)
     for part, own in _stretches(observation):
-        if not keep[own].any():
+        if keep is not None and not keep[own].any():
             continue
         if is_plain(part):
-            some = np.flatnonzero(keep[own].any(axis=1))
-            torque = regressor.torque(part.segment, part.rows.centres[some], beta)
-            found[own][some] = torque
+            every = np.ones(len(part.used), dtype=bool) if keep is None else keep[own].any(axis=1)
+            some = near(np.flatnonzero(every))
+            found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
         else:
             found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
-    return np.where(keep, found, 0.0)
+    return found if keep is None else np.where(keep, found, 0.0)
 
 
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
