@@ -19,12 +19,15 @@ class Influence:
     """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
 
     Attributes:
-        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted.
+        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted. None:
+            W bread.
         residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
+        bread: (c, c) where the pull is not kept.
     """
 
-    pull: np.ndarray
+    pull: np.ndarray | None
     residual: np.ndarray
+    bread: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
