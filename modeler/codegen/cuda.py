@@ -6,12 +6,12 @@ products [W_j tau_j]' [W_j tau_j] of its own columns, summed over samples withou
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from modeler.codegen import layout
-from modeler.codegen.block import make_block
+from modeler.codegen.block import Block, make_block
 from modeler.codegen.functions import Function
 from modeler.codegen.render import render
 from modeler.codegen.target import DOUBLE
@@ -54,20 +54,25 @@ class _Shape:
         return layout.number_lines([b for _, b in self.products])
 
 
-def cuda_file(
-    spec: ModuleSpec, function: Function, places: Mapping[str, str], values: Mapping[str, Any]
+def cuda_files(
+    spec: ModuleSpec,
+    blocks: Sequence[tuple[Function, Block | None]],
+    places: Mapping[str, str],
+    values: Mapping[str, Any],
 ) -> dict[str, str]:
     """{name: text} of the CUDA unit.
 
     Args:
         spec: the manifest.
-        function: `base_regressor_nonzeros`.
+        blocks: functions of the module, `base_regressor_nonzeros` among them.
         places: C text of every symbol of the graph.
         values: what all templates of the module are given.
 
     Raises:
         EmitError: the robot has loops, or the module is in single precision.
     """
+    _check(spec)
+    function = next(f for f, _ in blocks if f.role == "base_regressor_nonzeros")
     block = make_block(
         [(f"values[{k}*stride]", value) for k, value in function.entries], places, target=CUDA
     )
@@ -88,7 +93,7 @@ def cuda_file(
     return {f"{spec.prefix}.cu": text}
 
 
-def check_cuda(spec: ModuleSpec) -> None:
+def _check(spec: ModuleSpec) -> None:
     """Nothing, if the module can have the unit.
 
     Raises:

@@ -10,7 +10,7 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
-from modeler.codegen.cuda import check_cuda, cuda_file
+from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import (
     UNIT,
     check_values,
@@ -100,17 +100,14 @@ def emit(
     module = _module(model, base, precision)
     spec, values = module.spec, module.values
     code = _code(spec, values)
-    if cuda:
-        check_cuda(spec)
-        compact = next(f for f, _ in module.blocks if f.role == "base_regressor_nonzeros")
-        kernels = cuda_file(spec, compact, module.places, values)
+    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
         values |= {"spec": spec}
         code |= unit
     files = {
         **code,
-        **(kernels if cuda else {}),
+        **kernels,
         **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
         MANIFEST: spec.to_json(),
