@@ -144,7 +144,9 @@ def missing(chunk: Chunk) -> dict[str, int]:
         if values is None:
             continue
         for j, name in enumerate(log.joints):
-            column = log.torque_source[j].split()[0] if prefix == "tau" else f"{prefix}{name}"
+            column = f"{prefix}{name}"
+            if prefix == "tau" and log.torque_source:
+                column = log.torque_source[j].split()[0]
             if column != "0":  # of a passive joint
                 found[column] = int(np.isnan(values[chunk.own, j]).sum())
     return found
