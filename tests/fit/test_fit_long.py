@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
@@ -140,3 +141,124 @@ def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whol
     assert chunked.rows == pytest.approx(whole.rows, abs=10)
     sigma = np.array([parameter.sigma for parameter in whole.parameters])
     assert np.abs((chunked.beta - whole.beta) / sigma).max() < 1.0
+
+
+@pytest.fixture
+def small_windows(monkeypatch):
+    """A survey that sees little of a short log."""
+    for name, value in (("WINDOW", 512), ("SECONDS", 1.0), ("WINDOWS", 4)):
+        monkeypatch.setattr(f"modeler.observation.survey.{name}", value)
+
+
+def test_windows_choose_for_all_rows(small_windows):
+    log = noisy_log(seconds=60.0)
+    long = stream(ARM, [MemorySource(log)], rows=ROWS)
+    assert long.reading == {
+        "passes": 1, "chunks": -(-log.rows // ROWS), "rows": log.rows, "windows": 4,
+        "rows_in_windows": 4 * 512,
+    }  # fmt: skip
+    assert 0.1 < long.share < 0.2
+    fit = identify_long(long)
+    sigma = np.array([parameter.sigma for parameter in fit.parameters])
+    assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
+
+
+def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
+    """A chunk alone takes its largest torque for the limit; the whole log knows better."""
+    log = noisy_log(seconds=60.0)
+    tau = log.tau.copy()
+    at = 3 * ROWS + 600  # a run of one value with leaps into and out of it, but below the largest
+    tau[at : at + 8, 0] = 1.5 * tau[3 * ROWS - 200 : 4 * ROWS + 200, 0].max()
+    tau[7 * ROWS + 10 : 7 * ROWS + 60, 0] = 3.0 * np.abs(tau[:, 0]).max()
+    limited = dataclasses.replace(log, tau=tau)
+    long = stream(ARM, [MemorySource(limited)], Processing(keep_damaged=True), rows=ROWS)
+    assert long.reading["passes"] == 2
+    seen = observe(ARM, [limited], Processing(keep_damaged=True))
+    assert long.observation.report.logs[0].saturated == seen.report.logs[0].saturated == {"1": 50}
+
+
+def test_a_joint_that_rests_where_windows_are_is_not_left_out(small_windows):
+    log = noisy_log(seconds=60.0)
+    moving = np.zeros(log.rows)
+    moving[200:1000] = np.hanning(800)
+    q = log.q.copy()
+    q[:, 1] = 0.3 + 0.5 * moving * np.sin(8.0 * log.time)
+    qd = np.gradient(q, log.step, axis=0)
+    tau = ARM.base_regressor(q, qd, np.gradient(qd, log.step, axis=0)) @ BETA
+    resting = dataclasses.replace(log, q=q, tau=tau + 0.01 * log.tau)
+    long = stream(ARM, [MemorySource(resting)], rows=ROWS)
+    assert long.reading["passes"] == 2
+    assert 0.0 < long.observation.report.joints[1].speed_floor < np.inf
+    assert long.data.rows[1] > 10
+
+
+def test_another_zero_of_an_encoder_needs_the_whole_log():
+    log = noisy_log()
+    q = log.q.copy()
+    q[3 * ROWS :, 0] += 0.7
+    with pytest.raises(WholeNeeded, match=r"q1 counts from another zero from 15\.36 s on.*@:15.36"):
+        stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
+
+
+def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
+    log = noisy_log()
+    one = stream(ARM, [MemorySource(log)], rows=ROWS)
+    monkeypatch.setattr("modeler.fit.streamed.cpu_count", lambda: 5)
+    many = stream(ARM, [MemorySource(log)], rows=ROWS)
+    np.testing.assert_array_equal(one.data.triangles, many.data.triangles)
+    source = MemorySource(log)
+    chosen = survey(ARM, [source], Processing(), Known(), ROWS).chosen[0]
+    parts = []
+    for chunk in chunks(source, chosen.own, chosen.beside):
+        sent = pickle.loads(pickle.dumps((chunk, chosen)))
+        parts.append(pickle.loads(pickle.dumps(reduce_chunk(ARM, *sent))))
+    np.testing.assert_array_equal(merge_all(parts).data.triangles, one.data.triangles)
+
+
+def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
+    log, begun = noisy_log(), []
+
+    def broken(model, chunk, chosen):
+        begun.append(chunk.number)
+        if chunk.number == 1:
+            raise KeyboardInterrupt
+        return reduce_chunk(model, chunk, chosen)
+
+    monkeypatch.setattr(streamed, "reduce_chunk", broken)
+    monkeypatch.setattr("modeler.fit.streamed.cpu_count", lambda: 1)
+    with pytest.raises(KeyboardInterrupt):
+        stream(ARM, [MemorySource(log)], rows=512)
+    assert len(begun) < 6 < log.rows / 512
+
+
+@pytest.mark.parametrize("method", ["weighted", "ordinary"])
+def test_sigmas_of_windows_are_those_of_all_rows(method, small_windows):
+    """Coloured residuals: the factor on the sigmas of all rows, from a sixth of them."""
+    log = noisy_log(seconds=120.0)
+    pole = np.exp(-log.step / 0.2)
+    white = np.random.default_rng(8).normal(size=log.tau.shape)
+    noise = np.sqrt(1.0 - pole**2) * lfilter([1.0], [1.0, -pole], white, axis=0)
+    log = dataclasses.replace(log, tau=log.tau + noise)
+    whole = identify(observe(ARM, [log]), method)
+    long = identify_long(stream(ARM, [MemorySource(log)], rows=ROWS), method)
+    ratio = np.sqrt(np.diag(long.covariance) / np.diag(whole.covariance))
+    assert np.all((ratio > 0.5) & (ratio < 2.0)) and np.median(ratio) == pytest.approx(1, abs=0.25)
+    assert long.essential is not None
+
+
+def test_methods_that_need_every_row_are_refused_in_a_line():
+    long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
+    with pytest.raises(DataError, match="method robust reads every row again"):
+        identify_long(long, "robust")
+
+
+def test_uneven_stamps_fit_as_well_in_chunks():
+    """Each chunk has a uniform grid of its own; whole or not, stamps that are true cost nothing."""
+    fine, random = noisy_log(rate=2000), np.random.default_rng(6)
+    rows = np.arange(10, fine.rows - 10, 10) + random.integers(-2, 3, (fine.rows - 20) // 10)
+    uneven = dataclasses.replace(fine, time=fine.time[rows], q=fine.q[rows], tau=fine.tau[rows])
+    whole, chunked, told, told_chunked = both(uneven)
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 1.0
+    assert told_chunked.logs[0].resampled == 1
+    assert told_chunked.logs[0].jitter == pytest.approx(told.logs[0].jitter, rel=0.05)
