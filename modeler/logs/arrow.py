@@ -37,7 +37,11 @@ class _Arrow:
     def numbers(self) -> np.ndarray:
         if not self.numeric:
             raise NotNumbers(self._why())
-        return np.array(pc.cast(self.column, pa.float64(), safe=False).to_numpy(), dtype=float)
+        column = pc.cast(self.column, pa.float64(), safe=False)
+        if column.null_count or not column.num_chunks:
+            return np.array(column.to_numpy(), dtype=float)
+        # Arrow's own `to_numpy` loads pandas, where it is installed.
+        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks])
 
     def _why(self) -> str:
         kind = self.column.type

@@ -3,9 +3,11 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.band import (
@@ -17,7 +19,7 @@ from modeler.observation.band import (
     what_trembles,
 )
 from modeler.observation.consistency import Consistency, consistency, without_late
-from modeler.observation.damage import Damage, Usual, damages, defects
+from modeler.observation.damage import Damage, Defects, Usual, damages, defects
 from modeler.observation.derivatives import quieter, without_velocities
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
@@ -64,8 +66,34 @@ class Prepared:
     usual: tuple[Usual, ...]
 
 
-def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Prepared:
+@dataclass(frozen=True, eq=False)
+class Mending(Brief):
+    """Logs to be mended once, however often they are prepared: it is the same for any filters.
+
+    Attributes:
+        logs: as they were read.
+        spec: the robot's manifest.
+    """
+
+    logs: Sequence[Log]
+    spec: ModuleSpec
+
+    @cached_property
+    def mended(self) -> list[tuple[Log, Defects, Usual]]:
+        """What `defects` makes of each."""
+        return [defects(log, self.spec) for log in self.logs]
+
+
+def prepare(
+    spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: Mending | None = None
+) -> Prepared:
     """Mend, split, resample, choose the cut-offs, filter and differentiate.
+
+    Args:
+        spec: the robot's manifest.
+        logs: read with it.
+        processing: what is asked of it.
+        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, a log of another robot, a value that cannot be, nothing long enough to
@@ -73,7 +101,7 @@ def prepare(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Pr
     """
     _check(spec, logs, processing)
     read = list(logs)
-    mended = [defects(log, spec) for log in read]
+    mended = (mending or Mending(logs, spec)).mended
     if not processing.keep_damaged:
         logs = [log for log, _, _ in mended]
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
