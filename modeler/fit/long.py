@@ -52,11 +52,7 @@ def identify_long(
     Raises:
         DataError: another method, fewer rows than parameters, or no torque at all.
     """
-    if method not in OF_TRIANGLES:
-        raise DataError(
-            f"fit: method {method} reads every row again and again, and long logs are not kept in "
-            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
-        )
+    _check_method(method)
     observation = streamed.observation
     dead = dead_joints(observation)
     alive = ~np.isin(observation.row_joint, dead)
@@ -70,26 +66,27 @@ def identify_long(
     colour = _coloured(observation, np.arange(len(data.names)), alive, estimate, streamed.share)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
     return FitResult(
-        robot=observation.robot,
-        method=method,
-        status=status_of(estimate),
-        samples=streamed.samples,
-        rows=int(data.rows.sum()),
-        condition_number=estimate.condition_number,
-        condition_scaled=estimate.condition_scaled,
-        relative_error=essential.error_before,
-        essential_error=essential.error_after,
+        robot=observation.robot, method=method, status=status_of(estimate),
+        samples=streamed.samples, rows=int(data.rows.sum()),
+        condition_number=estimate.condition_number, condition_scaled=estimate.condition_scaled,
+        relative_error=essential.error_before, essential_error=essential.error_after,
         joints=joints_of(observation, data, estimate),
         parameters=parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance))),
-        covariance=covariance,
-        loads=(),
+        covariance=covariance, loads=(),
         sentences=(*dead_sentences(observation, dead), *estimate.sentences,
                    *sentences_of(estimate, essential), *colour.sentences()),
-        processing=observation.report.processing,
-        own=estimate.sentences,
+        processing=observation.report.processing, own=estimate.sentences,
         essential=_reduced(observation, alive, essential, streamed.share),
         reading=streamed.reading,
     )  # fmt: skip
+
+
+def _check_method(method: str) -> None:
+    if method not in OF_TRIANGLES:
+        raise DataError(
+            f"fit: method {method} reads every row again and again, and long logs are not kept in "
+            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
+        )
 
 
 def _without_joints(data: Compressed, dead: list[int]) -> Compressed:
