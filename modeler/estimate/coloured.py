@@ -85,8 +85,7 @@ def coloured(
         if own_way is None:
             rows = W[own] @ C / estimate.sigma[j]
         else:
-            assert own_way.pull is not None
-            rows = own_way.pull[own] * rms
+            rows = own_way.of(W)[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:

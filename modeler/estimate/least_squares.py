@@ -29,6 +29,18 @@ class Influence:
     residual: np.ndarray
     bread: np.ndarray | None = None
 
+    def of(self, W: np.ndarray) -> np.ndarray:
+        """The pull of the rows of W (rows, c)."""
+        if self.pull is not None:
+            return self.pull
+        assert self.bread is not None
+        return np.asarray(W @ self.bread)
+
+    def times(self, factor: float) -> "Influence":
+        """The same rows, each with a pull so many times as large."""
+        pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
+        return replace(self, pull=pull, bread=bread)
+
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
