@@ -62,14 +62,14 @@ def coloured(
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
     """
-    C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
+    C, own_way = estimate.covariance, estimate.influence
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
-        r = _at_least(autocorrelation(residual[own], sample, observation.segment), filtered)
+        r = remembered(observation, residual[own], sample)
         rms = np.sqrt(np.mean(residual[own] ** 2))
         rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.pull[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
@@ -79,6 +79,32 @@ def coloured(
     white = np.diag(C)
     ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
     return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory))
+
+
+def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
+    """r(0) = 1, r(1), ... of the residual of one joint, at least that of the parallel filter.
+
+    Args:
+        observation: of the rows.
+        e: (rows,) residual of one joint.
+        sample: (rows,) its samples, ascending.
+    """
+    found = autocorrelation(e, sample, observation.segment)
+    return _at_least(found, _of_the_filter(observation))
+
+
+def repeated_whole(
+    rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
+) -> np.ndarray:
+    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose); `repeated` is its diagonal.
+
+    With rows^T rows it is the middle of the covariance of least squares over these rows.
+    """
+    total = np.zeros((rows.shape[1], rows.shape[1]))
+    for lag in range(1, len(r)):
+        left, right = _pairs(sample, segment, lag)
+        total += r[lag] * (rows[left].T @ rows[right])
+    return total + total.T
 
 
 def repeated(
