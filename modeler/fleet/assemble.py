@@ -11,6 +11,7 @@ from modeler.fleet.judge import FALSE_ALARM, Judged, judged
 from modeler.fleet.layout import layout_of
 from modeler.fleet.odd import LEAST
 from modeler.fleet.result import Finding, Fleet, Followed, Values
+from modeler.fleet.series import line_of
 from modeler.fleet.summary import Left, LogSummary
 from modeler.fleet.times import in_time
 from modeler.fleet.warmth import warmth_of
@@ -54,7 +55,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         aside=fit.aside,
         left=left,
         doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
-        notes=tuple(_notes(found, machines)),
+        notes=(*_processed(used[0]), *_notes(found, machines)),
     )
 
 
@@ -70,8 +71,10 @@ def _check(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> None:
         )
     for k, each in enumerate(used):
         for other in used[:k]:
-            if each.content and each.content == other.content and (
-                each.span[0] <= other.span[1] and other.span[0] <= each.span[1]
+            if (
+                each.content
+                and each.content == other.content
+                and (each.span[0] <= other.span[1] and other.span[0] <= each.span[1])
             ):
                 raise DataError(
                     f"{each.named.place}: got rows of {other.named.place} again; expected each row "
@@ -85,6 +88,11 @@ def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
         own, quantity = found.known(m, i), found.quantities[i]
         periods = [logs[k].named.period for k in own]
         trend = move.shape == "trend"
+        both = [
+            ([logs[k] for k in found.known(other, i)], found.values[found.known(other, i), i])
+            for other in (m, *(o for o in range(found.machines) if o != m))
+        ]
+        line = line_of(move, found.at[own])
         findings.append(
             Finding(
                 machine=logs[own[0]].named.machine,
@@ -98,7 +106,7 @@ def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
                 sigma=move.sigma,
                 score=move.score,
                 chance=move.chance,
-                warmth=warmth_of([logs[k] for k in own], quantity.joint, found.values[own, i]),
+                warmth=warmth_of(both[0], quantity.joint, line, both[1:]),
             )
         )
     return findings
@@ -131,9 +139,11 @@ def _apart(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
 def _followed(found: Judged, logs: Sequence[LogSummary]) -> tuple[Followed, ...]:
     followed = []
     for i, quantity in enumerate(found.quantities):
-        machines = {}
+        machines, scores = {}, {}
         for m in range(found.machines):
             own = found.known(m, i)
+            if (m, i) in found.scores:
+                scores[logs[own[0]].named.machine] = found.scores[m, i]
             if len(own):
                 sigmas = found.scatters[i].sigmas(found.series(m, i))
                 names = tuple(logs[k].named.period for k in own)
@@ -142,8 +152,19 @@ def _followed(found: Judged, logs: Sequence[LogSummary]) -> tuple[Followed, ...]
         known = found.values[np.isfinite(found.values[:, i]), i]
         level = float(np.median(known)) if known.size else float("nan")
         factor = found.scatters[i].factor
-        followed.append(Followed(quantity, level, factor, found.told(i), machines))
+        followed.append(Followed(quantity, level, factor, found.told(i), machines, scores))
     return tuple(followed)
+
+
+def _processed(first: LogSummary) -> list[str]:
+    chosen = first.processing
+    if chosen is None or chosen.parallel_cutoff is None:
+        return []
+    position = chosen.position_cutoff or 0.0
+    return [
+        f"all logs are filtered alike, as chosen from {first.named.place}: positions below "
+        f"{position:.4g} Hz, torques and columns below {chosen.parallel_cutoff:.4g} Hz"
+    ]
 
 
 def _notes(found: Judged, machines: dict[str, tuple[str, ...]]) -> list[str]:

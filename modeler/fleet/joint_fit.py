@@ -70,7 +70,8 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> JointFit:
         )
     sigmas = [least_squares(each.data).sigma for each in summaries]
     scale = np.ones((len(summaries), len(summaries[0].data.rows)))
-    theta, aside = np.zeros(len(layout.common)), ()
+    aside: tuple[str, ...] = ()
+    theta = np.zeros(len(layout.common))
     logs: tuple[LogFit, ...] = ()
     for _ in range(_ROUNDS):
         theta, aside = _common(layout, summaries, sigmas, scale)

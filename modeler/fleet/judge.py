@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.fleet.joint_fit import JointFit
-from modeler.fleet.layout import GAIN, LOAD, Layout, Quantity
+from modeler.fleet.layout import GAIN, Layout, Quantity
 from modeler.fleet.odd import Odd, odd_ones
 from modeler.fleet.series import Move, Scatter, Series, least_told, line_of, move_of, scatters
 from modeler.fleet.summary import LogSummary
@@ -29,6 +29,7 @@ class Judged:
         scatters: (d,) from period to period.
         moves: (machine, quantity) of those that drift, and how.
         odd: (machine, quantity) of those apart from the others.
+        scores: (machine, quantity) of the greatest change of every series, in sigmas.
     """
 
     quantities: tuple[Quantity, ...]
@@ -37,8 +38,9 @@ class Judged:
     values: np.ndarray
     sigmas: np.ndarray
     scatters: tuple[Scatter, ...] = ()
-    moves: "dict[tuple[int, int], Move]" = dataclasses.field(default_factory=dict)
-    odd: "dict[tuple[int, int], Odd]" = dataclasses.field(default_factory=dict)
+    moves: dict[tuple[int, int], Move] = dataclasses.field(default_factory=dict)
+    odd: dict[tuple[int, int], Odd] = dataclasses.field(default_factory=dict)
+    scores: dict[tuple[int, int], float] = dataclasses.field(default_factory=dict)
 
     @property
     def machines(self) -> int:
@@ -57,13 +59,14 @@ class Judged:
     def told(self, i: int) -> float | None:
         """The smallest straight drift that the machine seen best would show."""
         found = [
-            least_told(series, self.scatters[i], self._level())
+            least_told(series, self.scatters[i], self.level)
             for m in range(self.machines)
             if len((series := self.series(m, i)).at) > 1
         ]
         return min(found, default=None)
 
-    def _level(self) -> float:
+    @property
+    def level(self) -> float:
         """The chance that one series may have."""
         return 0.5 * FALSE_ALARM / (self.machines * len(self.quantities))
 
@@ -134,22 +137,24 @@ def _with_loads(found: Judged, layout: Layout, fit: JointFit) -> Judged:
 
 def _tested(found: Judged, places: Sequence[int]) -> Judged:
     """With the drifts and the odd machines of some quantities."""
-    moves, odd = dict(found.moves), dict(found.odd)
-    level, families = found._level(), len(found.quantities)
+    moves, odd, scores = dict(found.moves), dict(found.odd), dict(found.scores)
+    level, families = found.level, len(found.quantities)
     for i in places:
         for m in range(found.machines):
             move = move_of(found.series(m, i), found.scatters[i])
+            if move is not None:
+                scores[m, i] = abs(move.score)
             if move is not None and move.chance < level:
                 count = found.machines * families
                 moves[m, i] = dataclasses.replace(move, chance=min(1.0, move.chance * count))
         means, spreads = _means(found, moves, i)
         for each in odd_ones(means, spreads, 0.5 * FALSE_ALARM / families):
             odd[each.machine, i] = each
-    return dataclasses.replace(found, moves=moves, odd=odd)
+    return dataclasses.replace(found, moves=moves, odd=odd, scores=scores)
 
 
 def _means(
-    found: Judged, moves: "dict[tuple[int, int], Move]", i: int
+    found: Judged, moves: dict[tuple[int, int], Move], i: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """(machines,) means over the periods and their sigmas; NaN of machines that drift."""
     means, spreads = (np.full(found.machines, np.nan) for _ in range(2))
@@ -174,16 +179,14 @@ def _without_gains(found: Judged) -> Judged:
     return dataclasses.replace(found, values=values, sigmas=sigmas)
 
 
-def _gain_scales(found: Judged) -> "dict[tuple[int, int], np.ndarray]":
+def _gain_scales(found: Judged) -> dict[tuple[int, int], np.ndarray]:
     """(periods,) 1 + gain / 100 of each gain that drifts or is apart."""
-    scales = {key: 1.0 + line_of(move, found.series(*key).at) / 100.0
-              for key, move in found.moves.items() if found.quantities[key[1]].effect == GAIN}  # fmt: skip
+    scales = {
+        key: 1.0 + line_of(move, found.series(*key).at) / 100.0
+        for key, move in found.moves.items()
+        if found.quantities[key[1]].effect == GAIN
+    }
     for key, odd in found.odd.items():
         if found.quantities[key[1]].effect == GAIN:
             scales[key] = np.full(len(found.known(*key)), 1.0 + odd.difference / 100.0)
     return {key: np.maximum(scale, 0.1) for key, scale in scales.items()}
-
-
-def is_load(quantity: Quantity) -> bool:
-    """True of what the last link carries."""
-    return quantity.effect == LOAD

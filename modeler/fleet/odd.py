@@ -31,20 +31,20 @@ class Odd:
 
 
 def odd_ones(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Odd, ...]:
-    """Machines apart, by the generalized extreme Studentized deviate (Rosner 1983, Technometrics
-    25(2), eqs. 2.2 and 2.5).
+    """Machines apart, by the generalized extreme Studentized deviate.
 
-    The most extreme machine is taken away, then the next, up to every fifth and three; the odd ones are all
-    up to the last whose deviate exceeds its critical value, so that two do not hide each other.
-    The chance is shared among the steps: far out in the tails Rosner's values alone are too small.
-    Machines must besides differ by more than their own standard deviations explain.
+    The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
+    are all up to the last whose deviate exceeds its critical value, so that two do not hide each
+    other (Rosner 1983, Technometrics 25(2), eqs. 2.2 and 2.5). The chance is shared among these
+    steps: far out in the tails, Rosner's values alone are too small. Machines must besides differ
+    by more than their own standard deviations explain.
 
     Args:
         values: (m,) one of each machine; NaN where it is not known.
         sigmas: (m,) standard deviations of them.
         chance: that any machine of a fleet of alike machines comes out.
     """
-    left = list(np.flatnonzero(np.isfinite(values)))
+    left = [int(k) for k in np.flatnonzero(np.isfinite(values))]
     count = len(left)
     if count < LEAST:
         return ()

@@ -19,12 +19,15 @@ class Warmth:
         lowest, highest: means of the logs, in the unit of their column.
         correlation: with the values of the machine.
         along: True if it moves along, so that it may be the cause.
+        shared: True if other machines that warm alike change alike, False if they do not; None
+            where too few of them warm.
     """
 
     lowest: float
     highest: float
     correlation: float
     along: bool
+    shared: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -96,6 +99,7 @@ class Followed:
         factor: by which it scatters from one period to the next more than its rows say; 1: no more.
         told: the smallest change over all periods that would be told; None with one period.
         machines: its values by machine.
+        scores: its greatest change in sigmas, by machine with two periods and more.
     """
 
     quantity: Quantity
@@ -103,6 +107,7 @@ class Followed:
     factor: float
     told: float | None
     machines: Mapping[str, Values]
+    scores: Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +145,7 @@ class Fleet(Presented):
 
     @property
     def verdict(self) -> str:
-        """ "drift" | "odd machine" | "nothing drifts"."""
+        """Either "drift", "odd machine" or "nothing drifts"."""
         if any(found.shape != "odd machine" for found in self.findings):
             return "drift"
         return "odd machine" if self.findings else "nothing drifts"
@@ -186,6 +191,7 @@ def _finding(found: Finding) -> dict[str, Any]:
         "temperature": None if warmth is None else {
             "lowest": warmth.lowest, "highest": warmth.highest,
             "correlation": _number(warmth.correlation), "moves_along": warmth.along,
+            "others_alike": warmth.shared,
         },
     }  # fmt: skip
 
@@ -201,7 +207,8 @@ def _followed(each: Followed) -> dict[str, Any]:
         "would_be_told": None if each.told is None else _number(each.told),
         "machines": {
             name: {"periods": list(own.periods), "at": _numbers(own.at),
-                   "values": _numbers(own.values), "sigmas": _numbers(own.sigmas)}
+                   "values": _numbers(own.values), "sigmas": _numbers(own.sigmas),
+                   "score": each.scores.get(name)}
             for name, own in each.machines.items()
         },
     }  # fmt: skip

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from modeler.compare.table import aligned
 from modeler.effects import CATALOGUE, effect_named
 from modeler.fleet.layout import GAIN, LOAD, Quantity
-from modeler.fleet.result import Finding, Fleet, Followed
+from modeler.fleet.result import Finding, Fleet, Followed, Warmth
 from modeler.fleet.times import Unit
 
 
@@ -27,13 +27,19 @@ def sentence(found: Finding, unit: Unit) -> str:
     )
     named = effect_title(quantity) + ("" if quantity.column < 0 else f" ({quantity.parameter})")
     line = f"{where}: {named} {_happens(found, unit)}"
-    if found.warmth is not None and found.warmth.along:
-        line += (
-            f"; the temperature of the logs moves along, {found.warmth.lowest:.4g} to "
-            f"{found.warmth.highest:.4g} (correlation {found.warmth.correlation:.2f}), and may be "
-            "the cause: compare periods of one temperature"
-        )
-    return line
+    return line + _warmth(found.warmth)
+
+
+def _warmth(warmth: Warmth | None) -> str:
+    if warmth is None or not warmth.along:
+        return ""
+    told = (
+        f"; the temperature of the logs moves along, {warmth.lowest:.4g} to {warmth.highest:.4g} "
+        f"(correlation {warmth.correlation:.2f})"
+    )
+    if warmth.shared is False:
+        return f"{told}, but machines that warm alike do not change so"
+    return f"{told}, and may be the cause: compare periods of one temperature"
 
 
 def _happens(found: Finding, unit: Unit) -> str:
@@ -75,7 +81,7 @@ def fleet_lines(found: Fleet) -> list[str]:
     lines += [f"  {sentence(one, found.unit)}" for one in found.findings]
     lines += ["", *aligned(rows_of(found), (0, 1)), ""]
     lines.append(
-        f"told: the smallest straight drift over all periods that would be a finding; chance of any "
+        "told: the smallest straight drift over all periods that would be a finding; chance of any "
         f"finding where nothing drifts: {100 * found.false_alarm:.2g} %"
     )
     lines += [*found.notes, *_gain_note(found)]

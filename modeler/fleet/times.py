@@ -45,7 +45,8 @@ def date_of(period: str) -> datetime.datetime | None:
         return None
     parts = [int(part) for part in found.groups() if part is not None]
     try:
-        return datetime.datetime(parts[0], parts[1], parts[2], *parts[3:], tzinfo=datetime.UTC)
+        year, month, day, hour, minute, second = (*parts, 0, 0, 0)[:6]
+        return datetime.datetime(year, month, day, hour, minute, second, tzinfo=datetime.UTC)
     except ValueError:
         return None
 
