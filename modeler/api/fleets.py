@@ -33,10 +33,9 @@ def fleet(
 ) -> Fleet:
     """What drifts where: friction, offsets and gains of many machines of one kind over their days.
 
-        fleet(load("arm.toml"), ["r1/2026-03-01.parquet", "r1/2026-03-02.parquet", ...])
         fleet(load("arm.toml"), {"r1": {"monday": "a.csv", "tuesday": "b.csv"}})
 
-    All machines share their inertial parameters; docs/fleet.md says how the chances are found.
+    All machines share their inertial parameters; see docs/fleet.md.
 
     Args:
         robot: of all machines; with the effects that are to be followed.

@@ -47,11 +47,13 @@ class JointFit:
     """The fit of the fleet.
 
     Attributes:
+        theta: (c,) common parameters; 0 where a base parameter may drift.
         aside: names of common parameters that the logs cannot tell; 0.
         logs: with friction, offset and gains.
         loaded: with friction, offset and a load in place of gains; empty if none can be told.
     """
 
+    theta: np.ndarray
     aside: tuple[str, ...]
     logs: tuple[LogFit, ...]
     loaded: tuple[LogFit, ...]
@@ -85,7 +87,7 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> JointFit:
             break
         scale = updated
     loaded = _loaded(layout, summaries, sigmas, theta)
-    return JointFit(aside, logs, loaded)
+    return JointFit(theta, aside, logs, loaded)
 
 
 def _common(

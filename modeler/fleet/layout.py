@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.contract import ModuleSpec
 
 GAIN, LOAD = "drive_gain", "payload"
@@ -14,7 +15,7 @@ _SAME = 1e-8  # what is left of a column, as a share of its length, counts as ze
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Quantity(Brief):
     """What may drift.
 
     Attributes:

@@ -30,6 +30,22 @@ class Odd:
     score: float
 
 
+def critical_deviate(count: int, step: int, chance: float) -> float:
+    """What the most extreme of `count` normal numbers less `step` - 1 exceeds with that chance.
+
+    (Rosner 1983, eq. 2.5), lambda = (n - i) t / sqrt((n - i - 1 + t^2) (n - i + 1)), t with
+    n - i - 1 degrees of freedom at chance / 2 (n - i + 1).
+
+    Args:
+        count: n.
+        step: i, from 1.
+        chance: of the larger of both sides.
+    """
+    left = count - step
+    t = quantile(left - 1, chance / (left + 1))
+    return float(left * t / np.sqrt((left - 1 + t**2) * (left + 1)))
+
+
 def odd_ones(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Odd, ...]:
     """Machines apart, by the generalized extreme Studentized deviate.
 
@@ -58,11 +74,9 @@ def odd_ones(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Odd
             break
         most = left[int(np.argmax(np.abs(rest - rest.mean())))]
         deviate = abs(values[most] - rest.mean()) / spread
-        t = quantile(count - i - 1, chance / steps / (count - i + 1))
-        critical = (count - i) * t / np.sqrt((count - i - 1 + t**2) * (count - i + 1))
         left.remove(most)
         taken.append(most)
-        last = i if deviate > critical else last
+        last = i if deviate > critical_deviate(count, i, chance / steps) else last
     others = [k for k in np.flatnonzero(np.isfinite(values)) if k not in taken[:last]]
     middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
     beyond = quantile(1e9, chance / count)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.presented import Presented
 from modeler.fleet.layout import Quantity
 from modeler.fleet.times import Unit
@@ -31,7 +32,7 @@ class Warmth:
 
 
 @dataclass(frozen=True)
-class Finding:
+class Finding(Brief):
     """A machine that drifts, or is apart from the others.
 
     Attributes:
@@ -73,7 +74,7 @@ class Finding:
 
 
 @dataclass(frozen=True, eq=False)
-class Values:
+class Values(Brief):
     """One quantity of one machine; p periods.
 
     Attributes:
@@ -90,7 +91,7 @@ class Values:
 
 
 @dataclass(frozen=True, eq=False)
-class Followed:
+class Followed(Brief):
     """One quantity of all machines.
 
     Attributes:

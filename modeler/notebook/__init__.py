@@ -3,6 +3,7 @@
 One room for all: a result knows what it found, these files know how to say it.
 """
 
+from modeler.notebook.fleets import present_fleets
 from modeler.notebook.freeruns import present_free_runs
 from modeler.notebook.judgements import present_judgements
 from modeler.notebook.logs import present_logs
@@ -17,3 +18,4 @@ def register() -> None:
     present_models()
     present_judgements()
     present_free_runs()
+    present_fleets()
