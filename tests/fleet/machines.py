@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
+from scipy.signal import lfilter
 
 from modeler.compiled import CompiledModel
 from modeler.core.contract import Emitted
@@ -89,10 +90,8 @@ def motion(rng: np.random.Generator, joints: int) -> tuple[np.ndarray, ...]:
 def coloured_noise(rng: np.random.Generator, count: int) -> np.ndarray:
     """Of variance 1: half white, half with a memory of 50 ms."""
     keep = np.exp(-1.0 / (0.05 * RATE))
-    slow, pushes = np.empty(count), rng.normal(size=count) * np.sqrt(1.0 - keep**2)
-    slow[0] = rng.normal()
-    for k in range(1, count):
-        slow[k] = keep * slow[k - 1] + pushes[k]
+    pushes = rng.normal(size=count) * np.sqrt(1.0 - keep**2)
+    slow = lfilter([1.0], [1.0, -keep], pushes, zi=[keep * rng.normal()])[0]
     return np.sqrt(0.5) * (rng.normal(size=count) + slow)
 
 
