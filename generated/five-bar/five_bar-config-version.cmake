@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 1) any of this C interface,
-# find_package(five_bar 1.54231.41924.64343) only what has the signature d3d7a3c4fb5722e8.
-set(PACKAGE_VERSION 1.54231.41924.64343)
+# find_package(five_bar 1.28378.35390.3052) only what has the signature 6eda8a3e0beca1be.
+set(PACKAGE_VERSION 1.28378.35390.3052)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -34,7 +34,7 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "1382f595e1cf94e7";
+    return "727c57e4f079db9d";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

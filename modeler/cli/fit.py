@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import compile_model, derive, generate, identified, read_logs
+from modeler.api.chain import compile_model, derive, generate, identified, read_logs
 from modeler.api.given import check_logs, given
 from modeler.api.ways import estimated
 from modeler.cli.console import Json, say, working
@@ -17,7 +17,6 @@ from modeler.core.files import write_atomically
 from modeler.fit import FitResult, IdentifiedModel, save_model, with_verdict
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.findings import findings_of_fit
-from modeler.pages.fitted import write_fit
 from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
 
@@ -77,6 +76,8 @@ def _written(
         say(line)
     say(f"written: {args.out}")
     if args.report is not None:
+        from modeler.pages.fitted import write_fit  # pages take long to load
+
         place = write_fit(Path(args.report), model, observation.report.lines(), args.out)
         say(f"written: {place}")
     if args.robot_out is not None:

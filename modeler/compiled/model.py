@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.compiled.bind import Library, check_names
 from modeler.compiled.build import build_library
+from modeler.compiled.reducing import Reducing
 from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import LoopError, ManifestError, ShapeError
@@ -21,7 +22,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Presented):
+class CompiledModel(Reducing, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
@@ -188,7 +189,7 @@ class CompiledModel(Presented):
         self._library.batch(function, given, out)
         return out[0]
 
-    def _signals(self, s: Any, samples: int) -> np.ndarray | None:
+    def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
         """(n, m) signals of effects; None where the robot has none."""
         wanted = len(self.spec.signals)
         if not wanted:
@@ -196,7 +197,7 @@ class CompiledModel(Presented):
         if s is None:
             names = ", ".join(f"{x.kind} {x.joint}".strip() for x in self.spec.signals)
             raise ShapeError(f"{self.spec.robot}: its effects read signals; give s ({names})")
-        checked = as_samples(s, "s", wanted)
+        checked = as_samples(s, "s", wanted, finite)
         if len(checked) != samples:
             raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
         return checked

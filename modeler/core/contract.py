@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from modeler.core.brief import Brief
+from modeler.core.choices import Precision
 from modeler.core.errors import ManifestError
 from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, built
@@ -179,6 +180,7 @@ class ModuleSpec(Brief):
     signals: tuple[SignalSpec, ...] = ()
     code: str = ""  # digest of the sources, their signature left out: see `code_digest`
     fitted: FittedSpec | None = None  # where it was generated from a model
+    precision: Precision = "double"  # of all numbers of the C
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -213,6 +215,8 @@ class ModuleSpec(Brief):
         entries = dataclasses.asdict(self)
         if self.fitted is None:
             del entries["fitted"]
+        if self.precision == "double":
+            del entries["precision"]
         return json.dumps(entries, indent=1) + "\n"
 
     def signature(self) -> str:

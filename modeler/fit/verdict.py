@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from modeler.core.contract import ModuleSpec
 from modeler.estimate.coloured import autocorrelation
@@ -128,7 +128,7 @@ def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[D
     white = data.whole(np.array([joint.sigma for joint in result.joints]))[:, :-1]
     root = white / _colour(white, result)
     nearest = nearest_possible(machine, result.beta, root)
-    limit = float(chi2.ppf(1.0 - CHANCE, max(1, np.linalg.matrix_rank(root)))) ** 0.5
+    limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
     if nearest is None or nearest.distance <= limit:
         return []
     blamed = carried_by(machine, result.beta, root, nearest.distance)

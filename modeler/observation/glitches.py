@@ -1,10 +1,11 @@
 """Spikes of one to three samples in torques, velocities and accelerations: of wires, not motion."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.observation.isolated import REACH, departures, lone, nearby, threshold
+from modeler.observation.isolated import REACH, departures, floor_here, lone, nearby, threshold
 from modeler.observation.resolution import resolution
 
 LONGEST = 3
@@ -31,22 +32,41 @@ Spike = tuple[int, int, float]
 """First sample, the one after the last, and the largest departure with its sign."""
 
 
-def glitches(stretches: Sequence[np.ndarray]) -> list[list[Spike]]:
+def glitches(
+    stretches: Sequence[np.ndarray],
+    departed: Sequence[np.ndarray] | None = None,
+    floor: float | None = None,
+) -> list[list[Spike]]:
     """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
 
     Args:
         stretches: (n,) of values without gaps, all of one channel.
+        departed: (n,) `departures` of each; None: taken here.
+        floor: `glitch_floor` of the whole channel, of which these are a part; None: they are all.
     """
     if not stretches:
         return []
-    departed = [departures(values) for values in stretches]
-    whole = np.concatenate(stretches)
-    low, high = np.quantile(whole, [0.01, 0.99])
-    floor = max(threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * (high - low))
+    if departed is None:
+        departed = [departures(values) for values in stretches]
+    if floor is None:
+        floor = glitch_floor(stretches, departed)
+    else:
+        floor = floor_here(departed, floor, RARE)
     return [
         _runs(values, own, lone(own, floor))
         for values, own in zip(stretches, departed, strict=True)
     ]
+
+
+def glitch_floor(stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
+    """Departure below which no value of a channel is a spike; infinite without values."""
+    if not stretches:
+        return float("inf")
+    whole = np.concatenate(stretches)
+    low, high = np.quantile(whole, [0.01, 0.99])
+    return max(
+        threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * float(high - low)
+    )
 
 
 def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[Spike]:
@@ -63,9 +83,39 @@ def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class TorqueNoise:
+    """What is usual in the torques of a log; J joints.
+
+    Attributes:
+        floors: (J,) `glitch_floor` of each.
+        range: (J,) between 1 % and 99 % of its values.
+        top: (J,) speed that 98 % of the samples stay below.
+    """
+
+    floors: np.ndarray
+    range: np.ndarray
+    top: np.ndarray
+
+
+def torque_noise(
+    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray], departed: Sequence[np.ndarray]
+) -> TorqueNoise:
+    """What is usual in torques (n, J) without gaps, with the speeds and `departures` of each."""
+    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
+    floors = [
+        glitch_floor([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
+        for j in range(stretches[0].shape[1])
+    ]
+    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
+    return TorqueNoise(np.array(floors), high - low, top)
+
+
 def torque_glitches(
-    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
-) -> list[list[list[Spike]]]:
+    stretches: Sequence[np.ndarray],
+    speeds: Sequence[np.ndarray],
+    usual: TorqueNoise | None = None,
+) -> tuple[list[list[list[Spike]]], TorqueNoise | None]:
     """By joint and stretch, the spikes of torques that no motion and no blow explains.
 
     A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
@@ -75,23 +125,32 @@ def torque_glitches(
     Args:
         stretches: (n, J) torques without gaps; a joint without a measured torque is all 0.
         speeds: (n, J) of the joints.
+        usual: in the whole log, of which these are a part; None: they are all of it.
+
+    Returns:
+        The spikes, and what is usual; None without stretches.
     """
     if not stretches:
-        return []
-    sizes = [np.abs(np.column_stack([departures(own) for own in tau.T])) for tau in stretches]
-    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
-    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
-    return [
-        [
+        return [], usual
+    departed = [np.column_stack([departures(own) for own in tau.T]) for tau in stretches]
+    sizes = [np.abs(own) for own in departed]
+    if usual is None:
+        usual = torque_noise(stretches, speeds, departed)
+    top, widths = usual.top, usual.range
+    found = []
+    for j in range(stretches[0].shape[1]):
+        own = glitches(
+            [tau[:, j] for tau in stretches],
+            [one[:, j] for one in departed],
+            float(usual.floors[j]),
+        )
+        found.append([
             [spike for spike in spikes
              if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike[2]) > high[j] - low[j] or _moves(speed[:, j], spike, _SLOW * top[j]))]
-            for spikes, size, speed in zip(
-                glitches([tau[:, j] for tau in stretches]), sizes, speeds, strict=True
-            )
-        ]
-        for j in range(stretches[0].shape[1])
-    ]  # fmt: skip
+             and (abs(spike[2]) > widths[j] or _moves(speed[:, j], spike, _SLOW * top[j]))]
+            for spikes, size, speed in zip(own, sizes, speeds, strict=True)
+        ])  # fmt: skip
+    return found, usual
 
 
 def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:

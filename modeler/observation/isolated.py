@@ -1,5 +1,7 @@
 """Values that stand alone: far above the noise of a channel and above all that happens nearby."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.ndimage import median_filter
 
@@ -62,6 +64,22 @@ def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
     rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
     common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
     return max(NOISES * 1.4826 * float(np.median(size)), CROWD * common, STEPS * resolution)
+
+
+def floor_here(departed: Sequence[np.ndarray], floor: float, share: float) -> float:
+    """The floor of a whole channel, or that of a part of it where many values exceed it.
+
+    What happens again and again in a part is no lone value there, however quiet the rest is.
+
+    Args:
+        departed: (n,) `departures` of the stretches of the part.
+        floor: `threshold` of the whole channel.
+        share: of the values that may be lone.
+    """
+    beyond = sum(int(np.count_nonzero(np.abs(own) > floor)) for own in departed)
+    if beyond <= LEAST_RARE:
+        return floor
+    return max(floor, threshold(np.concatenate(departed), 0.0, share))
 
 
 def lone(departed: np.ndarray, floor: float) -> np.ndarray:

@@ -10,6 +10,7 @@ from modeler.observation.isolated import (
     LEAST,
     NEAR,
     STEPS,
+    floor_here,
     lone,
     nearby,
     running_median,
@@ -113,13 +114,24 @@ def floors(walks: Sequence[Walk], resolution: np.ndarray) -> np.ndarray:
     return np.maximum(lonely, top)
 
 
+def floors_here(walks: Sequence[Walk], known: np.ndarray) -> np.ndarray:
+    """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
+    if not walks:
+        return known
+    return np.array([
+        floor_here([walk.excess[:, j] for walk in walks], floor, RARE)
+        for j, floor in enumerate(known)
+    ])  # fmt: skip
+
+
 def _excess(step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float) -> np.ndarray:
     """What a step has beyond speed x time; a stamp that came late or early excuses it.
 
     The rows may have been sampled evenly and stamped unevenly, or the other way round.
     """
-    ways = np.sort(np.stack([speed * dt, speed * usual]), axis=0)
-    return np.asarray(step - np.clip(step, ways[0], ways[1]))
+    stamped, even = speed * dt, speed * usual
+    low, high = np.minimum(stamped, even), np.maximum(stamped, even)
+    return np.asarray(step - np.minimum(np.maximum(step, low), high))
 
 
 def _whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:

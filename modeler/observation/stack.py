@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.observation.closable import without_open
 from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, with_every_joint
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-from modeler.observation.prepare import Prepared, prepare, with_floors
+from modeler.observation.prepare import Mending, Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport, JointReport, LogReport
 from modeler.observation.row_filter import row_filter
@@ -27,6 +28,7 @@ def observe(
     logs: Sequence[Log],
     processing: Processing | None = None,
     every_joint: bool = False,
+    mending: Mending | None = None,
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
@@ -38,11 +40,13 @@ def observe(
         logs: read with the same manifest.
         processing: None: automatic. For held-out logs `report.processing` of the fit.
         every_joint: mask low speeds also on joints whose dry friction the model lacks.
+        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
+        LoopError: hardly a sample closes the loops.
     """
-    prepared = prepare(model.spec, logs, processing or Processing())
+    prepared = prepare(model.spec, logs, processing or Processing(), mending)
     return observed(model, logs, prepared, every_joint)
 
 
@@ -53,7 +57,9 @@ def observed(
 
     Raises:
         DataError: no usable row.
+        LoopError: hardly a sample closes the loops.
     """
+    prepared, open_times = without_open(model, logs, prepared)
     parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
@@ -63,7 +69,10 @@ def observed(
         choices=prepared.choices,
         trembles=prepared.trembles,
         band=prepared.band,
-        logs=tuple(_log_report(log, run, prepared, stretches) for run, log in enumerate(logs)),
+        logs=tuple(
+            dataclasses.replace(_log_report(log, run, prepared, stretches), open_times=times)
+            for run, (log, times) in enumerate(zip(logs, open_times, strict=True))
+        ),
         joints=_joint_reports(model, parts, floors, stretches),
     )
     if not any(part.used.any() for part in stretches):

@@ -33,11 +33,12 @@ class Stretch(Brief):
 
         Evaluated in blocks, so that a long log needs no more memory than a short one.
         """
-        blocks = [
-            self._means(part, evaluate(window), window, self.used[rows])
-            for part, window, rows in self._blocks()
-        ]
-        return np.concatenate(blocks)
+        return np.concatenate([values for _, values in self.blocks(evaluate)])
+
+    def blocks(self, evaluate: Callable[[slice], np.ndarray]) -> Iterator[tuple[slice, np.ndarray]]:
+        """The same block by block: which rows, and their values."""
+        for part, window, rows in self._blocks():
+            yield rows, self._means(part, evaluate(window), window, self.used[rows])
 
     def _blocks(self) -> Iterator[tuple[RowFilter, slice, slice]]:
         centres = self.rows.centres

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.observation.closable import nearest_closed
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
 from modeler.observation.row_filter import RowFilter
@@ -47,6 +48,9 @@ class Part:
 
     def _filtered(self, compiled: "CompiledModel", motion: list[np.ndarray]) -> np.ndarray:
         q, qd, qdd = motion
+        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
+        if nearest is not None:
+            q = np.ascontiguousarray(q[nearest])
         values = compiled.base_regressor(q, qd, qdd, self.read)
         whole = self.segment.whole[self.samples]
         means = [

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -318,9 +318,14 @@ def _tilt(rows: Rows, cache: dict) -> Columns:
         return (None,) * rows.joints
     key = "frame slopes"
     if key not in cache:
-        slopes = [frame_slopes(s.reference.compiled, s.q) for s in rows.signals]
-        cache[key] = rows.spread([x.reshape(*x.shape[:2], -1) for x in slopes])
+        cache[key] = rows.spread(partial(_frame_slopes, rows))
     return tuple(None if own is None else own @ weights for own in cache[key])
+
+
+def _frame_slopes(rows: Rows, stretch: int, window: slice) -> np.ndarray:
+    signals = rows.signals[stretch]
+    found = frame_slopes(signals.reference.compiled, signals.q[window])
+    return found.reshape(*found.shape[:2], -1)
 
 
 def visible(columns: Columns) -> bool:

@@ -12,6 +12,7 @@ from modeler.cli.parsers.options import (
     add_robot,
 )
 from modeler.cli.places import ModuleFolder, Output, RobotOrModel
+from modeler.core.choices import Precision
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
@@ -105,6 +106,10 @@ def add_generate(commands: Commands) -> None:
     parser.add_argument(
         "--out", metavar="DIR", required=True, type=ModuleFolder, help="folder to write"
     )
+    parser.add_argument(
+        "--precision", choices=get_args(Precision), default="double",
+        help="of all numbers of the C: double, or float for a microcontroller",
+    )  # fmt: skip
     add_force(parser)
     add_json(parser, "write the manifest for machines")
     parser.set_defaults(load=_generate)
