@@ -40,8 +40,7 @@ def fleet(
     Args:
         robot: of all machines; with the effects that are to be followed.
         logs: files, machine and period by their names; or logs by machine and period.
-        name: pattern of the names of files, as "{machine}/{period}.parquet"; None: the folder is
-            the machine, the file the period.
+        name: pattern of files, as "{machine}-{period}.csv"; None: folder and file.
         processing: None: chosen from the first log, for all.
         mapping: as of `read_logs`.
         processes: that read logs at once; only files are read by others than this one.
