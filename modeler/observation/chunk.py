@@ -37,10 +37,13 @@ class Chunk:
 
     @property
     def span(self) -> tuple[float, float]:
-        """s, from its first own row to before the first row after it; open at the log's ends."""
-        time = self.log.time
-        start = -np.inf if self.number == 0 else float(time[self.own.start])
-        return start, np.inf if self.last else float(time[self.own.stop])
+        """s, between its own rows and those beside them; open at the log's ends.
+
+        In the middle of two rows, as samples of a uniform grid lie on rows but for rounding.
+        """
+        time, own = self.log.time, self.own
+        start = -np.inf if self.number == 0 else float(time[own.start - 1 : own.start + 1].mean())
+        return start, np.inf if self.last else float(time[own.stop - 1 : own.stop + 1].mean())
 
     @property
     def rows(self) -> int:

@@ -101,9 +101,7 @@ def run(
     return arrays(said.split(), calls, np.dtype("<f4" if number == "float" else "<f8"))
 
 
-def call_lines(
-    function: FunctionSpec, inputs: Mapping[str, np.ndarray], number: str
-) -> list[str]:
+def call_lines(function: FunctionSpec, inputs: Mapping[str, np.ndarray], number: str) -> list[str]:
     """C that calls a function for every sample and says the bytes of its output."""
     suffix = "f" if number == "float" else ""
     names = [argument.name for argument in function.inputs]
