@@ -82,10 +82,10 @@ def reduce_logs(
     jobs = []
     for each in named:
         path, span = file_and_span(each.place)
-        jobs.append(LogJob(each, str(Path(path).absolute()), span, emitted, processing, names))
+        jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
     found: list[LogSummary | Left] = []
     while len(found) < len(jobs) and not (found and isinstance(found[-1], LogSummary)):
-        found.append(reduce_log(jobs[len(found)]))
+        found.append(reduce_log(emitted, jobs[len(found)]))
     if found and isinstance(found[-1], LogSummary):
         chosen, done = found[-1].processing, len(found)
         rest = [dataclasses.replace(job, processing=chosen) for job in jobs[done:]]
@@ -94,7 +94,7 @@ def reduce_logs(
             if progress is not None:
                 progress((done + share * len(rest)) / len(jobs))
 
-        found += workers.each(reduce_log, rest, tell)
+        found += workers.each(reduce_log, emitted, rest, tell)
     return found
 
 

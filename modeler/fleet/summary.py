@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.compiled import CompiledModel, load
+from modeler.compiled import CompiledModel
+from modeler.compiled.once import compiled_once
 from modeler.core.contract import Emitted
 from modeler.core.errors import DataError, LoopError
 from modeler.estimate.coloured import remembered, repeated_whole
@@ -31,7 +32,6 @@ class LogJob:
         named: machine, period and place.
         path: the file.
         span: seconds of it that count; None: all.
-        emitted: the C of the robot, which the worker compiles, or takes from its cache.
         processing: None: chosen from this log.
         mapping: which columns of the logs are ours.
     """
@@ -39,7 +39,6 @@ class LogJob:
     named: Named
     path: str
     span: tuple[float | None, float | None] | None
-    emitted: Emitted
     processing: Processing | None = None
     mapping: LogMap | None = None
 
@@ -79,10 +78,15 @@ class Left:
     why: str
 
 
-def reduce_log(job: LogJob) -> LogSummary | Left:
-    """The summary of one log; pure, so that it can run anywhere and be run again."""
+def reduce_log(emitted: Emitted, job: LogJob) -> LogSummary | Left:
+    """The summary of one log; pure, so that it can run anywhere and be run again.
+
+    Args:
+        emitted: the C of the robot, which is compiled here, or taken from the cache.
+        job: of the log.
+    """
+    model = compiled_once(emitted)
     try:
-        model = _compiled(job.emitted)
         log = read_log(job.path, model.spec, job.mapping)
         if job.span is not None:
             log = window(log, *job.span)
@@ -144,13 +148,3 @@ def _temperatures(log: Log) -> dict[str, float]:
         for name, values in log.extra.items()
         if name.startswith(TEMPERATURE)
     }
-
-
-_MODELS: dict[str, CompiledModel] = {}  # of this process, by signature
-
-
-def _compiled(emitted: Emitted) -> CompiledModel:
-    signature = emitted.spec.signature()
-    if signature not in _MODELS:
-        _MODELS[signature] = load(emitted.spec, emitted.files, emitted.log)
-    return _MODELS[signature]

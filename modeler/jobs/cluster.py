@@ -4,11 +4,12 @@ import logging
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
 from modeler.core.errors import DataError
-from modeler.jobs.run import LOCAL, Done, J, R, levels, tell
+from modeler.jobs.run import LOCAL, Done, J, R, S, pairs, tell
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -25,35 +26,33 @@ class Cluster:
     def __init__(self, client: "Client") -> None:
         self._client = client
 
-    def each(self, work: Callable[[J], R], jobs: Sequence[J], done: Done | None = None) -> list[R]:
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
         """See `Workers`."""
-        futures = self._sent(work, jobs)
+        futures = self._sent(work, shared, jobs)
         with _lost_told():
             self._watched(futures, done)
             found: list[R] = self._client.gather(futures)
         return found
 
-    def total(
+    def begun(
         self,
-        work: Callable[[J], R],
+        work: Callable[[S, J], R],
+        shared: S,
         jobs: Sequence[J],
         merge: Callable[[R, R], R],
-        done: Done | None = None,
-    ) -> R:
+    ) -> Callable[[], R]:
         """See `Workers`; merged where the results are, only the last one travels here."""
-        if not jobs:
-            raise DataError("no jobs; expected one at least")
-        futures = self._sent(work, jobs)
-        own = list(futures)
-        for left, right in levels(len(jobs)):
+        own = self._sent(work, shared, jobs)
+        for left, right in pairs(len(jobs)):
             own[left] = self._client.submit(merge, own[left], own[right], pure=False)
-        with _lost_told():
-            self._watched(futures, done)
-            found: R = own[0].result()
-        return found
+        return partial(_result, own[0])
 
-    def _sent(self, work: Callable[[J], R], jobs: Sequence[J]) -> list[Any]:
-        return [self._client.submit(work, job, pure=False) for job in jobs]
+    def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> list[Any]:
+        """Futures; what is shared is one of them, so that it is made again if it is lost."""
+        common = self._client.submit(same, shared, pure=False)
+        return [self._client.submit(work, common, job, pure=False) for job in jobs]
 
     def _watched(self, futures: Sequence[Any], done: Done | None) -> None:
         from distributed import as_completed
@@ -127,6 +126,16 @@ def _checked(client: "Client", address: str) -> Cluster:
                 "install the same where the workers run"
             )
     return Cluster(client)
+
+
+def _result(future: Any) -> Any:
+    with _lost_told():
+        return future.result()
+
+
+def same(thing: S) -> S:
+    """That thing, where it is called."""
+    return thing
 
 
 def version() -> str:

@@ -8,7 +8,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 
 from modeler.core.errors import DataError
-from modeler.jobs.run import Done, J, R, in_pairs, tell
+from modeler.jobs.run import Done, J, R, S, in_pairs, tell
 
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -19,35 +19,41 @@ class Processes:
     def __init__(self, pool: ProcessPoolExecutor) -> None:
         self._pool = pool
 
-    def each(self, work: Callable[[J], R], jobs: Sequence[J], done: Done | None = None) -> list[R]:
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
         """See `Workers`."""
-        futures = [self._pool.submit(work, job) for job in jobs]
-        return self._gathered(futures, done)
+        return _gathered(self._sent(work, shared, jobs), done)
 
-    def total(
+    def begun(
         self,
-        work: Callable[[J], R],
+        work: Callable[[S, J], R],
+        shared: S,
         jobs: Sequence[J],
         merge: Callable[[R, R], R],
-        done: Done | None = None,
-    ) -> R:
+    ) -> Callable[[], R]:
         """See `Workers`; merged in this process."""
-        return in_pairs(iter(self.each(work, jobs, done)), merge)
+        futures = self._sent(work, shared, jobs)
+        return lambda: in_pairs(_gathered(futures, None), merge)
 
-    def _gathered(self, futures: "Sequence[Future[R]]", done: Done | None) -> list[R]:
-        try:
-            for k, future in enumerate(as_completed(futures), start=1):
-                future.result()
-                tell(done, k, len(futures))
-            return [future.result() for future in futures]
-        except BrokenProcessPool:
-            raise DataError(
-                "a process ended in the middle of its work, as when memory runs out; use fewer "
-                "--workers"
-            ) from None
-        finally:
-            for future in futures:
-                future.cancel()
+    def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> "list[Future[R]]":
+        return [self._pool.submit(work, shared, job) for job in jobs]
+
+
+def _gathered(futures: "Sequence[Future[R]]", done: Done | None) -> list[R]:
+    try:
+        for k, future in enumerate(as_completed(futures), start=1):
+            future.result()
+            tell(done, k, len(futures))
+        return [future.result() for future in futures]
+    except BrokenProcessPool:
+        raise DataError(
+            "a process ended in the middle of its work, as when memory runs out; use fewer "
+            "--workers"
+        ) from None
+    finally:
+        for future in futures:
+            future.cancel()
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from typing import Protocol, TypeVar
 
 from modeler.core.errors import DataError
 
+S = TypeVar("S")
 J = TypeVar("J")
 R = TypeVar("R")
 
@@ -19,34 +20,45 @@ LOCAL = "local"
 class Workers(Protocol):
     """Whoever carries out jobs.
 
-    Functions and jobs must be such that they can be sent to another process: functions of a module,
-    dataclasses of arrays. A job may be carried out more than once.
+    Functions, what they share and jobs must be such that they can be sent to another process:
+    functions of a module, dataclasses of arrays. A job may be carried out more than once.
     """
 
-    def each(self, work: Callable[[J], R], jobs: Sequence[J], done: Done | None = None) -> list[R]:
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
         """What `work` makes of each job, in the order of the jobs.
+
+        Args:
+            work: of what all share, and a job.
+            shared: sent once to each worker, at most.
+            jobs: in order.
+            done: is told the share.
 
         Raises:
             ModelerError: the first that a job raised, or no worker could do one.
         """
 
-    def total(
+    def begun(
         self,
-        work: Callable[[J], R],
+        work: Callable[[S, J], R],
+        shared: S,
         jobs: Sequence[J],
         merge: Callable[[R, R], R],
-        done: Done | None = None,
-    ) -> R:
-        """All results merged in pairs of neighbours, pairs of pairs, and so on.
+    ) -> Callable[[], R]:
+        """All results merged in pairs of neighbours, pairs of pairs, and so on: begun.
 
         The pairs are the same whoever works, and so is the result, to the last bit, on machines
         that compute alike.
 
         Args:
-            work: of one job.
+            work: of what all share, and a job.
+            shared: as above.
             jobs: one at least.
             merge: of two results, the earlier first.
-            done: is told the share.
+
+        Returns:
+            what waits for the result; raises as `each` does.
         """
 
 
@@ -78,30 +90,25 @@ def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Worker
 class Here:
     """This process."""
 
-    def each(self, work: Callable[[J], R], jobs: Sequence[J], done: Done | None = None) -> list[R]:
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
         """See `Workers`."""
         found = []
         for k, job in enumerate(jobs, start=1):
-            found.append(work(job))
+            found.append(work(shared, job))
             tell(done, k, len(jobs))
         return found
 
-    def total(
+    def begun(
         self,
-        work: Callable[[J], R],
+        work: Callable[[S, J], R],
+        shared: S,
         jobs: Sequence[J],
         merge: Callable[[R, R], R],
-        done: Done | None = None,
-    ) -> R:
-        """See `Workers`; holds no more results than the tree is high."""
-        return in_pairs((self.each(work, [job])[0] for job in told(jobs, done)), merge)
-
-
-def told(jobs: Sequence[J], done: Done | None) -> Iterator[J]:
-    """The jobs, telling after each that it is done."""
-    for k, job in enumerate(jobs, start=1):
-        yield job
-        tell(done, k, len(jobs))
+    ) -> Callable[[], R]:
+        """See `Workers`; nothing is done before its result is asked for."""
+        return lambda: in_pairs([work(shared, job) for job in jobs], merge)
 
 
 def tell(done: Done | None, count: int, all_: int) -> None:
@@ -110,31 +117,24 @@ def tell(done: Done | None, count: int, all_: int) -> None:
         done(count / all_)
 
 
-def in_pairs(results: Iterator[R], merge: Callable[[R, R], R]) -> R:
-    """Neighbours merged, then pairs of pairs: the tree over all results, kept low.
+def in_pairs(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
+    """Results merged as `pairs` says."""
+    own = list(results)
+    for left, right in pairs(len(own)):
+        own[left] = merge(own[left], own[right])
+    return own[0]
 
-    Two subtrees of one height are merged as soon as both are there; the rest at the end, the last
-    first. `levels` gives the same tree.
+
+def pairs(count: int) -> Iterator[tuple[int, int]]:
+    """(left, right) of neighbours to merge, in order; each result stands at left, the last at 0.
+
+    Two subtrees of one height as soon as both are there; the rest at the end, the last first.
 
     Raises:
-        DataError: no results.
+        DataError: nothing to merge.
     """
-    waiting: list[tuple[int, R]] = []
-    for result in results:
-        waiting.append((0, result))
-        while len(waiting) > 1 and waiting[-1][0] == waiting[-2][0]:
-            (height, left), (_, right) = waiting[-2:]
-            waiting[-2:] = [(height + 1, merge(left, right))]
-    if not waiting:
+    if count < 1:
         raise DataError("no jobs; expected one at least")
-    _, found = waiting.pop()
-    while waiting:
-        found = merge(waiting.pop()[1], found)
-    return found
-
-
-def levels(count: int) -> Iterator[tuple[int, int]]:
-    """Pairs (left, right) in the order in which `in_pairs` merges; the result stands at left."""
     waiting: list[tuple[int, int]] = []
     for place in range(count):
         waiting.append((0, place))

@@ -5,6 +5,7 @@ import argparse
 from modeler.cli.parsers.options import (
     Commands,
     Run,
+    add_dask,
     add_json,
     add_map,
     add_number,
@@ -63,11 +64,7 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
         group, "--workers", "N", int,
         "processes that read logs; left out: one for few logs, all processors for many",
     )  # fmt: skip
-    group.add_argument(
-        "--dask", metavar="ADDRESS", type=Word,
-        help="a Dask scheduler whose workers read them, as tcp://host:8786; local: a cluster of "
-        "this machine's processors",
-    )  # fmt: skip
+    add_dask(group)
 
 
 def _fleet() -> Run:
