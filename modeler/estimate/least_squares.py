@@ -1,7 +1,7 @@
 """Ordinary and weighted least squares with their covariance."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
