@@ -95,7 +95,7 @@ PACKAGES: dict[str, set[str]] = {
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
     "jinja2": ("codegen/render.py", "pages/render.py"),
-    "cffi": ("compiled/bind.py", "compiled/bind_fused.py"),
+    "cffi": ("compiled/bind.py", "compiled/bind_fused.py", "compiled/bind_tile.py"),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
