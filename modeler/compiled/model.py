@@ -23,7 +23,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Reducing, Tiling, Presented):
+class CompiledModel(Tiling, Reducing, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the

@@ -18,8 +18,8 @@ from modeler.compiled.bind_tile import TileLibrary, tile_library
 from modeler.core.contract import FunctionSpec, ModuleSpec
 from modeler.core.errors import ManifestError, ShapeError
 
-TILED_FROM = 2**16
-"""Samples from which on tiles are used. Fewer are soon done: compiling tiles takes longer."""
+TILED_FROM = 2**18
+"""Samples from which on tiles are used: fewer are sooner done than tiles are compiled."""
 
 _SLICE = 2**14  # samples that a thread is worth starting for
 
@@ -64,9 +64,10 @@ class Tiling:
     def _fill(self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool) -> bool:
         """Fill `out` by tiles; False, and nothing done, for few samples or without tiles."""
         samples = len(inputs[0])
-        if samples < TILED_FROM or self._tiles is None:
+        tiles = self._tiles if samples >= TILED_FROM else None
+        if tiles is None:
             return False
-        tiles, rows = self._tiles, out.reshape(samples, -1)
+        rows = out.reshape(samples, -1)
 
         def part(piece: slice) -> None:
             tiles.fill([array[piece] for array in inputs], rows[piece], dense)
@@ -77,6 +78,11 @@ class Tiling:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(part, pieces))
         return True
+
+    def _tile(self, samples: int) -> int:
+        """The function of one tile, for so many samples; 0 for few, or without tiles."""
+        tiles = self._tiles if samples >= TILED_FROM else None
+        return 0 if tiles is None else tiles.tile
 
     @cached_property
     def _tiles(self) -> TileLibrary | None:
