@@ -9,6 +9,7 @@ from modeler.api.given import check_logs, given
 from modeler.api.ways import estimated
 from modeler.cli.console import Json, say, working
 from modeler.cli.drive_gains import check_load, fit_with_gains
+from modeler.cli.long_logs import fit_if_long
 from modeler.cli.robots import robot_of
 from modeler.cli.ways import asked, check_way
 from modeler.core.choices import GAIN_METHOD
@@ -49,6 +50,8 @@ def run_fit(args: argparse.Namespace) -> Json:
     if args.method == GAIN_METHOD:
         found = fit_with_gains(args, derivation, compiled, processing, _check_given)
         return _written(args, *found)
+    if (long := fit_if_long(args, derivation, emitted, compiled, processing)) is not None:
+        return _written(args, *long)
     with working("building the observation matrix"):
         logs = read_logs(compiled, args.logs, args.map)
         loaded = read_logs(compiled, args.payload_log, args.map)

@@ -73,20 +73,16 @@ def coloured(
     """
     if isinstance(W, Neighbours):
         return _passing(W, estimate, at)
-    C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
+    C, own_way = estimate.covariance, estimate.influence
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
-        r = _at_least(autocorrelation(residual[own], sample, observation.segment), filtered)
+        r = remembered(observation, residual[own], sample)
         rms = np.sqrt(np.mean(residual[own] ** 2))
-        if own_way is None:
-            rows = W[own] @ C / estimate.sigma[j]
-        else:
-            assert own_way.pull is not None
-            rows = own_way.pull[own] * rms
+        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.of(W)[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:
@@ -105,8 +101,7 @@ def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -
     observation, keep = beside.observation, beside.keep
     c = len(observation.names)
     places = np.arange(c) if at is None else np.asarray(at, dtype=int)
-    own_way, filtered = estimate.influence, _of_the_filter(observation)
-    beta = np.zeros(c)
+    own_way, beta = estimate.influence, np.zeros(c)
     beta[places] = estimate.beta
     residual = observation.torque - explained(observation, beta)
     matrices, memories, memory = [], [], []
@@ -115,7 +110,7 @@ def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -
         sample = np.flatnonzero(keep[:, j])
         if sample.size:
             left = residual[sample, j]
-            r = _at_least(autocorrelation(left, sample, observation.segment), filtered)
+            r = remembered(observation, left, sample)
             if own_way is None:
                 A[places] = estimate.covariance / estimate.sigma[j]
             else:
@@ -127,6 +122,32 @@ def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -
         memories.append(r)
     extra = beside.repeated(matrices, memories)
     return Colour(_factors(estimate.covariance, extra), tuple(memory))
+
+
+def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
+    """r(0) = 1, r(1), ... of the residual of one joint, at least that of the parallel filter.
+
+    Args:
+        observation: of the rows.
+        e: (rows,) residual of one joint.
+        sample: (rows,) its samples, ascending.
+    """
+    found = autocorrelation(e, sample, observation.segment)
+    return _at_least(found, _of_the_filter(observation))
+
+
+def repeated_whole(
+    rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
+) -> np.ndarray:
+    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose); `repeated` is its diagonal.
+
+    With rows^T rows it is the middle of the covariance of least squares over these rows.
+    """
+    total = np.zeros((rows.shape[1], rows.shape[1]))
+    for lag in range(1, len(r)):
+        left, right = _pairs(sample, segment, lag)
+        total += r[lag] * (rows[left].T @ rows[right])
+    return total + total.T
 
 
 def repeated(

@@ -1,7 +1,7 @@
 """Ordinary and weighted least squares with their covariance."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -28,6 +28,18 @@ class Influence:
     pull: np.ndarray | None
     residual: np.ndarray
     bread: np.ndarray | None = None
+
+    def of(self, W: np.ndarray) -> np.ndarray:
+        """The pull of the rows of W (rows, c)."""
+        if self.pull is not None:
+            return self.pull
+        assert self.bread is not None
+        return np.asarray(W @ self.bread)
+
+    def times(self, factor: float) -> "Influence":
+        """The same rows, each with a pull so many times as large."""
+        pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
+        return replace(self, pull=pull, bread=bread)
 
 
 @dataclass(frozen=True, eq=False)

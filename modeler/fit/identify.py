@@ -95,30 +95,30 @@ def fit_equations(
     estimator = method_of(method)
     dead = dead_joints(observation)
     alive = ~np.isin(observation.row_joint, dead)
-    _check_enough_rows(observation, equations, int(alive.sum()))
+    check_enough_rows(observation, len(equations.names), int(alive.sum()))
     problem, count = _problem(observation, equations, alive, model), len(observation.names)
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
     essential = essential_parameters(problem.data, estimate, method)
     colour = coloured(observation, rows, equations.y, alive, estimate)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
-    every = _parameters(estimate, essential, equations, np.sqrt(np.diag(covariance)))
+    every = parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance)))
     return FitResult(
         robot=observation.robot,
         method=method,
-        status=_status(estimate),
+        status=status_of(estimate),
         samples=len(observation.time),
         rows=int(alive.sum()),
         condition_number=estimate.condition_number,
         condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before,
         essential_error=essential.error_after,
-        joints=_joints(observation, problem.data, estimate),
+        joints=joints_of(observation, problem.data, estimate),
         parameters=every[:count],
         covariance=covariance[:count, :count],
         loads=every[count:],
-        sentences=(*equations.sentences, *_dead_sentences(observation, dead), *estimate.sentences,
-                   *_sentences(estimate, essential), *colour.sentences()),
+        sentences=(*equations.sentences, *dead_sentences(observation, dead), *estimate.sentences,
+                   *sentences_of(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
         standard=estimate.standard,
         own=estimate.sentences,
@@ -169,8 +169,8 @@ def parts_of(
     seen = dataclasses.replace(estimate, sigma=rms)
     sigma = np.sqrt(np.diag(estimate.covariance))
     return (
-        _parameters(estimate, essential, equations, sigma),
-        _joints(observation, data, seen),
+        parameters_of(estimate, essential, equations, sigma),
+        joints_of(observation, data, seen),
         data,
     )
 
@@ -194,7 +194,8 @@ def dead_joints(observation: Observation) -> list[int]:
     return dead
 
 
-def _dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+def dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+    """A line on each joint whose torque is not connected."""
     return [
         f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
         "used; is it connected? if it has no motor, mark it passive in the robot file (mu = 0)"
@@ -202,8 +203,12 @@ def _dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
     ]
 
 
-def _check_enough_rows(observation: Observation, equations: Equations, rows: int) -> None:
-    columns = len(equations.names)
+def check_enough_rows(observation: Observation, columns: int, rows: int) -> None:
+    """Refuse fewer rows than parameters.
+
+    Raises:
+        DataError: there are.
+    """
     if rows < columns:
         raise DataError(
             f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
@@ -211,14 +216,18 @@ def _check_enough_rows(observation: Observation, equations: Equations, rows: int
         )
 
 
-def _parameters(
+def parameters_of(
     estimate: Estimate, essential: Essential, equations: Equations, sigma: np.ndarray
 ) -> tuple[ParameterEstimate, ...]:
+    """The values of an estimate, by name."""
     labels = list(zip(equations.names, equations.units, strict=True))
     return estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
 
 
-def _joints(observation: Observation, data: Compressed, estimate: Estimate) -> tuple[JointFit, ...]:
+def joints_of(
+    observation: Observation, data: Compressed, estimate: Estimate
+) -> tuple[JointFit, ...]:
+    """What an estimate leaves of each joint."""
     residual, torque = data.residual_norms(estimate.beta), data.torque_norms()
     return tuple(
         JointFit(
@@ -233,13 +242,15 @@ def _joints(observation: Observation, data: Compressed, estimate: Estimate) -> t
     )
 
 
-def _status(estimate: Estimate) -> str:
+def status_of(estimate: Estimate) -> str:
+    """In a word."""
     if estimate.rank.aside:
         return "rank deficient"
     return "ok" if estimate.settled else "not settled"
 
 
-def _sentences(estimate: Estimate, essential: Essential) -> list[str]:
+def sentences_of(estimate: Estimate, essential: Essential) -> list[str]:
+    """What a reader must know of an estimate."""
     said = [tangle.sentence() for tangle in estimate.rank.aside]
     if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
         said.append(

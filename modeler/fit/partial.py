@@ -1,6 +1,6 @@
 """One chunk of a long log, reduced to what a fit needs of it: pure functions, for any worker."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import TYPE_CHECKING
@@ -10,13 +10,19 @@ import numpy as np
 from modeler.estimate.compressed import Compressed, compress, merged
 from modeler.observation.chunk import Chunk
 from modeler.observation.facts import Facts
-from modeler.observation.motion import Segment
 from modeler.observation.seen import Chosen, seen
 from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
+
+_SAMPLES = (
+    4096  # evaluated at a time: with 6 joints x 48 columns 9 MB, which the caches hold in part
+)
+_HELD = 10_000  # rows after which they become a triangle
+
+_Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,38 +64,41 @@ def merge_all(parts: Iterable[Partial]) -> Partial:
 
 
 def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
-    """Triangles of some stretches, a block of rows after the other: W is never there as a whole."""
-    data, free = none_of(model), _free(model)
-    for part in stretches:
-        if not part.used.any():
-            continue
-        s, read = part.segment, signals_of(model.spec, part.segment)
+    """Triangles of some stretches; W is never there as a whole."""
+    data, held, rows = none_of(model), list[_Rows](), 0
+    for block in (block for part in stretches for block in _blocks(model, part)):
+        held.append(block)
+        rows += len(block[1])
+        if rows > _HELD:
+            data, held, rows = merged(data, _of(held, data)), [], 0
+    return merged(data, _of(held, data)) if held else data
 
-        def columns(w: slice, s: Segment = s, read: np.ndarray | None = read) -> np.ndarray:
-            return model.base_regressor(
-                s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w]
-            )
 
-        def tau(w: slice, s: Segment = s) -> np.ndarray:
-            return s.tau[w]
+def _blocks(model: "CompiledModel", part: Stretch) -> Iterator[_Rows]:
+    """The rows of a stretch that count: W, y and joint."""
+    if not part.used.any():
+        return
+    s, read = part.segment, signals_of(model.spec, part.segment)
 
-        torque = part.filtered(tau)
-        for rows, W in part.blocks(columns):
-            used = part.used[rows]
-            own = compress(
-                W[used], torque[rows][used], np.nonzero(used)[1], len(data.rows), data.names, free
-            )
-            data = merged(data, own)
-    return data
+    def columns(w: slice) -> np.ndarray:
+        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
+
+    torque = part.filtered(lambda w: s.tau[w])
+    for rows, W in part.blocks(columns, _SAMPLES):
+        used = part.used[rows]
+        yield W[used], torque[rows][used], np.nonzero(used)[1]
+
+
+def _of(held: Sequence[_Rows], like: Compressed) -> Compressed:
+    """Triangles of some rows."""
+    W, y, joint = (np.concatenate(values) for values in zip(*held, strict=True))
+    free = [int(j) for j in np.flatnonzero(like.free)]
+    return compress(W, y, joint, len(like.rows), like.names, free)
 
 
 def none_of(model: "CompiledModel") -> Compressed:
     """The triangles of no rows."""
-    names = [base.name for base in model.spec.base]
+    names, joints = [base.name for base in model.spec.base], model.spec.joints
+    free = [j for j, joint in enumerate(joints) if not joint.actuated]
     nothing = np.empty((0, len(names)))
-    joints = len(model.spec.joints)
-    return compress(nothing, np.empty(0), np.empty(0, dtype=int), joints, names, _free(model))
-
-
-def _free(model: "CompiledModel") -> list[int]:
-    return [j for j, joint in enumerate(model.spec.joints) if not joint.actuated]
+    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)

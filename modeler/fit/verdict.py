@@ -48,6 +48,7 @@ def with_verdict(
     told: Sequence[Told] = (),
     bare: Sequence[str] | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
+    data: Compressed | None = None,
 ) -> FitResult:
     """The fit with its verdict.
 
@@ -64,10 +65,12 @@ def with_verdict(
         told: findings of other stages about the logs; one that is certain makes the fit unusable.
         bare: names of the logs without a load; None: all.
         refit: how the fit is made without some samples; None: by least squares of the torques.
+        data: all rows that were fitted, where the observation has a part of them only.
     """
     rows = _rows(observation, bare)
     sigma = np.array([joint.sigma for joint in result.joints])
-    data = compressed(observation, rows)
+    if data is None:
+        data = compressed(observation, rows)
     seen = crossed(observation, rows, sigma, refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)

@@ -88,6 +88,7 @@ class CsvBlocks:
             try:
                 return pa.csv.read_csv(pa.py_buffer(text), options, convert_options=convert)
             except pa.ArrowInvalid as error:
+                check_unchanged(self._path, self._state)
                 # As in a file that is read whole, the header is row 1.
                 told_row = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}",
                                   str(error))  # fmt: skip

@@ -37,10 +37,13 @@ class Chunk:
 
     @property
     def span(self) -> tuple[float, float]:
-        """s, from its first own row to before the first row after it; open at the log's ends."""
-        time = self.log.time
-        start = -np.inf if self.number == 0 else float(time[self.own.start])
-        return start, np.inf if self.last else float(time[self.own.stop])
+        """s, between its own rows and those beside them; open at the log's ends.
+
+        In the middle of two rows, as samples of a uniform grid lie on rows but for rounding.
+        """
+        time, own = self.log.time, self.own
+        start = -np.inf if self.number == 0 else float(time[own.start - 1 : own.start + 1].mean())
+        return start, np.inf if self.last else float(time[own.stop - 1 : own.stop + 1].mean())
 
     @property
     def rows(self) -> int:
@@ -101,6 +104,22 @@ def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
         held = [log]
         yield _chunk(log, first, number, own, beside, first + rows <= (number + 1) * own)
         number += 1
+
+
+def chunks_between(source: Source, numbers: range, own: int, beside: int) -> Iterator[Chunk]:
+    """Some of those chunks, of a log whose rows can be read from anywhere; the same to the bit.
+
+    Args:
+        source: whose windows begin at the very row that is asked for.
+        numbers: of the chunks, from 0, one after the other.
+        own: as of `chunks`.
+        beside: as of `chunks`.
+    """
+    start = max(0, numbers[0] * own - beside)
+    stop = min((numbers[-1] + 1) * own + beside, source.rows)
+    log = source.window((start + 0.5) / source.rows, stop - start)
+    for number in numbers:
+        yield _chunk(log, start, number, own, beside, source.rows <= (number + 1) * own)
 
 
 def _chunk(log: Log, first: int, number: int, own: int, beside: int, last: bool) -> Chunk:

@@ -24,6 +24,7 @@ class Facts:
         clipped: (2, J) the largest of the lower and the smallest of the upper torques that were
             taken for a limit of the drive; NaN without any.
         awake: shafts that stood still where choices were made and move here -> top speed.
+        open_times: s, of samples with which the loops cannot be closed.
         span: s, first and last row.
     """
 
@@ -34,6 +35,7 @@ class Facts:
     fingers: tuple[bytes, ...]
     clipped: np.ndarray
     awake: Mapping[str, float]
+    open_times: tuple[float, ...]
     span: tuple[float, float]
 
     def over(self, later: "Facts") -> "Facts":
@@ -50,6 +52,7 @@ class Facts:
             clipped=np.stack([np.fmax(*low), np.fmin(*high)]),
             awake={name: max(self.awake.get(name, 0.0), later.awake.get(name, 0.0))
                    for name in {**self.awake, **later.awake}},
+            open_times=self.open_times + later.open_times,
             span=(self.span[0], later.span[1]),
         )  # fmt: skip
 

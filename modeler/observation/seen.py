@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.observation.chunk import Chunk
+from modeler.observation.closable import closed
 from modeler.observation.consistency import Consistency, Contradiction, consistency
 from modeler.observation.damage import Defects, Usual, defects
 from modeler.observation.dry_friction import IDLE_TRAVEL, TOP, Shaft, moving
@@ -67,12 +68,11 @@ def seen(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> tuple[tuple[St
     log = chunk.log if processing.keep_damaged else mended
     pieces, _ = split(log, chosen.run, chosen.logged, chosen.extremes)
     pieces, check = _checked(log, pieces, chosen)
-    segments = [segment_of(piece, processing) for piece in pieces]
-    left_out = [p for p, segment in zip(pieces, segments, strict=True) if segment is None]
-    stretches = tuple(
-        part for segment in segments if segment is not None
-        for part in [_stretch(segment, chunk, chosen)]
-    )  # fmt: skip
+    filtered = [segment_of(piece, processing) for piece in pieces]
+    left_out = [p for p, segment in zip(pieces, filtered, strict=True) if segment is None]
+    both = [closed(model, segment) for segment in filtered if segment is not None]
+    segments = [segment for segment, _ in both]
+    stretches = tuple(_stretch(segment, chunk, chosen) for segment in segments)
     own = cut(chunk.log, chunk.own)
     return stretches, Facts(
         tally=tally(chunk, pieces, stretches, left_out, check),
@@ -82,6 +82,7 @@ def seen(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> tuple[tuple[St
         fingers=_fingers(own),
         clipped=_clipped(chunk.log, pieces),
         awake=_awake(segments, chosen),
+        open_times=_open_times(both, chunk),
         span=(float(own.time[0]), float(own.time[-1])),
     )
 
@@ -167,7 +168,14 @@ def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
     return found
 
 
-def _awake(segments: Sequence[Segment | None], chosen: Chosen) -> dict[str, float]:
+def _open_times(both: Sequence[tuple[Segment, np.ndarray]], chunk: Chunk) -> tuple[float, ...]:
+    """s, of its own samples with which the loops cannot be closed."""
+    start, stop = chunk.span
+    times = [segment.time[open_ & segment.whole] for segment, open_ in both if open_.any()]
+    return tuple(float(t) for own in times for t in own if start <= t < stop)
+
+
+def _awake(segments: Sequence[Segment], chosen: Chosen) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
     floors = chosen.processing.speed_floors or {}
     moves: dict[str, float] = {}
@@ -175,7 +183,7 @@ def _awake(segments: Sequence[Segment | None], chosen: Chosen) -> dict[str, floa
         if floors[part.name] < float("inf"):
             continue
         for s in segments:
-            if s is None or not s.whole.any():
+            if not s.whole.any():
                 continue
             if np.ptp(part.speed(s.q[s.whole])) >= IDLE_TRAVEL[part.unit]:
                 top = float(np.quantile(np.abs(part.speed(s.qd[s.whole])), TOP))

@@ -95,10 +95,7 @@ def split(
     """
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
-    ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    clipped = np.column_stack(
-        [saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)]
-    )
+    clipped = _clipped(log, extremes)
     step = log.step
     steps = np.diff(log.time[rows])
     cut = steps > GAP * step
@@ -116,6 +113,11 @@ def split(
         short=sum(len(group) for group in groups if len(group) < _LEAST),
     )
     return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
+
+
+def _clipped(log: Log, extremes: Sequence[tuple[float, float] | None] | None) -> np.ndarray:
+    ends = [None] * log.tau.shape[1] if extremes is None else extremes
+    return np.column_stack([saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)])
 
 
 def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:

@@ -108,6 +108,7 @@ def _log_report(model: "CompiledModel", source: Source, k: int, passes: Passes) 
         content=_content(source, facts),
         span=facts.span,
         torque_source=first.torque_source,
+        open_times=facts.open_times,
     )  # fmt: skip
 
 

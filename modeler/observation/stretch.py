@@ -35,15 +35,17 @@ class Stretch(Brief):
         """
         return np.concatenate([values for _, values in self.blocks(evaluate)])
 
-    def blocks(self, evaluate: Callable[[slice], np.ndarray]) -> Iterator[tuple[slice, np.ndarray]]:
-        """The same block by block: which rows, and their values."""
-        for part, window, rows in self._blocks():
+    def blocks(
+        self, evaluate: Callable[[slice], np.ndarray], samples: int = _BLOCK
+    ) -> Iterator[tuple[slice, np.ndarray]]:
+        """The same, about so many samples at a time: which rows, and their values."""
+        for part, window, rows in self._blocks(samples):
             yield rows, self._means(part, evaluate(window), window, self.used[rows])
 
-    def _blocks(self) -> Iterator[tuple[RowFilter, slice, slice]]:
+    def _blocks(self, samples: int) -> Iterator[tuple[RowFilter, slice, slice]]:
         centres = self.rows.centres
         decimation = int(centres[1] - centres[0]) if len(centres) > 1 else 1
-        count = max(1, _BLOCK // decimation)
+        count = max(1, samples // decimation)
         for first in range(0, len(centres), count):
             rows = slice(first, min(first + count, len(centres)))
             window = self.rows.window(rows)

@@ -58,32 +58,41 @@ def tally(
         left_out: the other pieces.
         check: of its logged derivatives.
     """
-    joints = len(chunk.log.joints)
-    none = np.zeros(joints, dtype=int)
+    none = np.zeros(len(chunk.log.joints), dtype=int)
+    own = [_own(chunk, piece) for piece in pieces]
+    clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, own, strict=True)]
+    bad = () if check is None else check.bad
     sums: dict[str, Any] = {
         **_of_rows(chunk, pieces, left_out),
         **{f"missing {name}": count for name, count in missing(chunk).items()},
-        "samples": sum(len(part.rows.centres) for part in stretches),
-        "clipped": sum((piece.clipped[_own(chunk, piece)].sum(axis=0) for piece in pieces), none),
-        "contradicted": 0 if check is None else sum(
-            int(bad[_own(chunk, piece)].sum())
-            for bad, piece in zip(check.bad, pieces, strict=True)
-        ),
-        "used": sum((part.used.sum(axis=0) for part in stretches), none),
-    }  # fmt: skip
-    sums["full"] = 0
-    for name in ("valid", "usable", *CAUSES):
-        sums[name] = none
-    for part in stretches:
-        own = _own(chunk, part.segment)
-        s = part.segment
-        sums["full"] = sums["full"] + int(own.sum())
-        sums["valid"] = sums["valid"] + s.valid[own].sum(axis=0)
-        sums["usable"] = sums["usable"] + part.usable[own].sum(axis=0)
-        assert s.cause is not None
-        for k, cause in enumerate(CAUSES):
-            sums[cause] = sums[cause] + (s.cause[own] == k).sum(axis=0)
+        "clipped": sum(clipped, none),
+        "contradicted": sum(int(flags[rows].sum()) for flags, rows in zip(bad, own, strict=False)),
+        **_of_samples(chunk, stretches, none),
+    }
     return Tally(sums, {"jitter": _jitter(chunk.log), "gap": _gaps(chunk)[1]})
+
+
+def _of_samples(chunk: Chunk, stretches: Sequence[Stretch], none: np.ndarray) -> dict[str, Any]:
+    sums: dict[str, Any] = {"samples": 0, "full": 0}
+    sums |= {name: none for name in ("used", "valid", "usable", *CAUSES)}
+    for part in stretches:
+        s, rows = part.segment, _slice(_own(chunk, part.segment))
+        valid = s.valid[rows].sum(axis=0)
+        assert s.cause is not None
+        counts = {"valid": valid, "usable": part.usable[rows].sum(axis=0),
+                  "used": part.used.sum(axis=0), "samples": len(part.rows.centres),
+                  "full": rows.stop - rows.start}  # fmt: skip
+        if (valid < counts["full"]).any():
+            cause = s.cause[rows]
+            counts |= {name: (cause == k).sum(axis=0) for k, name in enumerate(CAUSES)}
+        sums |= {name: sums[name] + count for name, count in counts.items()}
+    return sums
+
+
+def _slice(flags: np.ndarray) -> slice:
+    """The one stretch of True."""
+    rows = np.flatnonzero(flags)
+    return slice(int(rows[0]), int(rows[-1]) + 1) if rows.size else slice(0, 0)
 
 
 def _own(chunk: Chunk, part: Piece | Segment) -> np.ndarray:
@@ -144,7 +153,9 @@ def missing(chunk: Chunk) -> dict[str, int]:
         if values is None:
             continue
         for j, name in enumerate(log.joints):
-            column = log.torque_source[j].split()[0] if prefix == "tau" else f"{prefix}{name}"
+            column = f"{prefix}{name}"
+            if prefix == "tau" and log.torque_source:
+                column = log.torque_source[j].split()[0]
             if column != "0":  # of a passive joint
                 found[column] = int(np.isnan(values[chunk.own, j]).sum())
     return found

@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from modeler.logs.arrow import _columns
+from modeler.logs.arrow import arrow_columns
 
 COLUMNS = {
     "whole": pa.array([1, -2, 3, 4, 5], pa.int32()),
@@ -20,7 +20,7 @@ COLUMNS = {
 
 
 def numbers(column: pa.ChunkedArray) -> np.ndarray:
-    ((_, found),) = _columns(pa.table({"x": column})).columns
+    ((_, found),) = arrow_columns(pa.table({"x": column})).columns
     return found.numbers()
 
 
