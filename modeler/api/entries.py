@@ -25,6 +25,7 @@ from modeler.api.exciting import excite as excite
 from modeler.api.exciting import tell_apart as tell_apart
 from modeler.api.files import open_model as open_model
 from modeler.api.files import save as save
+from modeler.api.fleets import fleet as fleet
 from modeler.api.freeruns import free_run as free_run
 from modeler.api.gains import Load as Load
 from modeler.api.gains import fit_gains as fit_gains
@@ -48,6 +49,7 @@ from modeler.diagnose import Diagnosis as Diagnosis
 from modeler.fit import FitResult as FitResult
 from modeler.fit import IdentifiedModel as IdentifiedModel
 from modeler.fit import Payload as Payload
+from modeler.fleet import Fleet as Fleet
 from modeler.freerun import Asked as Asked
 from modeler.observation import Log as Log
 from modeler.observation import Observation as Observation

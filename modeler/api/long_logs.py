@@ -10,7 +10,7 @@ from modeler.core.errors import DataError
 from modeler.derivation import Derivation
 from modeler.fit import FitResult, IdentifiedModel, Method, with_verdict
 from modeler.fit.long import OF_TRIANGLES, identify_long
-from modeler.fit.streamed import Streamed, stream
+from modeler.fit.streamed import Reducer, Streamed, stream
 from modeler.logs.blocks import blocks_of
 from modeler.observation import Log, Processing
 from modeler.observation.findings import findings_of_fit
@@ -90,6 +90,7 @@ def fit_long(
     method: Method = "weighted",
     processing: Processing | None = None,
     progress: Callable[[float], None] = lambda share: None,
+    reducer: Reducer | None = None,
 ) -> tuple[IdentifiedModel, Streamed]:
     """The fitted model of logs of any length, in flat memory; see `fit.streamed.stream`.
 
@@ -101,11 +102,12 @@ def fit_long(
         method: "weighted" or "ordinary".
         processing: None: automatic.
         progress: is told the share of the rows that are done.
+        reducer: of one log; None: threads of this process. See `api.spread`.
 
     Raises:
         DataError: see `stream` and `identify_long`.
     """
-    streamed = stream(compiled, sources, processing, progress)
+    streamed = stream(compiled, sources, processing, progress, reducer=reducer)
     _check_apart(streamed)
     result = judged_long(compiled, streamed, method)
     return identified(derivation, emitted, streamed.observation, result), streamed

@@ -128,9 +128,10 @@ def _all_logs(
 ) -> Iterator[Partial]:
     """All chunks of each log in one."""
     total, done = max(1, sum(source.rows for source in sources)), 0
-    for source, chosen in zip(sources, found.chosen, strict=True):
+    begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
+    for source, partials in zip(sources, begun, strict=True):
         whole: Partial | None = None
-        for partial in reducer(model, source, chosen):
+        for partial in partials:
             whole = partial if whole is None else merge(whole, partial)
             rows = whole.facts.tally.count("rows")
             progress(min(1.0, (done + rows) / total))

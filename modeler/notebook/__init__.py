@@ -14,6 +14,7 @@ def register() -> None:
     present_later(("FitResult", "IdentifiedModel", "Addition", "SideBySide"), _models)
     present_later(("Contest", "Comparison", "Diagnosis"), _judgements)
     present_later(("FreeRun",), _free_runs)
+    present_later(("Fleet",), _fleets)
 
 
 def _robots() -> None:
@@ -44,3 +45,9 @@ def _free_runs() -> None:
     from modeler.notebook.freeruns import present_free_runs
 
     present_free_runs()
+
+
+def _fleets() -> None:
+    from modeler.notebook.fleets import present_fleets
+
+    present_fleets()

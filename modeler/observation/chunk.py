@@ -106,6 +106,22 @@ def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
         number += 1
 
 
+def chunks_between(source: Source, numbers: range, own: int, beside: int) -> Iterator[Chunk]:
+    """Some of those chunks, of a log whose rows can be read from anywhere; the same to the bit.
+
+    Args:
+        source: whose windows begin at the very row that is asked for.
+        numbers: of the chunks, from 0, one after the other.
+        own: as of `chunks`.
+        beside: as of `chunks`.
+    """
+    start = max(0, numbers[0] * own - beside)
+    stop = min((numbers[-1] + 1) * own + beside, source.rows)
+    log = source.window((start + 0.5) / source.rows, stop - start)
+    for number in numbers:
+        yield _chunk(log, start, number, own, beside, source.rows <= (number + 1) * own)
+
+
 def _chunk(log: Log, first: int, number: int, own: int, beside: int, last: bool) -> Chunk:
     start, stop = number * own, min((number + 1) * own, first + log.rows)
     low, high = max(first, start - beside), min(stop + beside, first + log.rows)

@@ -11,7 +11,7 @@ import numpy as np
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.logs import LogMap, Table
-from modeler.logs.blocks import Blocks, blocks_of
+from modeler.logs.blocks import Blocks, ParquetBlocks, blocks_of
 from modeler.logs.table import Part
 from modeler.observation.log import Log
 from modeler.observation.read import backwards, log_of, needed
@@ -65,6 +65,16 @@ class FileSource:
     def name(self) -> str:
         """Of the file."""
         return self._path.name
+
+    @property
+    def place(self) -> tuple[Path, LogMap | None]:
+        """The file, and whose column is which: what makes this source again elsewhere."""
+        return self._path, self._mapping
+
+    @property
+    def exact(self) -> bool:
+        """True if a window begins at the very row that its share means."""
+        return isinstance(self._blocks, ParquetBlocks)
 
     @property
     def rows(self) -> int:
