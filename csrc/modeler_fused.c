@@ -383,10 +383,14 @@ static void append_all(shaft *joint, const double *values, const double *torque,
                        const unsigned char *use)
 {
     double *place = joint->tile + joint->filled;
+    size_t used = 0;
+    for (size_t lane = 0; lane < MODELER_LANES; lane++)
+        used += use[lane];
     for (int k = 0; k <= joint->entries; k++, place += joint->stride) {
         const double *from = k < joint->entries ? values + k * MODELER_LANES : torque;
-        for (size_t lane = 0; lane < MODELER_LANES; lane++)
-            place[lane] = use[lane] ? from[lane] : 0.0;
+        memcpy(place, from, MODELER_LANES * sizeof *place);
+        for (size_t lane = 0; lane < MODELER_LANES && used < MODELER_LANES; lane++)
+            place[lane] = use[lane] ? place[lane] : 0.0;
     }
     joint->filled += MODELER_LANES;
 }

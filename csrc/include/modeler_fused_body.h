@@ -179,12 +179,13 @@ TARGET static void OWN(absorb)(size_t rows, size_t stride, size_t p, double *R, 
     }
 }
 
-/* out[i*p + j] += early_i . late_j, over p columns each; early need not be aligned. */
+/* out[i*p + j] += early_i . late_j, over p columns each; early need not be aligned. Where both are
+ * the same, half of them are made and the others copied. */
 TARGET static void OWN(products_of)(size_t rows, size_t stride, size_t p, const double *early,
                                     const double *late, double *out)
 {
     for (size_t i = 0; i < p; i += 4)
-        for (size_t j = 0; j < p; j += COLUMNS) {
+        for (size_t j = early == late ? i : 0; j < p; j += COLUMNS) {
             const double *x0 = early + i * stride, *x1 = x0 + stride;
             const double *x2 = x1 + stride, *x3 = x2 + stride;
             const double *c0 = late + j * stride, *c1 = c0 + stride;
@@ -222,6 +223,9 @@ TARGET static void OWN(products_of)(size_t rows, size_t stride, size_t p, const 
             for (size_t k = 0; k < 4; k++)
                 for (size_t l = 0; l < COLUMNS; l++)
                     out[(i + k) * p + j + l] += d[l][k];
+            for (size_t k = 0; k < 4 && early == late && j >= i + 4; k++)
+                for (size_t l = 0; l < COLUMNS; l++)
+                    out[(j + l) * p + i + k] += d[l][k];
         }
 }
 

@@ -1,9 +1,9 @@
 /* Sine and cosine at once, in single precision: float alone, no function of <math.h>.
  *
  * Straight-line code. For |x| < 1e5 the error is below 1e-7, and below 2 units in the last place
- * where |x| < 100. At 1e5 neighbouring floats are 0.008 rad apart, so no angle of a robot is
- * beyond: there both are NaN. Reduction by pi/2 in three parts (Cody, Waite); polynomials on
- * [-pi/4, pi/4]: Cephes (Moshier, 1992).
+ * of results above 0.001 where |x| < 100. At 1e5 neighbouring floats are 0.008 rad apart, so no
+ * angle of a robot is beyond: there both are NaN. Reduction by pi/2 in three parts (Cody, Waite);
+ * polynomials on [-pi/4, pi/4]: Cephes (Moshier, 1992).
  */
 #ifndef MODELER_SINCOS_H
 #define MODELER_SINCOS_H

@@ -34,7 +34,7 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "727c57e4f079db9d";
+    return "faf49399377e8984";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

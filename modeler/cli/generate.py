@@ -55,10 +55,10 @@ def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitt
         from modeler.api.chain import generate as generate_of_model
 
         with working(f"deriving {model.spec.robot}"):
-            return generate_of_model(model, args.out, args.force, args.precision)
+            return generate_of_model(model, args.out, args.force, precision=args.precision)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
-        return generate(derive(robot), args.out, args.force, args.precision)
+        return generate(derive(robot), args.out, args.force, precision=args.precision)
 
 
 def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:

@@ -52,9 +52,9 @@ class Reducing:
             state: of earlier samples, which these are added to.
         """
         given = self._measured((q, qd, qdd, tau, weight), use, s)
-        if self.spec.closure is not None:
-            return of_dense(self._pattern, partial(self._closed, given), given, state)
-        return of_samples(self._pattern, self._entries, given, state)
+        if not self.emits_entries:
+            return of_dense(self.pattern, partial(self._dense, given), given, state)
+        return of_samples(self.pattern, self._entries, given, state)
 
     def products(
         self, q: Any, qd: Any, qdd: Any, tau: Any, last: Any, use: Any = None, s: Any = None,
@@ -78,12 +78,15 @@ class Reducing:
             first: smallest k.
 
         Raises:
-            ManifestError: the robot has loops.
+            ManifestError: the robot has loops, or its C is in single precision.
         """
-        if self.spec.closure is not None:
-            raise ManifestError(f"{self.spec.robot} has loops: products of rows are not emitted")
+        if not self.emits_entries:
+            raise ManifestError(
+                f"{self.spec.robot}: products of rows need the entries of the base regressor in "
+                "double precision, which this C has not; use triangles"
+            )
         given = self._measured((q, qd, qdd, tau, None), use, s)
-        return products_of_samples(self._pattern, self._entries, given, np.asarray(last), first)
+        return products_of_samples(self.pattern, self._entries, given, np.asarray(last), first)
 
     def _measured(self, values: tuple[Any, Any, Any, Any, Any], use: Any, s: Any) -> Samples:
         """Checked arrays; values may be not finite, and the last of them None."""
@@ -105,16 +108,22 @@ class Reducing:
         return Functions(self._library.address(name), len(self.spec.signals))
 
     @cached_property
-    def _pattern(self) -> Pattern:
+    def pattern(self) -> Pattern:
+        """Which columns can enter the torque of each joint."""
         return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
 
-    def _closed(self, given: Samples, block: slice) -> tuple[np.ndarray, np.ndarray]:
-        """The base regressor of a block, and where the loops do not close."""
+    @property
+    def emits_entries(self) -> bool:
+        """True if the C has the entries of the base regressor alone, in double precision."""
+        return self.spec.closure is None and self.spec.precision == "double"
+
+    def _dense(self, given: Samples, block: slice) -> tuple[np.ndarray, np.ndarray]:
+        """The base regressor of a block, and where it has no value: loops may not close."""
         function, part = self._functions["base_regressor"], given.part(block)
         out = np.zeros((len(part.q), *function.outputs[0].shape))
         status = np.zeros(len(out), dtype=np.intc)
         states = [array for array in (part.q, part.qd, part.qdd, part.s) if array is not None]
-        self._library.batch(function, states, out, status)
+        self._library.batch(function, states, out, status if function.status else None)
         return out, status != 0
 
     def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:

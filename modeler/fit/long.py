@@ -108,7 +108,7 @@ def _coloured(
     """
     influence = estimate.influence
     if influence is not None:
-        influence = dataclasses.replace(influence, pull=influence.pull / share)
+        influence = influence.times(1.0 / share)
     scaled = dataclasses.replace(
         estimate, covariance=estimate.covariance / share, influence=influence
     )

@@ -10,8 +10,9 @@ from scipy.special import chdtri
 
 from modeler.core.contract import ModuleSpec
 from modeler.estimate.coloured import autocorrelation
-from modeler.estimate.compressed import Compressed, compress
+from modeler.estimate.compressed import Compressed
 from modeler.estimate.least_squares import solve_by_qr
+from modeler.estimate.passing import compressed, residual_of
 from modeler.estimate.possible import Nearest, carried_by, machine_of, nearest_possible
 from modeler.fit.clock import time_doubts
 from modeler.fit.crossed import Crossed, crossed
@@ -68,9 +69,8 @@ def with_verdict(
     """
     rows = _rows(observation, bare)
     sigma = np.array([joint.sigma for joint in result.joints])
-    W, y, joint = observation.W[rows], observation.y[rows], observation.row_joint[rows]
     if data is None:
-        data = compress(W, y, joint, len(sigma), observation.names)
+        data = compressed(observation, rows)
     seen = crossed(observation, rows, sigma, refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
@@ -104,7 +104,7 @@ def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:
 
 def _lasting(observation: Observation, rows: np.ndarray, result: FitResult) -> np.ndarray:
     """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
-    residual = observation.y - observation.W @ result.beta
+    residual = residual_of(observation, result.beta)
     found = np.zeros(len(result.joints))
     for j, joint in enumerate(result.joints):
         own = rows & (observation.row_joint == j)

@@ -17,7 +17,7 @@ from modeler.hypotheses.rows import Columns, Rows, rows_of
 from modeler.hypotheses.signals import Reference
 from modeler.hypotheses.tilt import frame_slopes, tilt_weights
 from modeler.observation import Observation
-from modeler.scoring.gram import Base, Pool, base_of, pool_of, sigma_of
+from modeler.scoring.gram import Base, Pool, base_of, folded, pool_of, sigma_of
 from modeler.scoring.rank import Ranking, Sifted, rank, sifted
 from modeler.scoring.reduced import Reduced, Reduction, reduction
 
@@ -160,6 +160,11 @@ class State(Brief):
         return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
 
     @cached_property
+    def folded(self) -> Base:
+        """The same by folds."""
+        return folded(self.base)
+
+    @cached_property
     def reduced(self) -> Reduced:
         """The rows of the model so far, reduced to few."""
         return self.data.reduction.beside(self.extra)
@@ -223,7 +228,7 @@ class State(Brief):
 
     def sifted(self, every: Sequence[Columns]) -> Sifted:
         """Falls and values of candidates by their columns, in sums."""
-        return sifted(self.base.folded, pool_of(self.base.folded, every))
+        return sifted(self.folded, pool_of(self.folded, every))
 
     def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
         """Candidates by their columns."""

@@ -99,7 +99,7 @@ def test_every_set_of_instructions_agrees_to_rounding():
     address = model._library.address(f"{model.spec.prefix}_base_regressor_nonzeros")
     rows = stacked(model, q, qd, qdd, tau)
     found = [
-        fused.of_samples(model._pattern, fused.Functions(address), given, level=level).triangles
+        fused.of_samples(model.pattern, fused.Functions(address), given, level=level).triangles
         for level in levels()
     ]
     for own in found:

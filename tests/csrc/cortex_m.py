@@ -40,7 +40,7 @@ def command(cpu: str) -> list[str]:
     return [tool("arm-none-eabi-gcc"), *flags]
 
 
-def library(emitted: Emitted, folder: Path, cpu: str) -> list[Path]:
+def library(emitted: Emitted, folder: Path, cpu: str, *more: str) -> list[Path]:
     """Objects of the library, compiled without a warning."""
     objects = []
     for name in emitted.spec.sources:
@@ -48,7 +48,7 @@ def library(emitted: Emitted, folder: Path, cpu: str) -> list[Path]:
     for name in emitted.spec.sources:
         if name.endswith(".c"):
             objects.append(folder / f"{name}.{cpu}.o")
-            flags = [*STRICT, "-ffunction-sections", "-c", folder / name, "-o", objects[-1]]
+            flags = [*STRICT, *more, "-ffunction-sections", "-c", folder / name, "-o", objects[-1]]
             subprocess.run([*command(cpu), *flags], check=True)
     return objects
 
@@ -93,11 +93,10 @@ def run(
     program = folder / "main.elf"
     build = [*command(cpu), *board, "-o", program, folder / "main.c", *objects, "-lm"]
     subprocess.run(build, check=True)
-    said = output(
-        [tool("qemu-system-arm"), "-M", CPUS[cpu][1], "-display", "none", "-serial", "none"]
-        + ["-monitor", "none", "-chardev", "stdio,id=out", "-semihosting-config"]
-        + ["enable=on,target=native,chardev=out", "-kernel", str(program)]
-    )
+    machine = [tool("qemu-system-arm"), "-M", CPUS[cpu][1], "-display", "none", "-serial", "none"]
+    machine += ["-monitor", "none", "-chardev", "stdio,id=out"]
+    machine += ["-semihosting-config", "enable=on,target=native,chardev=out"]
+    said = output([*machine, "-kernel", str(program)])
     return arrays(said.split(), calls, np.dtype("<f4" if number == "float" else "<f8"))
 
 

@@ -58,6 +58,14 @@ def test_no_routine_of_double_precision_is_wanted(name, cpu, tmp_path):
 
 
 @pytest.mark.slow
+def test_sines_of_the_library_are_not_wanted_where_angles_are_bounded(tmp_path):
+    double = emitted("puma560", "double")
+    assert {"sin", "cos"} <= undefined(library(double, tmp_path, "cortex-m7"))
+    bounded = library(double, tmp_path, "cortex-m7", "-DMODELER_BOUNDED_ANGLES")
+    assert undefined(bounded) <= {"memset", "memcpy"}
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cpu", "precision", "bound"),
     [("cortex-m4", "single", 1e-6), ("cortex-m7", "single", 1e-6), ("cortex-m7", "double", 1e-14)],
