@@ -102,7 +102,7 @@ PACKAGES: dict[str, set[str]] = {
 ONLY_IN = {
     "jinja2": ("codegen/render.py", "pages/render.py"),
     "cupy": ("compiled/gpu.py",),
-    "cffi": ("compiled/bind.py", "compiled/bind_fused.py"),
+    "cffi": ("compiled/bind.py", "compiled/bind_fused.py", "compiled/bind_tile.py"),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
