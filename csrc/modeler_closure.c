@@ -8,7 +8,7 @@
 #define EVALUATIONS 1000  /* of all equations and their derivatives, at most */
 #define NEWTON 12         /* corrections of one step, at most */
 #define CONVERGED 1e-8    /* a correction after which the error is its square */
-#define EXACT 5e-14       /* a correction that is not worth making */
+#define EXACT 1e-14       /* a correction that is not worth making */
 #define POLISHED 2        /* corrections after CONVERGED, at most: rounding may be above EXACT */
 #define FLAT 1e-11        /* pivots below this share of the largest are zero */
 #define INEXACT 1e-3      /* how far from closed a start may be, in its scale */
@@ -249,7 +249,7 @@ static int neared(const modeler_closure *loops, workspace *w, double allowed, do
             return 0;
         correct(loops, w);
         const double rate = round > 0 ? size / before : TURNING * length;
-        if (!(size * rate > 0.01 * EXACT) || (round > 0 && rate > NEAR))
+        if (!(size * rate > 0.1 * EXACT) || (round > 0 && rate > NEAR))
             return 1;
         before = size;
     }

@@ -3,7 +3,7 @@
     ud = G qd,  udd = G qdd - J_solved^-1 d/dt(J) ud,  phi = G^T phi_tree(u, ud, udd)
 
 One expression graph shares what drift and regressor have in common, leaves out zeros of G and of
-the tree's regressor, and reads the sines and cosines that the closure equations have computed already.
+the tree's regressor, and reads the sines and cosines that the closure equations have computed.
 """
 
 from collections.abc import Mapping, Sequence
