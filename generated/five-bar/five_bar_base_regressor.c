@@ -60,6 +60,7 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     phi[2] = -t2;
     const double t3 = qdd[0] + qdd[1];
     phi[3] = t3;
+    phi[14] = t3;
     const double t4 = t1 + five_bar_geo_L1*qdd[0];
     const double t5 = t2 - qd[0]*qd[0]*five_bar_geo_L1;
     const double t6 = c1*t4 - s1*t5;
@@ -68,10 +69,9 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     const double t9 = five_bar_geo_L1*s1;
     const double t10 = five_bar_geo_L1*c1;
     phi[4] = t3*t10 - t8*t9 + t6;
+    phi[15] = t6;
     const double t11 = c1*t5 + s1*t4;
     phi[5] = -(t3*t9 + t8*t10 + t11);
-    phi[14] = t3;
-    phi[15] = t6;
     phi[16] = -t11;
     phi[28] = qdd[2];
     const double t12 = five_bar_geo_g*c2;
@@ -80,9 +80,9 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     phi[30] = -t13;
     const double t14 = qdd[2] + qdd[3];
     phi[31] = t14;
+    phi[42] = t14;
     const double t15 = c3*(t13 - qd[2]*qd[2]*five_bar_geo_L3) + s3*(t12 + five_bar_geo_L3*qdd[2]);
     const double t16 = qd[2] + qd[3];
     phi[32] = -(five_bar_geo_L3*s3*t14 + t16*t16*(five_bar_geo_L3*c3) + t15);
-    phi[42] = t14;
     phi[43] = -t15;
 }

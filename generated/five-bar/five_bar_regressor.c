@@ -60,6 +60,7 @@ void five_bar_tree_regressor(const double *q, const double *qd, const double *qd
     phi[7] = -t2;
     const double t3 = qdd[0] + qdd[1];
     phi[15] = t3;
+    phi[55] = t3;
     const double t4 = t1 + five_bar_geo_L1*qdd[0];
     const double t5 = t2 - qd[0]*qd[0]*five_bar_geo_L1;
     const double t6 = c1*t4 - s1*t5;
@@ -68,12 +69,11 @@ void five_bar_tree_regressor(const double *q, const double *qd, const double *qd
     const double t9 = five_bar_geo_L1*s1;
     const double t10 = five_bar_geo_L1*c1;
     phi[16] = t3*t10 - t8*t9 + t6;
+    phi[56] = t6;
     const double t11 = c1*t5 + s1*t4;
     phi[17] = -(t3*t9 + t8*t10 + t11);
-    phi[19] = t11*t9 + t6*t10;
-    phi[55] = t3;
-    phi[56] = t6;
     phi[57] = -t11;
+    phi[19] = t11*t9 + t6*t10;
     phi[105] = qdd[2];
     const double t12 = five_bar_geo_g*c2;
     phi[106] = t12;
@@ -81,6 +81,7 @@ void five_bar_tree_regressor(const double *q, const double *qd, const double *qd
     phi[107] = -t13;
     const double t14 = qdd[2] + qdd[3];
     phi[115] = t14;
+    phi[155] = t14;
     const double t15 = t12 + five_bar_geo_L3*qdd[2];
     const double t16 = t13 - qd[2]*qd[2]*five_bar_geo_L3;
     const double t17 = c3*t15 - s3*t16;
@@ -89,10 +90,9 @@ void five_bar_tree_regressor(const double *q, const double *qd, const double *qd
     const double t20 = five_bar_geo_L3*s3;
     const double t21 = five_bar_geo_L3*c3;
     phi[116] = t14*t21 - t19*t20 + t17;
+    phi[156] = t17;
     const double t22 = c3*t16 + s3*t15;
     phi[117] = -(t14*t20 + t19*t21 + t22);
-    phi[119] = t22*t20 + t17*t21;
-    phi[155] = t14;
-    phi[156] = t17;
     phi[157] = -t22;
+    phi[119] = t22*t20 + t17*t21;
 }

@@ -34,7 +34,7 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "1382f595e1cf94e7";
+    return "faf49399377e8984";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

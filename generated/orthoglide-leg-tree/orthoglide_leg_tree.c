@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "86553d88db537a54";
+    return "aae79df9c0af9c00";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

@@ -59,7 +59,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "419476c0799145ec";
+    return "65f4114b0cd85d7d";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.49177.62479.45531) only what has the signature c019f40fb1db97f3.
-set(PACKAGE_VERSION 1.49177.62479.45531)
+# find_package(sr400 1.33361.3048.13344) only what has the signature 82510be834206ef9.
+set(PACKAGE_VERSION 1.33361.3048.13344)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -18,9 +18,6 @@ from modeler.codegen.fused import Turns, base_columns, fused_regressor, turns_of
 from modeler.core.contract import ArgumentSpec
 from modeler.symbolic import Closure, Expr, SymbolicModel
 
-_CLOSED = 1e-9
-"""Residual of a closed loop, relative to the robot's size."""
-
 PLATFORM = "platform_"
 
 
@@ -164,8 +161,14 @@ def _rows(solving: Solving, model: SymbolicModel, base: BaseParameters) -> Funct
     )  # fmt: skip
 
 
-def closure_tables(model: SymbolicModel, solving: Solving) -> dict[str, Any]:
-    """Numbers of the closures, as C initialisers."""
+def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dict[str, Any]:
+    """Numbers of the closures, as C initialisers.
+
+    Args:
+        model: with loops.
+        solving: how they are solved.
+        closed: residual of a closed loop, relative to the robot's size.
+    """
     closure, places = solving.closure, solving.pattern.places
     scales = [closure.size if long else 1.0 for long in closure.lengths]
     every = range(len(closure.home))
@@ -178,7 +181,7 @@ def closure_tables(model: SymbolicModel, solving: Solving) -> dict[str, Any]:
         "equations": solving.equations,
         "alignments": len(closure.alignments),
         # Where the robot is small, its directions are as exact as its lengths.
-        "tolerance": repr(_CLOSED * min(1.0, closure.size)),
+        "tolerance": repr(closed * min(1.0, closure.size)),
         "variables": ", ".join(joint.name for joint in model.robot.free),
         "nonzeros": len(places),
         "row": layout.number_lines([row for row, _ in places]),

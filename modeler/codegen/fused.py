@@ -101,7 +101,9 @@ def fused_regressor(
         for j, share in shares[k].items():
             at = j * base.rank + column
             phi[at] = phi.get(at, zero) + share * value
-    return tuple((at, value) for at, value in sorted(phi.items()) if not value.is_zero)
+    # Column after column: what a column reads is done with before the next one.
+    order = sorted(phi, key=lambda at: (at % base.rank, at))
+    return tuple((at, phi[at]) for at in order if not phi[at].is_zero)
 
 
 def replaced(

@@ -5,8 +5,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.codegen.examples import SELF_CHECK, call_head, example_values, examples_of
+from modeler.codegen.examples import (
+    COUNT,
+    SELF_CHECK,
+    call_head,
+    count_values,
+    example_values,
+    examples_of,
+)
 from modeler.codegen.render import render
+from modeler.codegen.single import of_precision
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
 C_INTERFACE = 1
@@ -57,12 +65,13 @@ def package_files(
         values: what all templates of the module are given.
     """
     prefix = spec.prefix
-    examples = examples_of(spec)
+    examples, count = examples_of(spec), count_values(spec)
     given = {
         **values,
         "package": _package(spec, code),
         "examples": examples,
         "programs": (SELF_CHECK, *examples),
+        "counts": count is not None,
         "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
         "every": _functions(spec),
         "home": _home(spec),
@@ -83,13 +92,17 @@ def package_files(
     texts = {name: render(template, **given) for name, template in names.items()}
     for name in examples:
         texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    return texts
+    if count is not None:
+        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
+    return of_precision(spec.precision, texts)
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
     prefix = spec.prefix
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
-    public = [name for name in (f"{prefix}.h", f"{prefix}_fitted.h") if name in code]
+    public = [
+        name for name in (f"{prefix}.h", f"{prefix}_fitted.h", f"{prefix}_tile.h") if name in code
+    ]
     for name in public:  # grows while it is read
         public += [h for h in _included(code[name]) if h in code and h not in public]
     return Package(

@@ -69,29 +69,45 @@ class Expression:
             constant: turns an exact rational number into the algebra's constant.
             power: what stands for `**`; integer exponents stay Python integers.
         """
+        return _Algebra(self.text, values, functions, pi, constant, power).of(self._tree)
 
-        def walk(node: ast.expr) -> Any:
-            if isinstance(node, ast.Constant):
-                return constant(_exact(node, self.text))
-            if isinstance(node, ast.Name):
-                return pi if node.id == "pi" else values[node.id]
-            if isinstance(node, ast.UnaryOp):
-                inner = walk(node.operand)
-                return -inner if isinstance(node.op, ast.USub) else inner
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-                return functions[node.func.id](walk(node.args[0]))
-            assert isinstance(node, ast.BinOp)
-            left = walk(node.left)
-            if isinstance(node.op, ast.Pow):
-                return power(left, _exponent(node.right, walk))
-            right = walk(node.right)
-            if isinstance(node.op, ast.Add):
-                return left + right
-            if isinstance(node.op, ast.Sub):
-                return left - right
-            return left * right if isinstance(node.op, ast.Mult) else left / right
 
-        return walk(self._tree)
+@dataclass(frozen=True, eq=False)
+class _Algebra:
+    """What the parts of an expression stand for.
+
+    A class, for a function within another that calls itself would keep the values, arrays perhaps,
+    until the garbage is collected.
+    """
+
+    text: str
+    values: Mapping[str, Any]
+    functions: Mapping[str, Callable[[Any], Any]]
+    pi: Any
+    constant: Callable[[Fraction], Any]
+    power: Callable[[Any, Any], Any]
+
+    def of(self, node: ast.expr) -> Any:
+        """The value of a part."""
+        if isinstance(node, ast.Constant):
+            return self.constant(_exact(node, self.text))
+        if isinstance(node, ast.Name):
+            return self.pi if node.id == "pi" else self.values[node.id]
+        if isinstance(node, ast.UnaryOp):
+            inner = self.of(node.operand)
+            return -inner if isinstance(node.op, ast.USub) else inner
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            return self.functions[node.func.id](self.of(node.args[0]))
+        assert isinstance(node, ast.BinOp)
+        left = self.of(node.left)
+        if isinstance(node.op, ast.Pow):
+            return self.power(left, _exponent(node.right, self.of))
+        right = self.of(node.right)
+        if isinstance(node.op, ast.Add):
+            return left + right
+        if isinstance(node.op, ast.Sub):
+            return left - right
+        return left * right if isinstance(node.op, ast.Mult) else left / right
 
 
 def parse(value: str | int | float) -> Expression:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.observation import Log, Observation, Processing, observe
-from modeler.observation.prepare import Prepared
+from modeler.observation.prepare import Mending, Prepared
 from modeler.observation.stack import observed
 from modeler.observation.stretch import Stretch
 
@@ -47,7 +47,7 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
 
 def analysed(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, chosen: bool = False,
-    prepared: Prepared | None = None,
+    prepared: Prepared | None = None, mending: Mending | None = None,
 ) -> Observation:  # fmt: skip
     """The observation of a diagnosis.
 
@@ -58,12 +58,13 @@ def analysed(
         chosen: True if `fitted` is that of a diagnosis already.
         prepared: the logs as `fitted` prepares them; the motion is the same in the wider band,
             unless derivatives were logged, which are checked in the band of the rows.
+        mending: of the same logs, where it is shared.
     """
     processing = fitted if chosen else analysis_processing(fitted)
     if prepared is not None and all(check is None for check in prepared.checks):
         wider = dataclasses.replace(prepared, processing=processing)
         return _whole(observed(compiled, logs, wider, every_joint=True))
-    return _whole(observe(compiled, logs, processing, every_joint=True))
+    return _whole(observe(compiled, logs, processing, True, mending))
 
 
 def _whole(observation: Observation) -> Observation:

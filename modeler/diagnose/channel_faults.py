@@ -7,21 +7,20 @@ a scale all the same must not be a matter of the filters.
 """
 
 import dataclasses
-from collections.abc import Sequence
 
 import numpy as np
 
 from modeler.diagnose.analyse import analysed
 from modeler.diagnose.looks import cut_off_otherwise
 from modeler.fit import IdentifiedModel
-from modeler.observation import Log
 from modeler.observation.channels import Fault, faults, suspects
+from modeler.observation.prepare import Mending
 from modeler.scoring.gains import with_gains
 from modeler.scoring.state import Data, state_of
 
 
 def channel_faults(
-    model: IdentifiedModel, data: Data, other: Data | None, logs: Sequence[Log]
+    model: IdentifiedModel, data: Data, other: Data | None, mending: Mending
 ) -> tuple[Fault, ...]:
     """Of the logs, then of the held-out ones.
 
@@ -29,12 +28,12 @@ def channel_faults(
         model: as fitted.
         data: training logs.
         other: held-out ones.
-        logs: the training logs.
+        mending: of the training logs.
     """
     beta, gains = _allowed(model, data, other)
     found = faults(data.compiled, data.observation, beta, gains)
     if any(f.joint >= 0 and not f.certain for f in found):
-        stable = _stable(data, logs, beta, gains)
+        stable = _stable(data, mending, beta, gains)
         found = tuple(f for f in found if f.certain or f.joint in (-1, *stable))
     if other is None:
         return found
@@ -56,15 +55,13 @@ def _allowed(
     return (model.beta, None) if found is None else found
 
 
-def _stable(
-    data: Data, logs: Sequence[Log], beta: np.ndarray, gains: np.ndarray | None
-) -> set[int]:
+def _stable(data: Data, mending: Mending, beta: np.ndarray, gains: np.ndarray | None) -> set[int]:
     """Joints whose torque has another scale with other cut-offs too."""
     joints = [
         {f.joint for f in faults(data.compiled, seen, beta, gains)}
         for seen in (
-            analysed(data.compiled, logs, changed, chosen=True)
-            for _, changed in cut_off_otherwise(data, logs)
+            analysed(data.compiled, mending.logs, changed, chosen=True, mending=mending)
+            for _, changed in cut_off_otherwise(data, mending.logs)
         )
     ]
     return set.intersection(*joints)

@@ -1,7 +1,7 @@
 """Which physical effect is missing: from a model and logs to a diagnosis."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +23,7 @@ from modeler.fit import IdentifiedModel
 from modeler.hypotheses.candidates import Known
 from modeler.observation import Log, Observation
 from modeler.observation.channels import Fault
+from modeler.observation.prepare import Mending
 from modeler.scoring.state import Data, State, state_of
 from modeler.scoring.timing import logger_shift
 
@@ -58,41 +59,39 @@ def diagnose(
         DataError: no usable row.
     """
     meter = Meter(progress, _READ)
-    seen = analysed(compiled, logs, model.processing)
+    mending = Mending(logs, compiled.spec)
+    seen = analysed(compiled, logs, model.processing, mending=mending)
     data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
-    doubted = channel_faults(model, data, other, logs)
+    doubted = channel_faults(model, data, other, mending)
     options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
     found = _searched(data, other, *options)
-    aligned = _aligned(data, found, model, logs)
+    aligned = _aligned(data, found, model, mending)
     if aligned is not None:
         data, other = aligned, _held_out(aligned, holdout)
         found = _searched(data, other, *options)
     window = _push(data, found) if _may_push(data, without) else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
-    return _told(model, data, logs, other, found, window, doubted, meter)
+    return _told(model, data, mending, other, found, window, doubted, meter)
 
 
 def _looks(
-    data: Data, logs: Sequence[Log], other: Data | None, window: Window | None, found: Search
-) -> list[tuple[str, Data]]:
-    """Other looks, those at the training logs without the rows of a push; none for no effect."""
-    if not found.steps:
-        return []
-    return [
-        (what, look if window is None or look is other else _masked(look, window))
-        for what, look in other_looks(data, logs, other)
-    ]
+    data: Data, mending: Mending, other: Data | None, window: Window | None
+) -> Iterator[tuple[str, Data]]:
+    """Other looks, those at the training logs without the rows of a push."""
+    for what, look in other_looks(data, mending, other):
+        yield what, look if window is None or look is other else _masked(look, window)
+        del look  # or it would live beside the next
 
 
 def _told(
-    model: IdentifiedModel, data: Data, logs: Sequence[Log], other: Data | None, found: Search,
+    model: IdentifiedModel, data: Data, mending: Mending, other: Data | None, found: Search,
     window: Window | None, doubted: Sequence[Fault], meter: Meter,
 ) -> Diagnosis:  # fmt: skip
     """What a search found, looked at again, with a sentence on the band."""
     meter.stage(_LOOKED)
-    looks = looked_again(found, _looks(data, logs, other, window, found), meter.tick)
+    looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
     meter.stage(1.0)
     diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
     meter.done()
@@ -109,7 +108,7 @@ def _searched(
     return search(data, beta, without, most, veto, meter.tick)
 
 
-def _aligned(data: Data, found: Search, model: IdentifiedModel, logs: Sequence[Log]) -> Data | None:
+def _aligned(data: Data, found: Search, model: IdentifiedModel, mending: Mending) -> Data | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
     ranked = found.steps[0].rivals if found.steps else found.last.ranked
     delays = [j for j in ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
@@ -117,7 +116,8 @@ def _aligned(data: Data, found: Search, model: IdentifiedModel, logs: Sequence[L
     if shift == 0.0:
         return None
     moved = dataclasses.replace(model.processing, delay=model.processing.delay + shift)
-    return dataclasses.replace(data, observation=analysed(data.compiled, logs, moved))
+    seen = analysed(data.compiled, mending.logs, moved, mending=mending)
+    return dataclasses.replace(data, observation=seen)
 
 
 def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]:

@@ -1,8 +1,11 @@
 """A position channel whose clock is late: nothing in the catalogue shifts one joint in time."""
 
+from functools import partial
+
 import numpy as np
 
 from modeler.diagnose.search import Search
+from modeler.hypotheses.rows import Rows
 from modeler.scoring.timing import CONVENTION
 
 SHARE = 0.2
@@ -26,10 +29,7 @@ def late_lines(found: Search) -> list[str]:
     driven = [j for j, joint in enumerate(joints) if joint.actuated]
     columns = []
     for j in driven:
-        moved = []
-        for signals in state.rows.signals:
-            moved.append(signals.moved(j, signals.v[:, j], whole=True)[:, :, None])
-        columns.append(state.rows.spread(moved))
+        columns.append(state.rows.spread(partial(_later, state.rows, j)))
     shown = [i for i, own in enumerate(columns) if any(c is not None for c in own)]
     if not shown:
         return []
@@ -52,3 +52,9 @@ def late_lines(found: Search) -> list[str]:
         f"{'late' if late > 0.0 else 'early'} beside the other channels; check the clock or the "
         "filter of that channel"
     ]
+
+
+def _later(rows: Rows, j: int, stretch: int, window: slice) -> np.ndarray:
+    """(n, J, 1) torque by the delay of the position of joint j."""
+    signals = rows.signals[stretch]
+    return signals.moved(j, signals.v[:, [j]], True, window)

@@ -10,7 +10,7 @@ out is asked beside every effect: if it would have been named instead, the effec
 """
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ from modeler.diagnose.survey import survey_of
 from modeler.hypotheses.candidates import Candidate
 from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST
+from modeler.observation.prepare import Mending
 from modeler.scoring.gains import all_columns_about, settled
 from modeler.scoring.propose import proposals, ruled_out
 from modeler.scoring.state import Data, State, state_of, visible
@@ -59,19 +60,25 @@ class Look:
         return {"what": self.what, "leads": leads, "agrees": self.agrees}
 
 
-def other_looks(data: Data, logs: Sequence[Log], other: Data | None) -> Iterator[tuple[str, Data]]:
+def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tuple[str, Data]]:
     """The same robot's data, looked at otherwise.
 
     Args:
         data: the training logs.
-        logs: they.
+        mending: of them.
         other: held-out logs in the same band.
     """
     if other is not None:
         yield "the held-out logs", other
+    logs = mending.logs
     for factor, changed in cut_off_otherwise(data, logs):
-        seen = analysed(data.compiled, logs, changed, chosen=True)
-        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+        yield (
+            f"cut-offs x {factor:g}",
+            dataclasses.replace(
+                data,
+                observation=analysed(data.compiled, logs, changed, chosen=True, mending=mending),
+            ),
+        )
 
 
 def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, Processing]]:
@@ -88,27 +95,28 @@ def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, 
 
 
 def looked_again(
-    found: Search, looks: Sequence[tuple[str, Data]], tick: Callable[[], None] = lambda: None
+    found: Search, looks: Iterable[tuple[str, Data]], tick: Callable[[], None] = lambda: None
 ) -> list[tuple[Look, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
         found: the search in the first look.
-        looks: others.
+        looks: others, one after the other: each is let go before the next is made.
         tick: called after each.
     """
-    every = []
-    for place, step in enumerate(found.steps):
-        said = []
-        for what, data in looks:
-            said.append(_look(what, data, found, place))
+    said: list[list[Look]] = [[] for _ in found.steps]
+    for what, data in looks if found.steps else ():
+        for place, own in enumerate(said):
+            own.append(_look(what, data, found, place))
             tick()
-        every.append((*said, *_ruled_out(found, step)))
-    return every
+        del data
+    return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
 
 
 def _ruled_out(found: Search, step: Step) -> list[Look]:
     """What would have been named had the user ruled nothing out, or explains as much as simply."""
+    if not found.without:
+        return []
     state = step.before
     barred = [c for c in proposals(state) if ruled_out(*c.key, found.without)]
     if not barred:

@@ -1,8 +1,9 @@
 """The rows of an analysis: measured torque, base columns and candidates through one filter."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -11,14 +12,31 @@ from scipy.sparse import csr_array
 from modeler.core.brief import Brief
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
-from modeler.hypotheses.columns import all_columns, moved_columns, own_columns, own_columns_of
-from modeler.hypotheses.signals import Reference, Signals
+from modeler.hypotheses.columns import all_columns, own_columns_of
+from modeler.hypotheses.signals import WINDOW, Reference, Signals
 from modeler.observation import Observation
 from modeler.observation.row_filter import SPREAD, only
 from modeler.observation.stretch import Stretch
 
 Columns = tuple[np.ndarray | None, ...]
 """Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
+
+
+Evaluate = Callable[[int, slice], np.ndarray]
+"""Values over a window of the samples of a stretch, by its number."""
+
+
+@dataclass(frozen=True, eq=False)
+class Block(Brief):
+    """Rows that lie beside each other, and the samples that they reach.
+
+    Attributes:
+        window: samples.
+        filters: (rows_j, samples of the window) by joint.
+    """
+
+    window: slice
+    filters: tuple[csr_array, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +50,7 @@ class Rows(Brief):
         run: (rows_j,) by joint, index of the log.
         segment: (rows_j,) by joint.
         filters: (rows_j, samples) by stretch and joint.
+        blocks: the same in pieces, by stretch.
         signals: by stretch.
         known: what was made of them for this reference, by name.
     """
@@ -42,6 +61,7 @@ class Rows(Brief):
     run: tuple[np.ndarray, ...]
     segment: tuple[np.ndarray, ...]
     filters: tuple[tuple[csr_array, ...], ...]
+    blocks: tuple[tuple[Block, ...], ...]
     signals: tuple[Signals, ...]
     known: dict[Any, Any] = field(default_factory=dict)
 
@@ -63,25 +83,16 @@ class Rows(Brief):
 
     def columns(self, candidate: Candidate) -> Columns:
         """The columns of a candidate on these rows."""
-        if candidate.local:
-            own = [own_columns(candidate, signals) for signals in self.signals]
-            found: list[np.ndarray | None] = [None] * self.joints
-            found[candidate.index] = self.filtered(candidate.index, own)
-            return tuple(found)
-        return self.spread([all_columns(candidate, signals) for signals in self.signals])
+        if candidate.local or candidate.effect.acts is Acts.POSITION:
+            return self._together([candidate])
+        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w))
 
     def many(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """The columns of several candidates of one effect on one joint."""
         first = candidates[0]
-        if first.local:
-            own = [own_columns_of(candidates, signals) for signals in self.signals]
-            found: list[np.ndarray | None] = [None] * self.joints
-            found[first.index] = self.filtered(first.index, own)
-            whole: Columns = tuple(found)
-        elif first.effect.acts is Acts.POSITION:
-            whole = self.spread([moved_columns(candidates, signals) for signals in self.signals])
-        else:
+        if not first.local and first.effect.acts is not Acts.POSITION:
             return [self.columns(candidate) for candidate in candidates]
+        whole = self._together(candidates)
         columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
         size = len(first.form.columns)
         return [
@@ -89,14 +100,40 @@ class Rows(Brief):
             for k in range(0, size * len(candidates), size)
         ]
 
-    def spread(self, values: Sequence[np.ndarray]) -> Columns:
-        """Columns from values (samples, J, k) by stretch."""
-        return tuple(
-            self.filtered(j, [value[:, j] for value in values])
-            if any(value[:, j].any() for value in values)
-            else None
-            for j in range(self.joints)
+    def _together(self, candidates: Sequence[Candidate]) -> Columns:
+        """Columns of candidates of one effect on its joint, beside each other."""
+        first, signals = candidates[0], self.signals
+        if first.local and first.form.memory is None:
+            return self._on(first.index, lambda i, w: own_columns_of(candidates, signals[i], w))
+        own = [own_columns_of(candidates, s) for s in signals]
+        if first.local:
+            return self._on(first.index, lambda i, w: own[i][w])
+        j, whole = first.index, first.effect.whole_axis
+        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w))
+
+    def _on(self, j: int, evaluate: Evaluate) -> Columns:
+        """Columns of one joint from its values (samples, k)."""
+        found: list[np.ndarray | None] = [None] * self.joints
+        found[j] = np.concatenate(
+            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks()]
         )
+        return tuple(found)
+
+    def spread(self, evaluate: Evaluate) -> Columns:
+        """Columns from values (samples, J, k); None on joints where they are 0 throughout."""
+        parts: list[list[np.ndarray]] = [[] for _ in range(self.joints)]
+        shown = np.zeros(self.joints, dtype=bool)
+        for i, block in self._blocks():
+            values = evaluate(i, block.window)
+            shown |= values.any(axis=(0, 2))
+            for j, weights in enumerate(block.filters):
+                parts[j].append(weights @ values[:, j])
+        return tuple(
+            np.concatenate(own) if felt else None for own, felt in zip(parts, shown, strict=True)
+        )
+
+    def _blocks(self) -> Iterator[tuple[int, Block]]:
+        return ((i, block) for i, blocks in enumerate(self.blocks) for block in blocks)
 
 
 def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
@@ -126,12 +163,7 @@ def rows_of(observation: Observation, reference: Reference) -> Rows:
     filters = tuple(
         tuple(_thinned(own, s.every) for own in part) for part, s in zip(full, signals, strict=True)
     )
-    model = reference.compiled
-    base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
-
-    def gather(j: int, values: list[np.ndarray]) -> np.ndarray:
-        return np.concatenate([own[j] @ value for own, value in zip(filters, values, strict=True)])
-
+    blocks = tuple(_blocks(own, len(s.q)) for own, s in zip(filters, signals, strict=True))
     used = [observation.used[:, j] for j in range(joints)]
     torque = [part.segment.tau for part in observation.stretches]
     return Rows(
@@ -139,13 +171,53 @@ def rows_of(observation: Observation, reference: Reference) -> Rows:
             np.concatenate([f[j] @ tau[:, j] for f, tau in zip(full, torque, strict=True)])
             for j in range(joints)
         ),
-        W=tuple(gather(j, [value[:, j] for value in base]) for j in range(joints)),
+        W=base_columns(blocks, signals),
         time=tuple(observation.time[rows] for rows in used),
         run=tuple(observation.run[rows] for rows in used),
         segment=tuple(observation.segment[rows] for rows in used),
         filters=filters,
+        blocks=blocks,
         signals=signals,
     )
+
+
+def base_columns(
+    blocks: Sequence[Sequence[Block]], signals: Sequence[Signals]
+) -> tuple[np.ndarray, ...]:
+    """(rows_j, c) by joint, of the motion of some signals."""
+    parts: list[list[np.ndarray]] = [[] for _ in blocks[0][0].filters]
+    for own, s in zip(blocks, signals, strict=True):
+        for block in own:
+            values = s.base_regressor(block.window)
+            for j, weights in enumerate(block.filters):
+                parts[j].append(weights @ values[:, j])
+    return tuple(np.concatenate(own) for own in parts)
+
+
+def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[Block, ...]:
+    """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
+    starts = np.arange(0, samples, WINDOW)
+    edges = []
+    for weights in filters:
+        first = weights.indices[weights.indptr[:-1]]
+        edges.append([*np.searchsorted(first, starts).tolist(), len(first)])
+    found = []
+    for start, *ends in zip(starts.tolist(), *(pairwise(own) for own in edges), strict=True):
+        parts = [_part(w, slice(*own)) for w, own in zip(filters, ends, strict=True)]
+        stop = max(int(indices.max(initial=start)) for _, indices, _ in parts) + 1
+        made = [
+            csr_array((data, indices - start, pointer), shape=(len(pointer) - 1, stop - start))
+            for data, indices, pointer in parts
+        ]
+        found.append(Block(slice(start, stop), tuple(made)))
+    return tuple(found)
+
+
+def _part(weights: csr_array, rows: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Data, indices and pointers of some rows."""
+    pointer = weights.indptr[rows.start : rows.stop + 1]
+    own = slice(pointer[0], pointer[-1])
+    return weights.data[own], weights.indices[own], pointer - pointer[0]
 
 
 def _filter(part: Stretch, j: int) -> csr_array:

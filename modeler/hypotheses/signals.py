@@ -1,12 +1,11 @@
 """What the equations of effects read: motion, loads and states of one stretch at full rate."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import cont2discrete, lfilter
 
 from modeler.core.brief import Brief
 from modeler.effects import Memory
@@ -19,6 +18,13 @@ if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
 _STEP = 1e-5  # rad or m, of central differences
+_BESIDE = 2  # samples to both sides that a difference quotient of another reads
+
+EVERY = slice(None)
+"""All samples of a stretch."""
+
+WINDOW = 2048
+"""Samples that are evaluated at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +94,29 @@ class Signals(Brief):
         """(n, m) what effects of the model read besides the motion."""
         every = signals_of(self.reference.compiled.spec, self.segment)
         return None if every is None else np.ascontiguousarray(every[:: self.every])
+
+    def base_regressor(self, window: slice) -> np.ndarray:
+        """(n, J, c) of the model, over a window of the samples."""
+        return self.reference.compiled.base_regressor(*self._states(window))
+
+    def regressor(self, window: slice) -> np.ndarray:
+        """(n, J, p) by standard parameters."""
+        return self.reference.compiled.regressor(*self._states(window))
+
+    def _states(self, window: slice) -> tuple[np.ndarray | None, ...]:
+        read = None if self.read is None else self.read[window]
+        return self.q[window], self.v[window], self.a[window], read
+
+    def windows(self) -> Iterator[slice]:
+        """Of few samples each: what is evaluated over one of them stays in the cache."""
+        for start in range(0, len(self.q), WINDOW):
+            yield slice(start, min(start + WINDOW, len(self.q)))
+
+    @cached_property
+    def largest(self) -> np.ndarray:
+        """(p,) magnitude that each column of a standard parameter reaches."""
+        every = [np.abs(self.regressor(w)).max(axis=(0, 1)) for w in self.windows()]
+        return np.asarray(np.max(every, axis=0))
 
     @cached_property
     def load(self) -> np.ndarray:
@@ -177,8 +206,10 @@ class Signals(Brief):
         )
         return (forth - back) * (0.5 / size)
 
-    def moved(self, j: int, dq: np.ndarray, whole: bool = False) -> np.ndarray:
-        """(n, J) torque that follows a small change dq (n,) of the position of joint j.
+    def moved(
+        self, j: int, dq: np.ndarray, whole: bool = False, window: slice = EVERY
+    ) -> np.ndarray:
+        """(m, J, k) torques that follow k small changes dq (n, k) of the position of joint j.
 
         The derivative of the inverse dynamics of the links along (dq, dq', dq'').
 
@@ -186,17 +217,18 @@ class Signals(Brief):
             j: index of the joint.
             dq: rad or m.
             whole: True if rotor and viscous friction are moved too.
+            window: m of the samples.
         """
-        return self.all_moved(j, dq[:, None], whole)[:, :, 0]
-
-    def all_moved(self, j: int, dq: np.ndarray, whole: bool = False) -> np.ndarray:
-        """(n, J, k) the same for k changes dq (n, k)."""
+        start, stop, _ = window.indices(len(dq))
+        first = max(0, start - _BESIDE)
+        dq, inside = dq[first : stop + _BESIDE], slice(start - first, stop - first)
+        torque = np.zeros((stop - start, self.q.shape[1], dq.shape[1]))
         if not dq.any():
-            return np.zeros((*self.q.shape, dq.shape[1]))
+            return torque
         dv = np.gradient(dq, self.step, axis=0)
         da = np.gradient(dv, self.step, axis=0)
-        slopes = self.slopes(j)
-        torque = np.empty((*self.q.shape, dq.shape[1]))
+        dq, dv, da = dq[inside], dv[inside], da[inside]
+        slopes = [slope[start:stop] for slope in self.slopes(j)]
         for k in range(self.q.shape[1]):
             place, speed, acceleration = (slope[:, k, None] for slope in slopes)
             torque[:, k] = place * dq + speed * dv + acceleration * da
@@ -208,6 +240,8 @@ class Signals(Brief):
 
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    from scipy.signal import lfilter  # it takes long to load
+
     numerator, denominator = _oscillator(step, frequency, damping)
     first = load[0]
     return first + lfilter(numerator, denominator, load - first)
@@ -216,6 +250,8 @@ def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -
 @lru_cache(maxsize=1024)
 def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points."""
+    from scipy.signal import cont2discrete
+
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
     numerator, denominator, _ = cont2discrete(
         ([w**2], [1.0, 2.0 * damping * w, w**2]), step, method="foh"

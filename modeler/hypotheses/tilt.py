@@ -14,18 +14,17 @@ _STEP = 1e-5  # rad or m, of central differences
 _SEEN = 1e-6
 
 
-def tilt_columns(signals: Signals) -> np.ndarray:
+def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
 
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
     weights = tilt_weights(signals.reference)
-    n, joints = signals.q.shape
+    q = signals.q[window]
     if weights is None:
-        return np.zeros((n, joints, 0))
-    slopes = frame_slopes(signals.reference.compiled, signals.q)
-    return slopes.reshape(n, joints, -1) @ weights
+        return np.zeros((*q.shape, 0))
+    return frame_slopes(signals.reference.compiled, q).reshape(*q.shape, -1) @ weights
 
 
 def tilt_weights(reference: Reference) -> np.ndarray | None:
@@ -38,13 +37,16 @@ def tilt_weights(reference: Reference) -> np.ndarray | None:
 
 def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
     """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
-    found = []
+    found: np.ndarray | None = None
     for j in range(q.shape[1]):
         step = np.zeros(q.shape[1])
         step[j] = _STEP
         ahead, behind = model.forward_kinematics(q + step), model.forward_kinematics(q - step)
-        found.append((ahead - behind) / (2.0 * _STEP))
-    return np.stack(found, axis=1)
+        if found is None:
+            found = np.empty((len(q), q.shape[1], *ahead.shape[1:]))
+        np.subtract(ahead, behind, out=found[:, j])
+    assert found is not None, "a robot has joints"
+    return found / (2.0 * _STEP)
 
 
 def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:

@@ -59,7 +59,7 @@ def without_open(
         return prepared, tuple(() for _ in logs)
     segments = []
     for segment in prepared.segments:
-        mended, open_ = _mended(model, segment)
+        mended, open_ = closed(model, segment)
         segments.append(mended)
         times[segment.run] += segment.time[open_ & segment.whole].tolist()
     whole = sum(int(segment.whole.sum()) for segment in segments)
@@ -69,10 +69,11 @@ def without_open(
     return dataclasses.replace(prepared, segments=tuple(segments)), tuple(map(tuple, times))
 
 
-def _mended(model: "CompiledModel", segment: Segment) -> tuple[Segment, np.ndarray]:
-    """The segment, and (n,) True where its own posture does not close."""
+def closed(model: "CompiledModel", segment: Segment) -> tuple[Segment, np.ndarray]:
+    """The segment with postures that close the loops, and (n,) True where its own does not."""
+    if model.spec.closure is None:
+        return segment, np.zeros(segment.samples, dtype=bool)
     nearest = nearest_closed(model, segment.q)
-    assert model.spec.closure is not None
     if nearest is None:
         home = np.asarray(model.spec.closure.home)[list(model.spec.closure.given)]
         q, open_ = np.tile(home, (segment.samples, 1)), np.ones(segment.samples, dtype=bool)

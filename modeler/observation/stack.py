@@ -9,14 +9,14 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.observation.closable import without_open
 from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, with_every_joint
+from modeler.observation.evaluated import Evaluated
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-from modeler.observation.prepare import Prepared, prepare, with_floors
+from modeler.observation.prepare import Mending, Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport, JointReport, LogReport
 from modeler.observation.row_filter import row_filter
-from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch, stretch
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ def observe(
     logs: Sequence[Log],
     processing: Processing | None = None,
     every_joint: bool = False,
+    mending: Mending | None = None,
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
@@ -39,12 +40,13 @@ def observe(
         logs: read with the same manifest.
         processing: None: automatic. For held-out logs `report.processing` of the fit.
         every_joint: mask low speeds also on joints whose dry friction the model lacks.
+        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    prepared = prepare(model.spec, logs, processing or Processing())
+    prepared = prepare(model.spec, logs, processing or Processing(), mending)
     return observed(model, logs, prepared, every_joint)
 
 
@@ -93,7 +95,7 @@ def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
         joints=model.spec.joints,
         names=tuple(base.name for base in model.spec.base),
         units=tuple(base.unit for base in model.spec.base),
-        regressor=_regressor(model, like.stretches),
+        regressor=Evaluated(model, like.stretches),
     )
 
 
@@ -130,7 +132,7 @@ def _stack(
         torque=np.concatenate([part.filtered(_torque(part.segment)) for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
-        regressor=_regressor(model, stretches),
+        regressor=Evaluated(model, stretches),
         report=report,
     )
 
@@ -143,19 +145,6 @@ def _motion(part: Stretch) -> np.ndarray:
 
 def _torque(segment: Segment) -> Callable[[slice], np.ndarray]:
     return lambda window: segment.tau[window]
-
-
-def _regressor(
-    model: "CompiledModel", stretches: Sequence[Stretch]
-) -> Callable[[Segment, slice], np.ndarray]:
-    """The base regressor over the samples of a segment, with what its effects read."""
-    signals = {id(part.segment): signals_of(model.spec, part.segment) for part in stretches}
-
-    def regressor(s: Segment, w: slice) -> np.ndarray:
-        read = signals[id(s)]
-        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
-
-    return regressor
 
 
 def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:

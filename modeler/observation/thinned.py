@@ -8,6 +8,7 @@ import numpy as np
 from modeler.observation.closable import nearest_closed
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
+from modeler.observation.passing import columns_at
 from modeler.observation.row_filter import RowFilter
 from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
@@ -100,7 +101,7 @@ def thinned(compiled: "CompiledModel", observation: Observation) -> Rows:
             parts.append(_part(compiled, part, rows))
     place = np.concatenate(chosen)
     return Rows(
-        W=observation.columns[place],
+        W=columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
         speed=observation.qd[place],

@@ -41,7 +41,6 @@ class Base(Brief):
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
         finer: the same with more blocks, whose sums are taken; None: from the rows.
-        order: (rows_j,) by joint, of the rows among those of `finer`, block after block.
     """
 
     W: tuple[np.ndarray, ...]
@@ -51,7 +50,6 @@ class Base(Brief):
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
     finer: "Base | None" = None
-    order: tuple[np.ndarray, ...] = ()
 
     @property
     def blocks(self) -> int:
@@ -62,8 +60,7 @@ class Base(Brief):
     def columns(self) -> tuple[np.ndarray, ...]:
         """(rows_j, r) by joint, weighted."""
         if self.finer is not None:
-            every = zip(self.finer.columns, self.order, strict=True)
-            return tuple(columns[order] for columns, order in every)
+            return self.finer.columns
         return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
 
     @cached_property
@@ -93,18 +90,6 @@ class Base(Brief):
     def u(self) -> np.ndarray:
         """(blocks, r) their products with y."""
         return self.grams[1]
-
-    @cached_property
-    def folded(self) -> "Base":
-        """The same with whole folds as blocks: enough where only sums over all blocks count."""
-        place, count = self.crossed.place, len(self.crossed.beta)
-        block = [place[own] for own in self.block]
-        order = tuple(np.argsort(own, kind="stable") for own in block)
-        return Base(
-            self.W, tuple(y[o] for y, o in zip(self.y, order, strict=True)), self.turn, self.sigma,
-            tuple(own[o] for own, o in zip(block, order, strict=True)), np.arange(count),
-            finer=self, order=order,
-        )  # fmt: skip
 
     @cached_property
     def pieces(self) -> list[list[tuple[int, slice]]]:
@@ -179,6 +164,13 @@ def base_of(
     return Base(tuple(W), target, turn, sigma, tuple(block), fold)
 
 
+def folded(base: Base) -> Base:
+    """The same with whole folds as blocks: enough where only sums over all blocks count."""
+    place, count = base.crossed.place, len(base.crossed.beta)
+    block = tuple(place[own] for own in base.block)
+    return Base(base.W, base.y, base.turn, base.sigma, block, np.arange(count), finer=base)
+
+
 def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
     """The runs of equal block number, in row order."""
     if not block.size:
@@ -236,8 +228,6 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
             places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
             stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
             stacked /= base.sigma[j]
-            if base.order:
-                stacked = stacked[:, base.order[j]]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
             _add_joint(base, j, places, stacked, (T, w, D), pairs)
     scale = np.sqrt(np.where(square > 0.0, square, 1.0))

@@ -111,5 +111,5 @@ def _explained(state: State, candidate: Candidate) -> float:
     columns = columns_of(state.rows, candidate, {})
     if not visible(columns):
         return 0.0
-    base = state.base.folded
+    base = state.folded
     return float(fall(base, pool_of(base, [columns])).sum())

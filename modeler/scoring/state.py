@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from modeler.hypotheses.rows import Columns, Rows, rows_of
 from modeler.hypotheses.signals import Reference
 from modeler.hypotheses.tilt import frame_slopes, tilt_weights
 from modeler.observation import Observation
-from modeler.scoring.gram import Base, Pool, base_of, pool_of, sigma_of
+from modeler.scoring.gram import Base, Pool, base_of, folded, pool_of, sigma_of
 from modeler.scoring.rank import Ranking, Sifted, rank, sifted
 from modeler.scoring.reduced import Reduced, Reduction, reduction
 
@@ -160,6 +160,11 @@ class State(Brief):
         return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
 
     @cached_property
+    def folded(self) -> Base:
+        """The same by folds."""
+        return folded(self.base)
+
+    @cached_property
     def reduced(self) -> Reduced:
         """The rows of the model so far, reduced to few."""
         return self.data.reduction.beside(self.extra)
@@ -223,7 +228,7 @@ class State(Brief):
 
     def sifted(self, every: Sequence[Columns]) -> Sifted:
         """Falls and values of candidates by their columns, in sums."""
-        return sifted(self.base.folded, pool_of(self.base.folded, every))
+        return sifted(self.folded, pool_of(self.folded, every))
 
     def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
         """Candidates by their columns."""
@@ -318,9 +323,14 @@ def _tilt(rows: Rows, cache: dict) -> Columns:
         return (None,) * rows.joints
     key = "frame slopes"
     if key not in cache:
-        slopes = [frame_slopes(s.reference.compiled, s.q) for s in rows.signals]
-        cache[key] = rows.spread([x.reshape(*x.shape[:2], -1) for x in slopes])
+        cache[key] = rows.spread(partial(_frame_slopes, rows))
     return tuple(None if own is None else own @ weights for own in cache[key])
+
+
+def _frame_slopes(rows: Rows, stretch: int, window: slice) -> np.ndarray:
+    signals = rows.signals[stretch]
+    found = frame_slopes(signals.reference.compiled, signals.q[window])
+    return found.reshape(*found.shape[:2], -1)
 
 
 def visible(columns: Columns) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.effects import Acts
 from modeler.hypotheses.candidates import Candidate
-from modeler.hypotheses.rows import Columns, Rows
+from modeler.hypotheses.rows import Columns, Rows, base_columns
 from modeler.hypotheses.signals import Signals
 from modeler.observation.motion import low_pass
 from modeler.scoring.gram import pieces
@@ -174,11 +174,7 @@ def _smooth_motion(state: State) -> tuple[tuple[Signals, ...], tuple[np.ndarray,
         for s in state.rows.signals:
             q, v, a = _smooth(s, _cutoff(state))
             signals.append(dataclasses.replace(s, q=q, v=v, a=a))
-        model = state.data.compiled
-        base = [model.base_regressor(s.q, s.v, s.a, s.read) for s in signals]
-        joints = range(state.rows.joints)
-        W = tuple(state.rows.filtered(j, [value[:, j] for value in base]) for j in joints)
-        state.cache[key] = tuple(signals), W
+        state.cache[key] = tuple(signals), base_columns(state.rows.blocks, signals)
     return state.cache[key]
 
 
