@@ -10,6 +10,7 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import (
     UNIT,
     check_values,
@@ -82,6 +83,7 @@ def emit(
     base: BaseParameters,
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -90,6 +92,7 @@ def emit(
         base: the base parameters of the same model.
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
+        cuda: add the kernels of `codegen.cuda`, of a robot without loops.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -100,12 +103,14 @@ def emit(
     module = _module(model, base, precision)
     spec, values = module.spec, module.values
     code = _code(spec, values)
+    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
         values |= {"spec": spec}
         code |= unit
     files = {
         **code,
+        **kernels,
         **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
         MANIFEST: spec.to_json(),

@@ -124,7 +124,7 @@ def body_lines(function: Function, block: Block | None) -> list[str]:
     size = output_size(function.output)
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
-    lines = [f"(void){name};" for name in _unread(function, block)]
+    lines = [f"(void){name};" for name in unread(function, block)]
     body = block.body if block is not None else ()
     if len(zeros) > _FEW:
         name = function.output.name
@@ -168,7 +168,7 @@ def output_size(argument: ArgumentSpec) -> int:
     return size
 
 
-def _unread(function: Function, block: Block | None) -> Iterable[str]:
+def unread(function: Function, block: Block | None) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     read = block.symbols if block else frozenset()
     for argument in function.inputs:

@@ -27,6 +27,9 @@ RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
 """Those that stand beside a robot with loops."""
 
+CUDA_THREADS = 128
+"""Threads of a block of the emitted kernels."""
+
 TILE_RUNTIME = (
     "modeler_tile.h", "modeler_lanes.h", "modeler_versions.h", "modeler_tile.c",
 )  # fmt: skip
