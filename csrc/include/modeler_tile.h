@@ -28,7 +28,7 @@ typedef struct {
     modeler_tile_function tile;
 } modeler_tiled;
 
-/* Bytes of work that the loops below need: 64-byte aligned, each thread its own. */
+/* Bytes that the loops below work in, without content or alignment; each thread needs its own. */
 size_t modeler_tile_work(const modeler_tiled *robot);
 
 /* W, (samples*joints) x columns: y = W beta. Every entry is written, zeros too, past the caches. */
