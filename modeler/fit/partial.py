@@ -1,28 +1,29 @@
 """One chunk of a long log, reduced to what a fit needs of it: pure functions, for any worker."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.estimate.compressed import Compressed, compress, merged
 from modeler.observation.chunk import Chunk
+from modeler.observation.evaluated import Evaluated
 from modeler.observation.facts import Facts
+from modeler.observation.motion import Segment
+from modeler.observation.passing import is_plain
 from modeler.observation.seen import Chosen, seen
-from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
-_SAMPLES = (
-    4096  # evaluated at a time: with 6 joints x 48 columns 9 MB, which the caches hold in part
-)
+_SAMPLES = 4096  # evaluated at a time: 6 joints x 48 columns of them are 9 MB
 _HELD = 10_000  # rows after which they become a triangle
 
 _Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""W, y and the joint of some rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,42 +64,40 @@ def merge_all(parts: Iterable[Partial]) -> Partial:
     return reduce(merge, parts)
 
 
-def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
+def _compressed(model: "CompiledModel", stretches: Sequence[Stretch]) -> Compressed:
     """Triangles of some stretches; W is never there as a whole."""
-    data, held, rows = none_of(model), list[_Rows](), 0
-    for block in (block for part in stretches for block in _blocks(model, part)):
-        held.append(block)
-        rows += len(block[1])
-        if rows > _HELD:
-            data, held, rows = merged(data, _of(held, data)), [], 0
-    return merged(data, _of(held, data)) if held else data
+    evaluated, data = Evaluated(model, stretches), _of([], model)
+    held, rows = list[_Rows](), 0
+    for part in stretches:
+        if not part.used.any():
+            continue
+        if is_plain(part) and hasattr(model, "triangles"):
+            data = merged(data, _plain(evaluated, part, data))
+            continue
+        torque = part.filtered(partial(_tau, part.segment))
+        for block, W in part.blocks(partial(evaluated, part.segment), _SAMPLES):
+            used = part.used[block]
+            held.append((W[used], torque[block][used], np.nonzero(used)[1]))
+            rows += len(held[-1][1])
+            if rows > _HELD:
+                data, held, rows = merged(data, _of(held, model)), [], 0
+    return merged(data, _of(held, model)) if held else data
 
 
-def _blocks(model: "CompiledModel", part: Stretch) -> Iterator[_Rows]:
-    """The rows of a stretch that count: W, y and joint."""
-    if not part.used.any():
-        return
-    s, read = part.segment, signals_of(model.spec, part.segment)
-
-    def columns(w: slice) -> np.ndarray:
-        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
-
-    torque = part.filtered(lambda w: s.tau[w])
-    for rows, W in part.blocks(columns, _SAMPLES):
-        used = part.used[rows]
-        yield W[used], torque[rows][used], np.nonzero(used)[1]
+def _plain(evaluated: Evaluated, part: Stretch, like: Compressed) -> Compressed:
+    """Triangles of a stretch whose rows are its samples, while they pass."""
+    found = evaluated.triangles(part, part.used, None)
+    return Compressed(like.names, found.triangles, found.rows.astype(int), like.free)
 
 
-def _of(held: Sequence[_Rows], like: Compressed) -> Compressed:
+def _of(held: Sequence[_Rows], model: "CompiledModel") -> Compressed:
     """Triangles of some rows."""
-    W, y, joint = (np.concatenate(values) for values in zip(*held, strict=True))
-    free = [int(j) for j in np.flatnonzero(like.free)]
-    return compress(W, y, joint, len(like.rows), like.names, free)
-
-
-def none_of(model: "CompiledModel") -> Compressed:
-    """The triangles of no rows."""
     names, joints = [base.name for base in model.spec.base], model.spec.joints
-    free = [j for j, joint in enumerate(joints) if not joint.actuated]
-    nothing = np.empty((0, len(names)))
-    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)
+    nothing = (np.empty((0, len(names))), np.empty(0), np.empty(0, dtype=int))
+    W, y, joint = (np.concatenate(values) for values in zip(nothing, *held, strict=True))
+    free = [j for j, one in enumerate(joints) if not one.actuated]
+    return compress(W, y, joint, len(joints), names, free)
+
+
+def _tau(segment: Segment, window: slice) -> np.ndarray:
+    return segment.tau[window]
