@@ -78,6 +78,15 @@ def test_a_load_is_no_gain(robot: str) -> None:
     assert "machine r3: load on the last link leaps up by 0." in sentence(one, "periods")
 
 
+def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
+    """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
+    plans = (Planted(4, "gain2", (0.0,) * 5 + (0.05,) * 5),
+             Planted(2, "load", (0.0,) * 4 + (2.0,) * 6))  # fmt: skip
+    scene = Scene(machines=6, periods=DAYS, daily=0.02, duration=20.0, planted=plans)
+    found = fleet(scene, 5, "ur10e")
+    assert set(told(found)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}
+
+
 def test_friction_in_units_of_a_drifting_gain_does_not_drift() -> None:
     """A gain that falls by 40 % takes the logged friction with it: one cause, one finding."""
     plan = (0.0,) * 3 + (-0.4,) * 3
