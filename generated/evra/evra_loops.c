@@ -34,7 +34,7 @@ static const double standing[8] = {0.0};
 
 const char *evra_signature(void)
 {
-    return "4beb42ffaefc2b4c";
+    return "bfb69338bd236735";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

@@ -179,8 +179,7 @@ void five_bar_tree_friction(const double *qd, const double *beta, double *MODELE
  * 5 additions, 12 multiplications. */
 void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
-    for (int i = 0; i < 48; i++)
-        T[i] = 0.0;
+    MODELER_ALL_ZEROS(T, 48);
 
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -194,32 +193,46 @@ void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT 
     T[0] = c0;
     T[1] = -s0;
     T[4] = s0;
+    MODELER_ZEROS(T + 2, 2);
     T[5] = c0;
     T[10] = 1.0;
+    MODELER_ZEROS(T + 6, 4);
     const double t1 = c0*c1 - s0*s1;
     T[12] = t1;
+    MODELER_ZEROS(T + 11, 1);
     const double t2 = s0*c1 + c0*s1;
     T[13] = -t2;
+    MODELER_ZEROS(T + 14, 1);
     T[15] = five_bar_geo_L1*c0;
     T[16] = t2;
+    MODELER_ZEROS(T + 18, 1);
     T[17] = t1;
     T[19] = five_bar_geo_L1*s0;
+    MODELER_ZEROS(T + 20, 2);
     T[22] = 1.0;
     T[24] = c2;
+    MODELER_ZEROS(T + 23, 1);
     T[25] = -s2;
     T[27] = five_bar_geo_L0;
+    MODELER_ZEROS(T + 26, 1);
     T[28] = s2;
     T[29] = c2;
+    MODELER_ZEROS(T + 30, 4);
     T[34] = 1.0;
     const double t3 = c2*c3 - s2*s3;
+    MODELER_ZEROS(T + 35, 1);
     T[36] = t3;
     const double t4 = s2*c3 + c2*s3;
+    MODELER_ZEROS(T + 38, 1);
     T[37] = -t4;
     T[39] = five_bar_geo_L0 + five_bar_geo_L3*c2;
+    MODELER_ZEROS(T + 42, 1);
     T[40] = t4;
     T[41] = t3;
+    MODELER_ZEROS(T + 44, 2);
     T[43] = five_bar_geo_L3*s2;
     T[46] = 1.0;
+    MODELER_ZEROS(T + 47, 1);
 }
 
 /* Closure equations f(u) and their derivatives by u.

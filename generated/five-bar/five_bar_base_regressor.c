@@ -41,8 +41,7 @@ static const double five_bar_geo_L3 = FIVE_BAR_GEO_L3;
 void five_bar_tree_base_regressor(const double *q, const double *qd, const double *qdd,
                                   double *MODELER_RESTRICT phi)
 {
-    for (int i = 0; i < 44; i++)
-        phi[i] = 0.0;
+    MODELER_ALL_ZEROS(phi, 44);
 
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -60,12 +59,14 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     phi[2] = -t2;
     const double t3 = qdd[0] + qdd[1];
     phi[3] = t3;
+    MODELER_ZEROS(phi + 6, 8);
     phi[14] = t3;
     const double t4 = t1 + five_bar_geo_L1*qdd[0];
     const double t5 = t2 - qd[0]*qd[0]*five_bar_geo_L1;
     const double t6 = c1*t4 - s1*t5;
     const double t7 = qd[0] + qd[1];
     const double t8 = t7*t7;
+    MODELER_ZEROS(phi + 17, 8);
     const double t9 = five_bar_geo_L1*s1;
     const double t10 = five_bar_geo_L1*c1;
     phi[4] = t3*t10 - t8*t9 + t6;
@@ -73,16 +74,19 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     const double t11 = c1*t5 + s1*t4;
     phi[5] = -(t3*t9 + t8*t10 + t11);
     phi[16] = -t11;
+    MODELER_ZEROS(phi + 25, 3);
     phi[28] = qdd[2];
     const double t12 = five_bar_geo_g*c2;
     phi[29] = t12;
     const double t13 = five_bar_geo_g*s2;
     phi[30] = -t13;
     const double t14 = qdd[2] + qdd[3];
+    MODELER_ZEROS(phi + 33, 8);
     phi[31] = t14;
     phi[42] = t14;
     const double t15 = c3*(t13 - qd[2]*qd[2]*five_bar_geo_L3) + s3*(t12 + five_bar_geo_L3*qdd[2]);
     const double t16 = qd[2] + qd[3];
     phi[32] = -(five_bar_geo_L3*s3*t14 + t16*t16*(five_bar_geo_L3*c3) + t15);
     phi[43] = -t15;
+    MODELER_ZEROS(phi + 41, 1);
 }

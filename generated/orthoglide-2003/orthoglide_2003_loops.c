@@ -34,7 +34,7 @@ static const double standing[3] = {0.0};
 
 const char *orthoglide_2003_signature(void)
 {
-    return "faf49399377e8984";
+    return "eb3dfe749b8c6251";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

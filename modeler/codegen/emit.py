@@ -1,7 +1,7 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import (
     UNIT,
     check_values,
@@ -31,11 +32,14 @@ from modeler.codegen.render import render
 from modeler.codegen.single import WIDE, of_precision
 from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.codegen.target import OF_PRECISION
+from modeler.codegen.tile import UNIT as TILE_UNIT
+from modeler.codegen.tile import Tile, tile_of
 from modeler.core.choices import Precision
 from modeler.core.contract import (
     CLOSURE_RUNTIME,
     MANIFEST,
     RUNTIME,
+    TILE_RUNTIME,
     ArgumentSpec,
     Emitted,
     FittedSpec,
@@ -79,6 +83,7 @@ def emit(
     base: BaseParameters,
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -87,6 +92,7 @@ def emit(
         base: the base parameters of the same model.
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
+        cuda: add the kernels of `codegen.cuda`, of a robot without loops.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -97,12 +103,14 @@ def emit(
     module = _module(model, base, precision)
     spec, values = module.spec, module.values
     code = _code(spec, values)
+    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
         values |= {"spec": spec}
         code |= unit
     files = {
         **code,
+        **kernels,
         **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
         MANIFEST: spec.to_json(),
@@ -144,6 +152,7 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
     relations = [layout.relation(parameter) for parameter in base.parameters]
     values = _values(spec, symbols, written, relations)
     values |= {"loops": _loops(model, precision), "names": constants, "signature": ""}
+    values |= {"tile": tile_of(functions, places, spec.nonzeros) if precision == "double" else None}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
     return _Module(spec, blocks, places, values)
@@ -201,6 +210,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
             for unit in ("", "_regressor", "_base_regressor")
         },
         **(_loop_files(prefix, values) if spec.closure is not None else {}),
+        **(_tile_files(prefix, values) if spec.tile_sources else {}),
         **_runtime(spec),
     }
     return of_precision(spec.precision, files)
@@ -215,6 +225,13 @@ def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
         f"{prefix}_tree.h": render("tree.h", **{**values, "functions": inner}),
         f"{prefix}_loops.c": render("loops.c", **{**values, "functions": outer}),
     }
+
+
+def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
+    """Header and source of the unit of tiles."""
+    constants = _constants([values["tile"]], values, values["symbols"].initial)
+    given = {**values, "constants": constants}
+    return {f"{prefix}{TILE_UNIT}.{kind}": render(f"tile.{kind}", **given) for kind in ("h", "c")}
 
 
 def _loops(model: SymbolicModel, precision: Precision) -> dict[str, Any] | None:
@@ -323,7 +340,7 @@ def _unit(unit: str, values: dict[str, Any]) -> str:
 
 
 def _constants(
-    functions: list[_Written], values: dict[str, Any], initial: Mapping[str, str]
+    functions: Sequence[_Written | Tile], values: dict[str, Any], initial: Mapping[str, str]
 ) -> list[tuple[str, str]]:
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))
@@ -332,6 +349,7 @@ def _constants(
 
 def _runtime(spec: ModuleSpec) -> dict[str, str]:
     names = (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
+    names += TILE_RUNTIME if spec.tile_sources else ()
     return {name: _source(name, spec.precision).read_text("utf-8") for name in names}
 
 

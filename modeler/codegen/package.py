@@ -99,7 +99,9 @@ def package_files(
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
     prefix = spec.prefix
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
-    public = [name for name in (f"{prefix}.h", f"{prefix}_fitted.h") if name in code]
+    public = [
+        name for name in (f"{prefix}.h", f"{prefix}_fitted.h", f"{prefix}_tile.h") if name in code
+    ]
     for name in public:  # grows while it is read
         public += [h for h in _included(code[name]) if h in code and h not in public]
     return Package(

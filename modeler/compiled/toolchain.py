@@ -28,7 +28,7 @@ _WANTED = (
     ("-march=native", "-mcpu=native"),
 )
 _ALWAYS = ("-std=c99", "-fPIC")
-_OPTIMISED = "-O2"
+_OPTIMISED = "-O3"
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Toolchain:
 def find_toolchain() -> Toolchain:
     """The compiler named by the environment variable CC, else the first of cc, gcc, clang.
 
-    The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O2,
+    The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O3,
     code for this very processor, fused multiply-add. Where CC has a flag, what is chosen of its
     kind is left out: `CC="gcc -march=x86-64-v2"` gives code for that processor.
 

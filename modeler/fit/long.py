@@ -40,9 +40,8 @@ def identify_long(
 ) -> FitResult:
     """The fit of the base parameters to long logs.
 
-    Values, sigmas, errors and the essential parameters come from all rows. How far residuals
-    remember is told by the windows: rows that repeat each other raise a sigma by the same factor
-    wherever they stand.
+    Values, sigmas, errors and the essential parameters come from all rows; how far residuals
+    remember, and by what factor that raises the sigmas, from the windows.
 
     Args:
         streamed: the logs.
@@ -55,12 +54,8 @@ def identify_long(
     _check_method(method)
     observation = streamed.observation
     dead = dead_joints(observation)
-    alive = ~np.isin(observation.row_joint, dead)
-    data = _without_joints(streamed.data, dead)
-    check_enough_rows(observation, len(data.names), int(data.rows.sum()))
-    equations = base_equations(observation)
-    problem = Problem(observation, equations.W, equations.y, alive, equations.names,
-                      equations.units, data, model)  # fmt: skip
+    problem = _problem(streamed, dead, model)
+    data, alive = problem.data, problem.counted
     estimate = method_of(method).estimate(problem)
     essential = essential_parameters(data, estimate, method)
     colour = _coloured(observation, np.arange(len(data.names)), alive, estimate, streamed.share)
@@ -71,13 +66,26 @@ def identify_long(
         condition_number=estimate.condition_number, condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before, essential_error=essential.error_after,
         joints=joints_of(observation, data, estimate),
-        parameters=parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance))),
+        parameters=parameters_of(estimate, essential, base_equations(observation),
+                                 np.sqrt(np.diag(covariance))),
         covariance=covariance, loads=(),
         sentences=(*dead_sentences(observation, dead), *estimate.sentences,
                    *sentences_of(estimate, essential), *colour.sentences()),
         processing=observation.report.processing, own=estimate.sentences,
         essential=_reduced(observation, alive, essential, streamed.share),
         reading=streamed.reading,
+    )  # fmt: skip
+
+
+def _problem(streamed: Streamed, dead: list[int], model: "CompiledModel | None") -> Problem:
+    """Rows of the windows, and triangles of all."""
+    observation = streamed.observation
+    data = _without_joints(streamed.data, dead)
+    check_enough_rows(observation, len(data.names), int(data.rows.sum()))
+    alive = ~np.isin(observation.row_joint, dead)
+    return Problem(
+        observation, observation.W, observation.y, alive, observation.names, observation.units,
+        data, model,
     )  # fmt: skip
 
 

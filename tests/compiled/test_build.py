@@ -112,7 +112,7 @@ def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):
     assert find_toolchain().flags == ("-std=c99", "-fPIC", "-O1", "-ffp-contract=off")
     works(load(emps.spec, emps.files))
     monkeypatch.setenv("CFLAGS", "")
-    assert "-O2" in find_toolchain().flags
+    assert "-O3" in find_toolchain().flags
     works(load(emps.spec, emps.files))
     assert len(libraries(cache)) == 2
 
@@ -120,10 +120,10 @@ def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):
 @pytest.mark.parametrize(
     ("words", "stays", "goes"),
     [
-        ("-march=x86-64", "-O2", "-march=native"),
-        ("-mcpu=native", "-O2", "-march=native"),
+        ("-march=x86-64", "-O3", "-march=native"),
+        ("-mcpu=native", "-O3", "-march=native"),
         ("-O1 -ffp-contract=off", "-fno-math-errno", "-ffp-contract=fast"),
-        ("-Os", "-fno-math-errno", "-O2"),
+        ("-Os", "-fno-math-errno", "-O3"),
         ("-ftree-slp-vectorize", "-ffp-contract=fast", "-fno-tree-slp-vectorize"),
     ],
 )
