@@ -69,14 +69,14 @@ class Expression:
             constant: turns an exact rational number into the algebra's constant.
             power: what stands for `**`; integer exponents stay Python integers.
         """
-
         return _Algebra(self.text, values, functions, pi, constant, power).of(self._tree)
 
 
 @dataclass(frozen=True, eq=False)
 class _Algebra:
     """What the parts of an expression stand for: a class, for a function within another that calls
-    itself would keep the values, arrays perhaps, until the garbage is collected."""
+    itself would keep the values, arrays perhaps, until the garbage is collected.
+    """
 
     text: str
     values: Mapping[str, Any]

@@ -35,11 +35,12 @@ class Stretch(Brief):
         """
         blocks = [
             self._means(part, evaluate(window), window, self.used[rows])
-            for part, window, rows in self._blocks()
+            for part, window, rows in self.blocks()
         ]
         return np.concatenate(blocks)
 
-    def _blocks(self) -> Iterator[tuple[RowFilter, slice, slice]]:
+    def blocks(self) -> Iterator[tuple[RowFilter, slice, slice]]:
+        """Filters of a few rows each, the samples that they reach, and which rows they are."""
         centres = self.rows.centres
         decimation = int(centres[1] - centres[0]) if len(centres) > 1 else 1
         count = max(1, _BLOCK // decimation)
