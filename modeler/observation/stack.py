@@ -143,7 +143,7 @@ def _motion(part: Stretch) -> np.ndarray:
     return np.concatenate(
         [
             rows.means(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
-            for rows, w, _ in part.blocks()
+            for rows, w, _ in part.parts()
         ]
     )
 
