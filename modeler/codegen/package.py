@@ -80,7 +80,17 @@ def package_files(
         "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
         "solving": _solving(values["functions"], prefix),
     }
-    names = {
+    texts = {name: render(template, **given) for name, template in _names(prefix).items()}
+    for name in examples:
+        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
+    if count is not None:
+        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
+    return of_precision(spec.precision, texts)
+
+
+def _names(prefix: str) -> dict[str, str]:
+    """{file: template} of what every folder has."""
+    return {
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
@@ -89,12 +99,6 @@ def package_files(
         f"{SELF_CHECK}.c": "self_check.c",
         "README.md": "README.md",
     }
-    texts = {name: render(template, **given) for name, template in names.items()}
-    for name in examples:
-        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    if count is not None:
-        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
-    return of_precision(spec.precision, texts)
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
