@@ -347,7 +347,7 @@ static unsigned long count_forward_kinematics(void)
 
 int main(void)
 {
-    say("/* Instructions of one call at most, counted in qemu: orthoglide_leg_tree aae79df9c0af9c00. */\n");
+    say("/* Instructions of one call at most, counted in qemu: orthoglide_leg_tree 07ef02a395095fd8. */\n");
     say("#define ORTHOGLIDE_LEG_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -347,7 +347,7 @@ static unsigned long count_forward_kinematics(void)
 
 int main(void)
 {
-    say("/* Instructions of one call at most, counted in qemu: sr400_tree 65f4114b0cd85d7d. */\n");
+    say("/* Instructions of one call at most, counted in qemu: sr400_tree 7162010add7f71c6. */\n");
     say("#define SR400_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.33361.3048.13344) only what has the signature 82510be834206ef9.
-set(PACKAGE_VERSION 1.33361.3048.13344)
+# find_package(sr400 1.43289.17187.46395) only what has the signature a9194323b53bc9c0.
+set(PACKAGE_VERSION 1.43289.17187.46395)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
