@@ -1,29 +1,24 @@
 """One chunk of a long log, reduced to what a fit needs of it: pure functions, for any worker."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.compiled.fused import no_rows
 from modeler.estimate.compressed import Compressed, compress, merged
 from modeler.observation.chunk import Chunk
 from modeler.observation.evaluated import Evaluated
 from modeler.observation.facts import Facts
 from modeler.observation.motion import Segment
-from modeler.observation.passing import is_plain
+from modeler.observation.passing import with_stretch
 from modeler.observation.seen import Chosen, seen
 from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
-
-_SAMPLES = 4096  # evaluated at a time: 6 joints x 48 columns of them are 9 MB
-_HELD = 10_000  # rows after which they become a triangle
-
-_Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""W, y and the joint of some rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,40 +59,24 @@ def merge_all(parts: Iterable[Partial]) -> Partial:
     return reduce(merge, parts)
 
 
-def _compressed(model: "CompiledModel", stretches: Sequence[Stretch]) -> Compressed:
+def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
     """Triangles of some stretches; W is never there as a whole."""
-    evaluated, data = Evaluated(model, stretches), _of([], model)
-    held, rows = list[_Rows](), 0
-    for part in stretches:
-        if not part.used.any():
-            continue
-        if is_plain(part) and hasattr(model, "triangles"):
-            data = merged(data, _plain(evaluated, part, data))
-            continue
-        torque = part.filtered(partial(_tau, part.segment))
-        for block, W in part.blocks(partial(evaluated, part.segment), _SAMPLES):
-            used = part.used[block]
-            held.append((W[used], torque[block][used], np.nonzero(used)[1]))
-            rows += len(held[-1][1])
-            if rows > _HELD:
-                data, held, rows = merged(data, _of(held, model)), [], 0
-    return merged(data, _of(held, model)) if held else data
+    parts = [part for part in stretches if part.used.any()]
+    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    for part in parts:
+        torque = part.filtered(partial(_torque, part.segment))
+        state = with_stretch(regressor, part, torque, part.used, state)
+    like = none_of(model)
+    return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
 
 
-def _plain(evaluated: Evaluated, part: Stretch, like: Compressed) -> Compressed:
-    """Triangles of a stretch whose rows are its samples, while they pass."""
-    found = evaluated.triangles(part, part.used, None)
-    return Compressed(like.names, found.triangles, found.rows.astype(int), like.free)
-
-
-def _of(held: Sequence[_Rows], model: "CompiledModel") -> Compressed:
-    """Triangles of some rows."""
-    names, joints = [base.name for base in model.spec.base], model.spec.joints
-    nothing = (np.empty((0, len(names))), np.empty(0), np.empty(0, dtype=int))
-    W, y, joint = (np.concatenate(values) for values in zip(nothing, *held, strict=True))
-    free = [j for j, one in enumerate(joints) if not one.actuated]
-    return compress(W, y, joint, len(joints), names, free)
-
-
-def _tau(segment: Segment, window: slice) -> np.ndarray:
+def _torque(segment: Segment, window: slice) -> np.ndarray:
     return segment.tau[window]
+
+
+def none_of(model: "CompiledModel") -> Compressed:
+    """The triangles of no rows."""
+    names, joints = [base.name for base in model.spec.base], model.spec.joints
+    free = [j for j, joint in enumerate(joints) if not joint.actuated]
+    nothing = np.empty((0, len(names)))
+    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)
