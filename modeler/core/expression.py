@@ -74,8 +74,10 @@ class Expression:
 
 @dataclass(frozen=True, eq=False)
 class _Algebra:
-    """What the parts of an expression stand for: a class, for a function within another that calls
-    itself would keep the values, arrays perhaps, until the garbage is collected.
+    """What the parts of an expression stand for.
+
+    A class: a function within another that calls itself refers to itself, so it would keep the
+    values, arrays perhaps, until garbage is collected.
     """
 
     text: str
