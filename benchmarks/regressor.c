@@ -1,22 +1,35 @@
-/* Nanoseconds per call of an emitted base regressor, states in cache; prints dense and compact.
+/* Nanoseconds per sample of an emitted base regressor and of peers, interleaved, states in cache.
  *
- * Compile with -DHEADER, -DPREFIX, -DMACRO; one argument: how often to measure.
+ * Compile with -DHEADER, -DPREFIX, -DMACRO, with -DTILED=HEADER where there is a tile. Arguments:
+ * how often to measure, a model for the peers, then their shared libraries. Prints for each way its
+ * name and the shortest time.
  */
-#define _POSIX_C_SOURCE 199309L
+#define _GNU_SOURCE
 #include HEADER
+#ifdef TILE_HEADER
+#include TILE_HEADER
+#endif
 
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
 #define JOINTS PASTE(MACRO, _JOINTS)
 
-enum { STATES = 64, CALLS = 2048 };
+enum { STATES = 64, CALLS = 1024, MOST = 8, LANES = 8 };
+
+typedef double (*peer_regressor)(void *, const double *, const double *, const double *, double *);
+typedef void *(*peer_model)(const char *);
 
 static double q[STATES][JOINTS], qd[STATES][JOINTS], qdd[STATES][JOINTS];
 static double phi[JOINTS * PASTE(MACRO, _BASE_PARAMETERS)], values[PASTE(MACRO, _NONZEROS)];
+static double block[LANES * PASTE(MACRO, _NONZEROS)] __attribute__((aligned(64)));
+static double least[3 + MOST];
+static volatile double sink;
 
 static double now(void)
 {
@@ -25,52 +38,87 @@ static double now(void)
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-static double random_number(void)
+static void keep(int way, double start)
 {
-    return 4.0 * rand() / RAND_MAX - 2.0;
+    const double each = (now() - start) / CALLS;
+
+    if (least[way] == 0.0 || each < least[way])
+        least[way] = each;
 }
 
-static int ascending(const void *a, const void *b)
+static double ours(void)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    double sum = 0.0, start = now();
+
+    for (int i = 0; i < CALLS; i++) {
+        PASTE(PREFIX, _base_regressor)(q[i % STATES], qd[i % STATES], qdd[i % STATES], phi);
+        sum += phi[0];
+    }
+    keep(0, start);
+    start = now();
+    for (int i = 0; i < CALLS; i++) {
+        PASTE(PREFIX, _base_regressor_nonzeros)(q[i % STATES], qd[i % STATES], qdd[i % STATES],
+                                                values);
+        sum += values[0];
+    }
+    keep(1, start);
+#ifdef TILE_HEADER
+    const modeler_tiled *const tiled = PASTE(PREFIX, _tiled)();
+    start = now();
+    for (int i = 0; i < CALLS; i += LANES) {
+        const int k = i % STATES;
+        tiled->tile(q[k], qd[k], qdd[k], NULL, block);
+        sum += block[0];
+    }
+    keep(2, start);
+#endif
+    return sum;
 }
 
-static double median(double *numbers, size_t count)
+static double peer(int way, peer_regressor regressor, void *model)
 {
-    qsort(numbers, count, sizeof *numbers, ascending);
-    return numbers[count / 2];
+    double sum = 0.0;
+    const double start = now();
+
+    for (int i = 0; i < CALLS; i++)
+        sum += regressor(model, q[i % STATES], qd[i % STATES], qdd[i % STATES], NULL);
+    keep(way, start);
+    return sum;
 }
 
 int main(int argc, char **argv)
 {
-    const size_t rounds = argc > 1 ? strtoul(argv[1], NULL, 10) : 15;
-    double *dense = malloc(rounds * sizeof *dense), *compact = malloc(rounds * sizeof *compact);
-    double sum = 0;
+    const long rounds = argc > 1 ? strtol(argv[1], NULL, 10) : 15;
+    const int peers = argc > 3 ? (argc - 3 < MOST ? argc - 3 : MOST) : 0;
+    peer_regressor regressors[MOST];
+    void *models[MOST];
 
-    if (!rounds || !dense || !compact) return 1;
+    for (int k = 0; k < peers; k++) {
+        void *const library = dlopen(argv[3 + k], RTLD_NOW | RTLD_LOCAL);
+        peer_model model;
+        if (!library) {
+            fprintf(stderr, "%s\n", dlerror());
+            return 1;
+        }
+        *(void **)&model = dlsym(library, "peer_model");
+        *(void **)&regressors[k] = dlsym(library, "peer_regressor");
+        models[k] = model(argv[2]);
+        if (!models[k] || !regressors[k])
+            return 1;
+    }
     for (int i = 0; i < STATES; i++)
         for (int j = 0; j < JOINTS; j++) {
-            q[i][j] = random_number();
-            qd[i][j] = random_number();
-            qdd[i][j] = random_number();
+            q[i][j] = 4.0 * rand() / RAND_MAX - 2.0;
+            qd[i][j] = 4.0 * rand() / RAND_MAX - 2.0;
+            qdd[i][j] = 4.0 * rand() / RAND_MAX - 2.0;
         }
-    for (size_t round = 0; round < rounds; round++) {
-        double start = now();
-        for (int i = 0; i < CALLS; i++) {
-            PASTE(PREFIX, _base_regressor)(q[i % STATES], qd[i % STATES], qdd[i % STATES], phi);
-            sum += phi[0];
-        }
-        dense[round] = (now() - start) / CALLS;
-        start = now();
-        for (int i = 0; i < CALLS; i++) {
-            PASTE(PREFIX, _base_regressor_nonzeros)(q[i % STATES], qd[i % STATES], qdd[i % STATES],
-                                                    values);
-            sum += values[0];
-        }
-        compact[round] = (now() - start) / CALLS;
+    for (long round = 0; round < rounds; round++) {
+        sink += ours();
+        for (int k = 0; k < peers; k++)
+            sink += peer(3 + k, regressors[k], models[k]);
     }
-    fprintf(stderr, "%g\n", sum); /* so that the calls are not left out */
-    printf("%g %g\n", median(dense, rounds), median(compact, rounds));
+    printf("scalar %g\nnonzeros %g\ntile %g\n", least[0], least[1], least[2]);
+    for (int k = 0; k < peers; k++)
+        printf("%s %g\n", argv[3 + k], least[3 + k]);
     return 0;
 }

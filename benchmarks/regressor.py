@@ -1,119 +1,104 @@
-"""How long a regressor takes: to derive, to compile, to call; beside Pinocchio's Python binding.
+"""The base regressor beside Pinocchio's C++ regressor, interleaved in one process, in cache.
 
-Run from the top of the checkout: `python -m benchmarks.regressor [ROBOT...]`. Robots carry rotor
-inertia, viscous and Coulomb friction at every joint. Pinocchio computes ten standard columns per
-link and no friction; its time is that of the call from Python, as most people use it.
+Robots carry rotor inertia, viscous and Coulomb friction at every joint. Pinocchio computes ten
+standard columns per link and no friction; it is compiled from its headers by gcc and by clang.
 """
 
-import dataclasses
-import os
 import subprocess
-import sys
 import tempfile
-import time
-from collections.abc import Callable
+from collections.abc import Mapping
 from pathlib import Path
-from statistics import median
-from typing import Any
 
-import numpy as np
-
-from modeler.base import base_parameters
-from modeler.codegen import Emitted, emit, write_emitted
-from modeler.compiled.build import build_library
+from benchmarks.line import Key, Line, Missing, ratio
+from benchmarks.peers import pinocchio
+from benchmarks.robots import ROBOTS, emitted, lossy
+from modeler.codegen import write_emitted
 from modeler.compiled.toolchain import find_toolchain
-from modeler.robot import EffectUse, Robot, read_robot
-from modeler.symbolic import derive_model
 
-ROBOTS = ("wrist", "puma560", "panda")
 HERE = Path(__file__).resolve().parent
+_ROUNDS, _FEW = 400, 40
+_WAYS = ("scalar", "nonzeros", "tile")
 
 
-def with_losses(robot: Robot) -> Robot:
-    names = tuple(joint.name for joint in robot.moving)
-    effects = ("rotor_inertia", "viscous", "coulomb")
-    return dataclasses.replace(robot, effects=tuple(EffectUse(e, names) for e in effects))
+def _measure(quick: bool) -> Mapping[str, float]:
+    found: dict[str, float] = {}
+    for name in ROBOTS:
+        times = nanoseconds(name, _FEW if quick else _ROUNDS)
+        ways = {"scalar": "scalar", "nonzeros": "nonzeros", "batch": "tile"}
+        ways = {way: times[own] for way, own in ways.items() if times[own]}
+        found |= {f"regressor_ns.{way}.{name}": own for way, own in ways.items()}
+        for kind in pinocchio.COMPILERS:
+            if (own := times.get(kind)) is None:
+                continue
+            found[f"pinocchio_ns.{kind}.{name}"] = own
+            found |= {f"{way}_vs_pinocchio_{kind}.{name}": own / ns for way, ns in ways.items()}
+    return found
 
 
-def timed(work: Callable[[], Any]) -> tuple[float, Any]:
-    start = time.perf_counter()
-    result = work()
-    return time.perf_counter() - start, result
-
-
-def call_times(emitted: Emitted, folder: Path) -> tuple[float, float]:
-    """Nanoseconds per call: (dense, compact), medians, the loop inside C."""
-    write_emitted(emitted, folder)
-    tools, prefix = find_toolchain(), emitted.spec.prefix
-    names = [f'-DHEADER="{prefix}.h"', f"-DPREFIX={prefix}", f"-DMACRO={prefix.upper()}"]
-    sources = [folder / name for name in emitted.spec.sources if name.endswith(".c")]
-    program = folder / "benchmark"
-    command = [*tools.command, *tools.flags, *names, "-I", str(folder), "-o", str(program)]
-    subprocess.run([*command, str(HERE / "regressor.c"), *map(str, sources), "-lm"], check=True)
-    out = subprocess.run([program, "101"], capture_output=True, text=True, check=True).stdout
-    dense, compact = (float(word) for word in out.split())
-    return dense, compact
-
-
-def pinocchio_time(robot: Robot) -> float:
-    """Nanoseconds per call of computeJointTorqueRegressor from Python, median; nan without it."""
-    try:
-        import pinocchio as pin
-
-        from tests.symbolic.oracles import pinocchio_model
-    except ImportError:
-        return float("nan")
-    model, _ = pinocchio_model(robot)
-    data = model.createData()
-    rng = np.random.default_rng(0)
-    states = rng.uniform(-2, 2, (200, 3, model.nv))
-
-    def work() -> None:
-        for q, qd, qdd in states:
-            pin.computeJointTorqueRegressor(model, data, q, qd, qdd)
-
-    work()
-    return 1e9 * median(timed(work)[0] for _ in range(15)) / len(states)
-
-
-def measure(name: str) -> dict[str, Any]:
-    robot = with_losses(read_robot(name))
-    derive, model = timed(lambda: derive_model(robot))
-    regressor, _ = timed(lambda: model.regressor)
-    group, base = timed(lambda: base_parameters(model))
-    generate, emitted = timed(lambda: emit(model, base))
+def nanoseconds(name: str, rounds: int) -> dict[str, float]:
+    """ns per sample of every way, and of the peers that this machine can build."""
+    module, kinds = emitted(name), []
     with tempfile.TemporaryDirectory() as scratch:
-        os.environ["MODELER_CACHE"] = scratch
-        sources = {name: emitted.files[name] for name in emitted.spec.sources}
-        compiling, _ = timed(lambda: build_library(sources))
-        dense, compact = call_times(emitted, Path(scratch) / "module")
-    function = next(f for f in emitted.spec.functions if f.name.endswith("_base_regressor"))
-    return {
-        "robot": name,
-        "columns": len(emitted.spec.base),
-        "add+mul": f"{function.additions}+{function.multiplications}",
-        "derive s": derive + regressor,
-        "base s": group,
-        "emit s": generate,
-        "compile s": compiling,
-        "C dense ns": dense,
-        "C compact ns": compact,
-        "Pinocchio Python ns": (pinocchio := pinocchio_time(robot)),
-        "ratio": pinocchio / dense,
-    }
+        folder, model = Path(scratch), Path(scratch) / "model.txt"
+        write_emitted(module, folder / "module")
+        pinocchio.write_model(lossy(name), model)
+        for kind in pinocchio.COMPILERS:
+            try:
+                pinocchio.check(kind, name, model)
+            except Missing:
+                continue
+            kinds.append(kind)
+        program = _compiled(name, folder)
+        peers = [str(pinocchio.library(kind)) for kind in kinds]
+        said = subprocess.run(
+            [program, str(rounds), str(model), *peers], capture_output=True, text=True, check=True
+        )
+    times = [float(line.rpartition(" ")[2]) for line in said.stdout.splitlines()]
+    return dict(zip((*_WAYS, *kinds), times, strict=True))
 
 
-def main(names: list[str]) -> None:
-    derive_model(read_robot("two-link")).regressor  # noqa: B018  imports and caches
-    base_parameters(derive_model(read_robot("two-link")))
-    find_toolchain()
-    rows = [measure(name) for name in names or ROBOTS]
-    heads = list(rows[0])
-    texts = [[f"{v:.3g}" if isinstance(v, float) else str(v) for v in r.values()] for r in rows]
-    widths = [max(len(line[k]) for line in (heads, *texts)) for k in range(len(heads))]
-    for line in (heads, *texts):
-        print("  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True)))
+def _compiled(name: str, folder: Path) -> Path:
+    spec = emitted(name).spec
+    tools, prefix = find_toolchain(), spec.prefix
+    names = [f'-DHEADER="{prefix}.h"', f"-DPREFIX={prefix}", f"-DMACRO={prefix.upper()}"]
+    if spec.tile_sources:
+        names.append(f'-DTILE_HEADER="{prefix}_tile.h"')
+    files = dict.fromkeys((*spec.sources, *spec.tile_sources))
+    units = [str(folder / "module" / unit) for unit in files if unit.endswith(".c")]
+    program = folder / "regressor"
+    made = subprocess.run(
+        [*tools.command, *tools.flags, *names, "-I", str(folder / "module"), "-o", str(program),
+         str(HERE / "regressor.c"), *units, "-lm", "-ldl"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    if made.returncode:
+        raise Missing(f"the C of {name} does not compile: {made.stderr.partition(chr(10))[0]}")
+    return program
 
 
-if __name__ == "__main__":
-    main(sys.argv[1:])
+def _keys() -> list[Key]:
+    must = {"scalar": {"puma560": (15.0, 16.0), "panda": (13.0, 14.0)},
+            "batch": {"puma560": (80.0, 107.0), "panda": (70.0, 94.0)}}  # fmt: skip
+    keys = []
+    for name in ROBOTS:
+        keys += [
+            Key(f"regressor_ns.{way}.{name}", "ns", f"One sample of the base regressor, {text}.")
+            for way, text in (
+                ("scalar", "all entries, one call a sample"),
+                ("nonzeros", "nonzero entries, one call a sample"),
+                ("batch", "nonzero entries, 8 samples a call"),
+            )
+        ]
+        for kind in pinocchio.COMPILERS:
+            peer = f"Pinocchio's C++ regressor ({kind})"
+            keys.append(Key(f"pinocchio_ns.{kind}.{name}", "ns", f"One sample of {peer}."))
+            for way, text in (("scalar", "dense"), ("nonzeros", "nonzero entries"),
+                              ("batch", "nonzero entries by tiles of 8")):  # fmt: skip
+                goals = must.get(way, {}).get(name, (None, None)) if kind == "gcc" else (None, None)
+                keys.append(
+                    ratio(f"{way}_vs_pinocchio_{kind}.{name}", f"{peer} over ours, {text}.", *goals)
+                )
+    return keys
+
+
+LINES = (Line(tuple(_keys()), _measure, 60),)

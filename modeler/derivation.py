@@ -6,14 +6,12 @@ from pathlib import Path
 
 from modeler.base import BaseParameters, base_parameters
 from modeler.base.render import as_latex, as_markdown, as_text
-from modeler.codegen import emit, write_emitted
+from modeler.core.choices import Precision
 from modeler.core.contract import Emitted, FittedSpec
 from modeler.core.formulas import Formulas
 from modeler.core.presented import Presented
 from modeler.robot import Robot, read_robot
 from modeler.symbolic import SymbolicModel, derive_model
-from modeler.terms import nonzero_base
-from modeler.terms.equations import motion_equation, regressor_equation
 
 
 @dataclass(frozen=True)
@@ -36,6 +34,9 @@ class Derivation(Presented):
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.
         """
+        from modeler.terms import nonzero_base
+        from modeler.terms.equations import motion_equation
+
         base = nonzero_base(self.model, self.base) if nonzero else self.base
         return motion_equation(self.model, base).formulas()
 
@@ -45,6 +46,9 @@ class Derivation(Presented):
         Args:
             nonzero: as of `closed_form`.
         """
+        from modeler.terms import nonzero_base
+        from modeler.terms.equations import regressor_equation
+
         base = nonzero_base(self.model, self.base) if nonzero else self.base
         return regressor_equation(self.model, base).formulas()
 
@@ -76,6 +80,8 @@ def generate(
     folder: str | Path | None = None,
     force: bool = False,
     fitted: FittedSpec | None = None,
+    precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The C module; written to `folder` if one is given.
 
@@ -84,12 +90,16 @@ def generate(
         folder: made if it is not there.
         force: write also over files that no earlier run wrote, or that were edited since.
         fitted: values of its base parameters; functions that have them are added.
+        precision: `double`, or `single`: then all numbers of the C are `float`.
+        cuda: add the base regressor in CUDA, of a robot without loops.
 
     Raises:
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
             that were edited since, and `force` is not given; or it cannot be written.
     """
-    emitted = emit(derivation.model, derivation.base, fitted)
+    from modeler.codegen import emit, write_emitted  # who derives need not wait for it
+
+    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda)
     emitted = dataclasses.replace(emitted, log=derivation.robot.log)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)

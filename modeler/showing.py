@@ -14,10 +14,8 @@ from modeler.show import (
     Posture,
     Skeleton,
     home_posture,
-    picture_bytes,
     skeleton_of,
 )
-from modeler.symbolic import with_home
 
 
 @dataclass(frozen=True)
@@ -49,6 +47,8 @@ def show(robot: Robot, page: str | Path | None = None, picture: str | Path | Non
     if page is not None:
         contents.append((page, robot_html(found.skeleton, found.posture)))
     if picture is not None:
+        from modeler.show import picture_bytes
+
         contents.append((picture, picture_bytes(found.skeleton, found.posture, kind)))
     for place, content in contents:
         write_atomically(Path(place), content)
@@ -68,6 +68,8 @@ def _kind(picture: Path) -> str:
 def _shown(robot: Robot) -> Shown:
     note = ""
     if robot.loops:
+        from modeler.symbolic import with_home  # only loops need symbols
+
         try:
             home = with_home(robot)
             robot, note = home.robot, home.told

@@ -8,7 +8,7 @@ from pathlib import Path
 NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
 SOUTH = (
     "pictures", "compiled", "logs", "observation", "estimate", "fit", "residuals", "compare",
-    "freerun", "hypotheses", "scoring", "diagnose", "excite", "pages",
+    "freerun", "fleet", "hypotheses", "scoring", "diagnose", "excite", "pages",
 )  # fmt: skip
 
 # Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
@@ -19,6 +19,8 @@ STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
+    "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
+    "jobs": {"core"},
     "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
     "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
     "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
@@ -40,6 +42,7 @@ STAGES: dict[str, set[str]] = {
         "derivation",
         "showing",
         "improve",
+        "jobs",
         "notebook",
     },
     "cli": {
@@ -51,6 +54,7 @@ STAGES: dict[str, set[str]] = {
         "derivation",
         "showing",
         "improve",
+        "jobs",
         "methods",
         "notebook",
         "api",
@@ -68,7 +72,7 @@ PACKAGES: dict[str, set[str]] = {
     "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "pictures": {"numpy", "matplotlib"},
-    "compiled": {"numpy", "cffi"},
+    "compiled": {"numpy", "cffi", "cupy"},
     "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
     "observation": {"numpy", "scipy"},
     "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
@@ -76,6 +80,8 @@ PACKAGES: dict[str, set[str]] = {
     "residuals": {"numpy", "scipy"},
     "compare": {"numpy", "scipy"},
     "freerun": {"numpy", "scipy"},
+    "fleet": {"numpy", "scipy"},
+    "jobs": {"distributed"},
     "hypotheses": {"numpy", "scipy"},
     "scoring": {"numpy", "scipy"},
     "diagnose": {"numpy", "threadpoolctl"},
@@ -95,7 +101,8 @@ PACKAGES: dict[str, set[str]] = {
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
     "jinja2": ("codegen/render.py", "pages/render.py"),
-    "cffi": ("compiled/bind.py",),
+    "cupy": ("compiled/gpu.py",),
+    "cffi": ("compiled/bind.py", "compiled/bind_fused.py", "compiled/bind_tile.py"),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
@@ -103,6 +110,7 @@ ONLY_IN = {
     "pandas": ("core/table.py",),
     "h5py": ("logs/hdf5.py",),
     "rosbags": ("logs/bags.py",),
+    "distributed": ("jobs/cluster.py",),
 }
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

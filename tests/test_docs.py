@@ -38,6 +38,8 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/excitation.md",
        "docs/python.md",
        "docs/controller.md",
+       "docs/microcontrollers.md",
+       "docs/gpu.md",
        )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "d3d7a3c4fb5722e8"
+#define FIVE_BAR_SIGNATURE "ea35f782fcdec370"
 
 #define FIVE_BAR_JOINTS 2
 #define FIVE_BAR_STANDARD_PARAMETERS 40

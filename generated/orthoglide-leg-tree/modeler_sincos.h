@@ -2,7 +2,8 @@
  *
  * Straight-line code; error below 2.5 units in the last place (1.5 for |x| < 320). Method and
  * coefficients: fdlibm (Sun Microsystems, 1993): reduction by pi/2 in three parts (Cody, Waite),
- * polynomials on [-pi/4, pi/4].
+ * polynomials on [-pi/4, pi/4]. Angles of 1e5 rad and more go to <math.h>; with
+ * -DMODELER_BOUNDED_ANGLES they give NaN, and its sin and cos, 4 KB on a Cortex-M, are not linked.
  */
 #ifndef MODELER_SINCOS_H
 #define MODELER_SINCOS_H
@@ -17,8 +18,12 @@ static inline void modeler_sincos(double x, double *sine, double *cosine)
     static const double QUARTER[4] = {1.0, 0.0, -1.0, 0.0};
 
     if (!(fabs(x) < 1e5)) { /* too many turns for that reduction, or not a number */
+#ifdef MODELER_BOUNDED_ANGLES
+        *sine = *cosine = NAN;
+#else
         *sine = sin(x);
         *cosine = cos(x);
+#endif
         return;
     }
     const int n = (int)(x*TWO_OVER_PI + (x < 0.0 ? -0.5 : 0.5));

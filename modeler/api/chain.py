@@ -1,18 +1,15 @@
-"""The chain: from a robot to its C, from logs to a model, from a model to what it lacks."""
+"""The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 from modeler.api.ways import Asked, estimated
-from modeler.compare import Comparison
-from modeler.compare import compare as compare_prediction
-from modeler.compare.predict import predict
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
-from modeler.core.choices import Method
+from modeler.core.choices import Method, Precision
 from modeler.core.contract import Emitted, ModuleSpec
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.window import file_and_window
@@ -20,8 +17,6 @@ from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
 from modeler.derivation import generate as generate_robot
 from modeler.derivation import load as load
-from modeler.diagnose import Diagnosis, Known
-from modeler.diagnose import diagnose as find_missing
 from modeler.fit import (
     FitResult,
     IdentifiedModel,
@@ -41,8 +36,7 @@ from modeler.observation.findings import findings_of_fit
 from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
-from modeler.showing import show as show
-from modeler.simulate import SimulatedLog, write_log
+from modeler.simulate.log import SimulatedLog, write_log
 
 AnyLog = str | Path | Log | SimulatedLog
 """A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
@@ -76,6 +70,8 @@ def generate(
     source: Derivation | IdentifiedModel,
     folder: str | Path | None = None,
     force: bool = False,
+    precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -83,6 +79,8 @@ def generate(
         source: what was derived, or a fitted model.
         folder: the module is written there if it is given.
         force: write also over files that no earlier run wrote, or that were edited since.
+        precision: `double`, or `single`: then all numbers of the C are `float`.
+        cuda: add the base regressor in CUDA, of a robot without loops.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -90,9 +88,9 @@ def generate(
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
     """
     if isinstance(source, Derivation):
-        return generate_robot(source, folder, force)
+        return generate_robot(source, folder, force, precision=precision, cuda=cuda)
     derivation, _ = _emitted_anew(source)
-    return generate_robot(derivation, folder, force, fitted_spec(source))
+    return generate_robot(derivation, folder, force, fitted_spec(source), precision, cuda)
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
@@ -294,27 +292,3 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
         DataError: the model was saved by a version that kept none.
     """
     return with_essential_only(model, f"model of {model.spec.robot}")
-
-
-def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
-    """Measured against predicted torque on logs, after the processing of the fit."""
-    compiled = recompile(model)
-    prediction, _ = predict(model, read_logs(compiled, logs, mapping), compiled)
-    return compare_prediction(prediction)
-
-
-def diagnose(
-    model: IdentifiedModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
-    without: Sequence[str] = (),
-    progress: Callable[[float], None] | None = None,
-    mapping: Mapped = (),
-) -> Diagnosis:
-    """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
-    compiled = recompile(model)
-    robot = robot_from_text(model.robot_text, "robot of the model")
-    known = Known(robot.catalogue, robot.coupling)
-    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
-    check_apart(given, kept)
-    return find_missing(model, compiled, given, kept, without, progress=progress, known=known)

@@ -50,6 +50,7 @@ def guard(names: dict[str, Any]) -> None:
             names[name] = checked(value)
 
 
+@functools.cache
 def checked(function: Callable[P, R]) -> Callable[P, R]:
     """The function, which refuses arguments of a kind that it does not declare.
 

@@ -8,19 +8,21 @@ from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis
 from modeler.fit import IdentifiedModel
 from modeler.fit.side_by_side import SideBySide
+from modeler.fleet import Fleet
 from modeler.logs.look import Look
 from modeler.pages.additions import write_additions
 from modeler.pages.comparison import write_report as write_comparison
 from modeler.pages.contest import write_contest
 from modeler.pages.estimators import write_estimators
 from modeler.pages.fitted import write_fit
+from modeler.pages.fleet import write_fleet
 from modeler.pages.log import write_log_page
 from modeler.pages.report import write_diagnosis
 from modeler.robot import Robot
 from modeler.scoring.contest import Contest
 from modeler.showing import show
 
-Reported = Robot | Look | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide
+Reported = Robot | Look | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide | Fleet
 """What has a page."""
 
 
@@ -29,7 +31,8 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
 
     Args:
         thing: a robot, a look at a log, a model (its fit; of one with additions, what they
-            gained), a comparison, models side by side, a diagnosis, or estimators side by side.
+            gained), a comparison, models side by side, a diagnosis, estimators side by side, or a
+            fleet.
         path: of an .html file.
         notes: lines for the foot of the page: where the logs come from.
 
@@ -55,7 +58,9 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         return write_contest(place, thing, notes)
     if isinstance(thing, Diagnosis):
         return write_diagnosis(place, thing, notes)
+    if isinstance(thing, Fleet):
+        return write_fleet(place, thing, notes)
     raise DataError(
         f"write_report: got {type(thing).__name__}; expected a robot, a model, a comparison, a "
-        "diagnosis, models side by side or estimators side by side"
+        "diagnosis, models side by side, estimators side by side or a fleet"
     )

@@ -12,6 +12,7 @@ import sympy
 from sympy.polys.fields import FracElement
 from sympy.polys.fields import field as rational_functions
 
+from modeler.base.fraction import Fraction
 from modeler.base.trigonometry import in_cosines
 from modeler.symbolic.angles import cos_sin
 from modeler.symbolic.geometry import Geometry
@@ -60,7 +61,8 @@ class ExactField:
         names = [f"u{i}" for i in range(len(self.letters))]
         if names:
             self._field, *generators = rational_functions(names, sympy.QQ)
-            self._one = self._field.one
+            generators = [Fraction(self._field, letter.numer) for letter in generators]
+            self._one = Fraction(self._field, self._field.ring.one)
         else:
             self._field, generators, self._one = None, [], sympy.QQ(1)
         self._zero = self._one - self._one

@@ -49,14 +49,20 @@ def inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Eleme
 
 def _moved(R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element) -> list[Element]:
     """MS' = S + M p and J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), S = R MS."""
-    J = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]]
+    # Most combinations hold few of the ten: what is 0 is not multiplied out.
     M = c[9]
-    S = apply(R, c[6:9], zero)
-    turned = product(product(R, J, zero), [list(column) for column in zip(*R, strict=True)], zero)
+    S = apply(R, c[6:9], zero) if any(c[6:9]) else [zero] * 3
+    if any(c[:6]):
+        J = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]]
+        half = product(R, J, zero)
+        turned = [_dot(half[i], R[j], zero) for i, j in _J]
+    else:
+        turned = [zero] * 6
+    if not (M or any(S)) or not any(p):
+        return [*turned, *S, M]
     spread = 2 * _dot(p, S, zero) + M * (_dot(p, p, zero) if M else zero)
     out = []
-    for i, j in _J:
-        value = turned[i][j]
+    for (i, j), value in zip(_J, turned, strict=True):
         if any(S):
             value = value - p[i] * S[j] - S[i] * p[j]
         if M:

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from modeler.cli.console import Json
-from modeler.cli.parsers.derive import FEW_JOINTS, Form
+from modeler.cli.parsers.derive import Form
+from modeler.cli.requested import coefficients_wanted
 from modeler.cli.words import Words
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
@@ -57,20 +58,6 @@ _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 
 
-def check_request(args: argparse.Namespace) -> None:
-    """Refuses options that would do nothing.
-
-    Raises:
-        ModelerError: they stand without what they change.
-    """
-    if args.nonzero and not (args.closed_form or args.regressor):
-        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
-    if args.expanded and not (args.closed_form or args.terms):
-        raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
-    if args.document and args.format != "latex":
-        raise ModelerError("--document is a whole page of LaTeX; add --format latex")
-
-
 def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Words) -> Json:
     """Prints what was asked for; for few joints the coefficients unasked.
 
@@ -89,30 +76,12 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
             added["closed_form"] = _say_equation(words, motion_equation(model, base))
     if args.regressor:
         added["regressor"] = _say_equation(words, regressor_equation(model, base))
-    few = model.closure is None and len(model.robot.coordinates) <= FEW_JOINTS
-    asked = args.closed_form or args.regressor
-    if args.terms or (args.terms is None and few and args.format == "text" and not asked):
+    if coefficients_wanted(args, derivation):
         _say_coefficients(args, derivation, words)
     if args.report is not None:
         write_atomically(Path(args.report), terms_report(model, derivation.base))
         words.say(f"written: {args.report}")
     return added
-
-
-def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
-    """Refuses what has no meaning for loops.
-
-    Raises:
-        ModelerError: coefficients or expanded forms are asked for.
-    """
-    if derivation.model.closure is None:
-        return
-    if args.terms or args.report is not None or args.expanded:
-        raise ModelerError(
-            f"{derivation.robot.name}: coefficients and expanded forms are written for robots "
-            "whose loops, if any, follow linear relations; leave out --terms, --report and "
-            "--expanded, or ask for --closed-form, which has J_t and J_p"
-        )
 
 
 def _say_equation(words: Words, equation: Equation) -> Json:

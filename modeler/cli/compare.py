@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import Mapped, read_logs, recompile
+from modeler.api.chain import Mapped, read_logs, recompile
 from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.contest import models_of, run_contest

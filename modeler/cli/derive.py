@@ -19,14 +19,13 @@ from modeler.base.render import (
     proof_paragraphs,
     proof_text,
 )
-from modeler.cli.closed_forms import check_loops, check_request, say_closed_forms
 from modeler.cli.console import Json, working
 from modeler.cli.parsers.derive import Form
+from modeler.cli.requested import check_loops, check_request, forms_wanted
 from modeler.cli.robots import robot_of, robot_with_effects
 from modeler.cli.words import Words
 from modeler.core.errors import RobotError
 from modeler.derivation import Derivation, derive
-from modeler.pages.derivation import Derived, write_derivation
 from modeler.robot import Robot
 from modeler.symbolic import LinkColumn, SymbolicModel
 from modeler.symbolic.second_opinion import lagrange_torque
@@ -59,7 +58,10 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.say()
     words.say(proof_text(base.proof))
     words.say(_agreement(opinion))
-    result |= say_closed_forms(args, derivation, words)
+    if forms_wanted(args, derivation):
+        from modeler.cli.closed_forms import say_closed_forms  # it takes long to load
+
+        result |= say_closed_forms(args, derivation, words)
     if args.page is not None:
         words.say(f"written: {_page(args, derivation, opinion)}")
     words.end()
@@ -67,6 +69,8 @@ def run_derive(args: argparse.Namespace) -> Json:
 
 
 def _page(args: argparse.Namespace, derivation: Derivation, opinion: float) -> Path:
+    from modeler.pages.derivation import Derived, write_derivation
+
     base = derivation.base
     units = (base.columns[parameter.column].unit for parameter in base.parameters)
     relations = [relation_formula(parameter) for parameter in base.parameters]

@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import read_logs, recompile
+from modeler.api.chain import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known, diagnose

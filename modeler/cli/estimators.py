@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from modeler.api import compile_model, derive, generate
+from modeler.api.chain import compile_model, derive, generate
 from modeler.api.trials import chosen_methods, observed_apart
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.robots import robot_of

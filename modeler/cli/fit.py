@@ -4,11 +4,12 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import compile_model, derive, generate, identified, read_logs
+from modeler.api.chain import compile_model, derive, generate, identified, read_logs
 from modeler.api.given import check_logs, given
 from modeler.api.ways import estimated
 from modeler.cli.console import Json, say, working
 from modeler.cli.drive_gains import check_load, fit_with_gains
+from modeler.cli.long_logs import fit_if_long
 from modeler.cli.robots import robot_of
 from modeler.cli.ways import asked, check_way
 from modeler.core.choices import GAIN_METHOD
@@ -17,7 +18,6 @@ from modeler.core.files import write_atomically
 from modeler.fit import FitResult, IdentifiedModel, save_model, with_verdict
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.findings import findings_of_fit
-from modeler.pages.fitted import write_fit
 from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
 
@@ -50,6 +50,8 @@ def run_fit(args: argparse.Namespace) -> Json:
     if args.method == GAIN_METHOD:
         found = fit_with_gains(args, derivation, compiled, processing, _check_given)
         return _written(args, *found)
+    if (long := fit_if_long(args, derivation, emitted, compiled, processing)) is not None:
+        return _written(args, *long)
     with working("building the observation matrix"):
         logs = read_logs(compiled, args.logs, args.map)
         loaded = read_logs(compiled, args.payload_log, args.map)
@@ -77,6 +79,8 @@ def _written(
         say(line)
     say(f"written: {args.out}")
     if args.report is not None:
+        from modeler.pages.fitted import write_fit  # pages take long to load
+
         place = write_fit(Path(args.report), model, observation.report.lines(), args.out)
         say(f"written: {place}")
     if args.robot_out is not None:

@@ -1,15 +1,17 @@
 """`modeler generate ROBOT|MODEL --out DIR`."""
 
 import argparse
+from typing import TYPE_CHECKING, Any
 
-from modeler.api import generate
 from modeler.cli.console import Json, complain, say, working
 from modeler.cli.robots import robot_of
 from modeler.codegen import leftovers
 from modeler.core.contract import Emitted, FittedSpec, FunctionSpec
 from modeler.core.errors import DataError
-from modeler.derivation import derive
-from modeler.fit import IdentifiedModel, load_model
+from modeler.derivation import derive, generate
+
+if TYPE_CHECKING:
+    from modeler.fit import IdentifiedModel
 
 
 def run_generate(args: argparse.Namespace) -> Json:
@@ -19,7 +21,8 @@ def run_generate(args: argparse.Namespace) -> Json:
     spec, fitted = emitted.spec, emitted.spec.fitted
     for line in () if model is None else model.warning:
         complain(line)
-    say(f"{spec.robot}: {len(spec.base)} base parameters, written to {args.out}:")
+    single = ", single precision" if spec.precision == "single" else ""
+    say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
     for name in sorted(emitted.files):
         say(f"  {name}")
     for function in spec.functions:
@@ -33,7 +36,7 @@ def run_generate(args: argparse.Namespace) -> Json:
     return result if fitted is None else result | _say_fitted(fitted)
 
 
-def _model(args: argparse.Namespace) -> IdentifiedModel | None:
+def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
     """None of a robot."""
     if not args.robot.endswith(".json"):
         return None
@@ -42,16 +45,24 @@ def _model(args: argparse.Namespace) -> IdentifiedModel | None:
             f"--effects: got it with {args.robot}, a model, which has the effects that it was "
             "fitted with; leave --effects out, or fit the robot with them"
         )
+    from modeler.fit import load_model  # a robot needs no fits
+
     return load_model(args.robot)
 
 
-def _written(args: argparse.Namespace, model: IdentifiedModel | None) -> Emitted:
+def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitted:
     if model is not None:
+        from modeler.api.chain import generate as generate_of_model
+
         with working(f"deriving {model.spec.robot}"):
-            return generate(model, args.out, args.force)
+            return generate_of_model(model, args.out, args.force, **_kinds(args))
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
-        return generate(derive(robot), args.out, args.force)
+        return generate(derive(robot), args.out, args.force, **_kinds(args))
+
+
+def _kinds(args: argparse.Namespace) -> dict[str, Any]:
+    return {"precision": args.precision, "cuda": args.cuda}
 
 
 def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:

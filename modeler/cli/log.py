@@ -5,7 +5,8 @@ import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api import compile_model, derive, file_and_span, generate, log_map, look_at
+from modeler.api.chain import compile_model, derive, file_and_span, generate, log_map
+from modeler.api.looking import look_at
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.log_fit import doubts_of_fit
 from modeler.cli.robots import read_told

@@ -4,7 +4,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.api import observe
+from modeler.api.chain import observe
 from modeler.cli.console import working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import ModelerError

@@ -1,7 +1,7 @@
 """A small picture of every assembly mode, beside each other."""
 
 from modeler.pages.robot import modes_html
-from modeler.show import PICTURE_KINDS, Posture, modes_bytes, size_of, skeleton_of
+from modeler.show import PICTURE_KINDS, Posture, size_of, skeleton_of
 from modeler.symbolic import HomeModes
 
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
@@ -21,6 +21,8 @@ def modes_file(found: HomeModes, kind: str) -> bytes:
 
 
 def _drawn(found: HomeModes, kind: str) -> bytes:
+    from modeler.show import modes_bytes
+
     skeleton = skeleton_of(found.linkage.robot)
     size = size_of(skeleton, found.modes[0].posture)
     postures = [Posture(mode.posture, size, closed=True, held=True) for mode in found.modes]

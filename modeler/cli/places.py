@@ -83,6 +83,12 @@ class LogFile(Input):
         return Path(file_and_window(self)[0])
 
 
+class ListFile(Input):
+    """A list of logs with their machines and periods."""
+
+    what = "the list that is read"
+
+
 def model_or_log(text: str) -> Input:
     """A model, by its ending or because it begins as JSON does; else a log."""
     path = Path(text)

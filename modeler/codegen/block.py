@@ -9,20 +9,22 @@ that uses it, as long as the line stays readable.
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 from modeler.codegen.printer import (
     ATOM,
-    PI,
     SUM,
     Text,
     call_text,
     negative,
     number_text,
+    pi_text,
     power_text,
     product_text,
     quotient_text,
     sum_text,
 )
+from modeler.codegen.target import DOUBLE, Target
 from modeler.core.errors import EmitError
 from modeler.symbolic import Expr, Graph
 
@@ -57,6 +59,7 @@ def make_block(
     outputs: Sequence[tuple[str, Expr]],
     places: Mapping[str, str],
     widths: Mapping[int, str] | None = None,
+    target: Target = DOUBLE,
 ) -> Block:
     """Statements that write every output.
 
@@ -64,6 +67,7 @@ def make_block(
         outputs: (C place, value), e.g. ("phi[3]", ...); at least one, all of one graph.
         places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_GEO_D4"}.
         widths: {speed: C text of the width over which its sign turns}; other signs leap.
+        target: the number type, and what its functions are called.
 
     Raises:
         EmitError: a function or a symbol has no C form.
@@ -72,7 +76,7 @@ def make_block(
     graph = outputs[0][1].graph
     values = [value for _, value in outputs]
     reachable = graph.reachable(values)
-    writer = _Writer(graph, places, widths or {}, _uses(graph, reachable, values), set())
+    writer = _Writer(graph, places, widths or {}, target, _uses(graph, reachable, values))
     writer.forced |= _multiple(graph, reachable, writer.uses, values)
     hoisted = [i for i in reachable if writer.is_call(i) and not graph.nodes[i].static]
     writer.forced |= set(hoisted)
@@ -127,8 +131,9 @@ class _Writer:
     graph: Graph
     places: Mapping[str, str]
     widths: Mapping[int, str]
+    target: Target
     uses: Mapping[int, int]
-    forced: set[int]
+    forced: set[int] = field(default_factory=set)
     texts: dict[int, Text] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
     pairs: dict[int, str] = field(default_factory=dict)
@@ -147,11 +152,18 @@ class _Writer:
     def output(self, value: Expr) -> str:
         """Text of an output."""
         if value.is_zero:
-            return "0.0"
+            return self._spread(0, number_text(Fraction(0), self.target.still)).text
         self.visit(abs(value.ref))
-        if value.ref > 0:
-            return self.texts[value.ref].text
-        return (self._turned(value.ref) or negative(self.texts[-value.ref])).text
+        text = self.texts[abs(value.ref)]
+        if value.ref < 0:
+            text = self._turned(value.ref) or negative(text)
+        return self._spread(abs(value.ref), text).text
+
+    def _spread(self, index: int, text: Text) -> Text:
+        """The text of a node as one of the target's type: constants are single numbers."""
+        if not self.graph.nodes[index].static or self.target.still is self.target:
+            return text
+        return Text(self.target.spread.format(text.text), ATOM)
 
     def _turned(self, ref: int) -> Text | None:
         """Text of a negative reference if it can do without a leading minus: -(a - b) = b - a."""
@@ -193,15 +205,15 @@ class _Writer:
             name = self._pair_name(angle)
             self.pairs[angle] = name
             argument = self.texts[angle].text
-            self.lines.append(f"double s{name}, c{name};")
-            self.lines.append(f"modeler_sincos({argument}, &s{name}, &c{name});")
+            self.lines.append(f"{self.target.number} s{name}, c{name};")
+            self.lines.append(f"{self.target.sincos}({argument}, &s{name}, &c{name});")
         return Text(_PAIR[op] + self.pairs[angle], ATOM)
 
     def _pair_name(self, angle: int) -> str:
         """The number of the joint, s0 = sin(q[0]), or one that no joint has."""
         node = self.graph.nodes[angle]
         place = self.places[node.args[0]] if node.op == "sym" else ""
-        joint = re.fullmatch(r"q\[(\d+)\]", place)
+        joint = re.fullmatch(r"q(?:\[|_)(\d+)\]?", place)
         return joint[1] if joint else f"a{len(self.pairs) + 1}"
 
     def _text(self, index: int) -> Text:
@@ -219,10 +231,11 @@ class _Writer:
 
     def _combine(self, index: int) -> Text:
         node = self.graph.nodes[index]
+        target = self.target.still if node.static else self.target
         if node.op == "num":
-            return number_text(node.args[0])
+            return number_text(node.args[0], target)
         if node.op == "pi":
-            return Text(PI, ATOM)
+            return pi_text(target)
         if node.op == "sym":
             return Text(self._place(node.args[0]), ATOM)
         args = [self.texts[abs(arg)] for arg in node.args]
@@ -237,10 +250,15 @@ class _Writer:
             return (product_text if node.op == "mul" else quotient_text)(*args)
         signed = [a if arg > 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
         if node.op == "pow":
-            return power_text(*signed)
+            if not node.static:
+                pairs = zip(node.args, signed, strict=True)
+                signed = [self._spread(abs(arg), text) for arg, text in pairs]
+            base, exponent = signed
+            return power_text(base, exponent, target)
         if node.op == "sign" and node.args[0] in self.widths:
-            return Text(f"smooth_sign({signed[0].text}, {self.widths[node.args[0]]})", ATOM)
-        return call_text(node.op, signed[0])
+            width = self.widths[node.args[0]]
+            return Text(f"{target.smooth_sign}({signed[0].text}, {width})", ATOM)
+        return call_text(node.op, signed[0], target)
 
     def _place(self, symbol: str) -> str:
         if symbol not in self.places:
@@ -249,8 +267,10 @@ class _Writer:
 
     def _name(self, index: int) -> None:
         """Give the value a name, and from now on read that."""
-        letter = "k" if self.graph.nodes[index].static else "t"
+        letter, number = "t", self.target.number
+        if self.graph.nodes[index].static:
+            letter, number = "k", self.target.still.number
         self.count[letter] += 1
         name = f"{letter}{self.count[letter]}"
-        self.lines.append(f"const double {name} = {self.texts[index].text};")
+        self.lines.append(f"const {number} {name} = {self.texts[index].text};")
         self.texts[index] = Text(name, ATOM)

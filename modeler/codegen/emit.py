@@ -1,14 +1,17 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.closure_functions import closure_tables, solving_of
+from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import (
     UNIT,
     check_values,
@@ -27,11 +30,17 @@ from modeler.codegen.names import (
 )
 from modeler.codegen.package import package_files
 from modeler.codegen.render import render
+from modeler.codegen.single import WIDE, of_precision
 from modeler.codegen.symbols import SymbolLines, symbol_lines
+from modeler.codegen.target import OF_PRECISION
+from modeler.codegen.tile import UNIT as TILE_UNIT
+from modeler.codegen.tile import Tile, tile_of
+from modeler.core.choices import Precision
 from modeler.core.contract import (
     CLOSURE_RUNTIME,
     MANIFEST,
     RUNTIME,
+    TILE_RUNTIME,
     ArgumentSpec,
     Emitted,
     FittedSpec,
@@ -43,7 +52,7 @@ from modeler.core.errors import EmitError
 from modeler.core.resources import resource_dir
 from modeler.symbolic import SymbolicModel
 
-_CLOSED = 1e-9
+_CLOSED = {"double": 1e-9, "single": 1e-5}
 """Residual of a closed loop, relative to the robot's size."""
 
 _RESTRICT = "MODELER_RESTRICT "
@@ -70,28 +79,39 @@ class _Written:
     multiplications: int
 
 
-def emit(model: SymbolicModel, base: BaseParameters, fitted: FittedSpec | None = None) -> Emitted:
+def emit(
+    model: SymbolicModel,
+    base: BaseParameters,
+    fitted: FittedSpec | None = None,
+    precision: Precision = "double",
+    cuda: bool = False,
+) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
     Args:
         model: as derived.
         base: the base parameters of the same model.
         fitted: their values, of a model; the unit with them is added.
+        precision: of the numbers: all `double`, or all `float`.
+        cuda: add the kernels of `codegen.cuda`, of a robot without loops.
 
     Raises:
-        EmitError: something has no C99 form, or a value is missing or none; says what.
+        EmitError: something has no C99 form, or a value is missing or none, or too large for the
+            precision; says what.
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    module = _module(model, base)
+    module = _module(model, base, precision)
     spec, values = module.spec, module.values
     code = _code(spec, values)
+    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
         values |= {"spec": spec}
         code |= unit
     files = {
         **code,
+        **kernels,
         **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
         MANIFEST: spec.to_json(),
@@ -116,23 +136,30 @@ class _Module:
     values: dict[str, Any]
 
 
-def _module(model: SymbolicModel, base: BaseParameters) -> _Module:
+def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> _Module:
     prefix = module_prefix(model.robot.name)
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
+    solving = solving_of(model, base) if model.closure is not None else None
+    parameters += solving.symbols if solving is not None else []
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
     constants = symbol_constants(prefix, model.geometry.values)
     places = graph_places(model.geometry.coordinates, constants, parameters)
-    closed = model.closure is not None
-    functions = closed_functions(model, base) if closed else tree_functions(model, base)
-    blocks = [(f, _block(f, places)) for f in functions]
-    spec = module_spec(model, base, blocks)
+    functions = (
+        closed_functions(model, base, solving) if solving is not None
+        else tree_functions(model, base)
+    )  # fmt: skip
+    blocks = [(f, _block(f, places, precision)) for f in functions]
+    spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
     values = _values(spec, symbols, written, relations)
-    values |= {"loops": _loops(model), "names": constants, "signature": ""}
+    closed = _CLOSED[precision]
+    values |= {"loops": closure_tables(model, solving, closed) if solving is not None else None}
+    values |= {"names": constants, "signature": ""}
+    values |= {"tile": tile_of(functions, places, spec.nonzeros) if precision == "double" else None}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
     return _Module(spec, blocks, places, values)
@@ -148,7 +175,7 @@ def _fitted_unit(
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
-    blocks = [(f, _block(f, module.places, turning)) for f in functions]
+    blocks = [(f, _block(f, module.places, module.spec.precision, turning)) for f in functions]
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
@@ -173,24 +200,27 @@ def _fitted_unit(
 
 
 def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> dict[str, str]:
-    return {
+    files = {
         f"{prefix}{UNIT}.{kind}": render(f"fitted.{kind}", **{**values, "fitted": fitted})
         for kind in ("h", "c")
     }
+    return of_precision(values["spec"].precision, files)
 
 
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     """The files that the library is compiled from."""
     prefix = spec.prefix
-    return {
+    files = {
         f"{prefix}.h": render("module.h", **values),
         **{
             f"{prefix}{unit}.c": _unit(unit, values)
             for unit in ("", "_regressor", "_base_regressor")
         },
         **(_loop_files(prefix, values) if spec.closure is not None else {}),
+        **(_tile_files(prefix, values) if spec.tile_sources else {}),
         **_runtime(spec),
     }
+    return of_precision(spec.precision, files)
 
 
 def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
@@ -204,41 +234,23 @@ def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def _loops(model: SymbolicModel) -> dict[str, Any] | None:
-    """Numbers of the closures, as C initialisers."""
-    closure = model.closure
-    if closure is None:
-        return None
-    scales = [closure.size if long else 1.0 for long in closure.lengths]
-    sets = [("", closure.given)]
-    if closure.platform is not None:
-        sets.append(("platform_", closure.platform))
-    every = range(len(closure.home))
-    return {
-        "home": ", ".join(repr(x) for x in closure.home),
-        "scale": ", ".join(repr(x) for x in scales),
-        "unknowns": len(closure.home),
-        "solved": len(closure.solved),
-        "given": len(closure.given),
-        "residuals": len(closure.every),
-        "alignments": len(closure.alignments),
-        # Where the robot is small, its directions are as exact as its lengths.
-        "tolerance": repr(_CLOSED * min(1.0, closure.size)),
-        "variables": ", ".join(joint.name for joint in model.robot.free),
-        "sets": [
-            (head, ", ".join(map(str, given)), ", ".join(str(k) for k in every if k not in given))
-            for head, given in sets
-        ],
-    }
+def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
+    """Header and source of the unit of tiles."""
+    constants = _constants([values["tile"]], values, values["symbols"].initial)
+    given = {**values, "constants": constants}
+    return {f"{prefix}{TILE_UNIT}.{kind}": render(f"tile.{kind}", **given) for kind in ("h", "c")}
 
 
 def _block(
-    function: Function, places: dict[str, str], turning: Mapping[int, str] | None = None
+    function: Function,
+    places: dict[str, str],
+    precision: Precision,
+    turning: Mapping[int, str] | None = None,
 ) -> Block | None:
     if not function.entries:
         return None
     outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
-    return make_block(outputs, places, turning)
+    return make_block(outputs, places, turning, OF_PRECISION[precision])
 
 
 def _written(prefix: str, function: Function, block: Block | None) -> _Written:
@@ -271,6 +283,8 @@ def _values(
     standard, base = layout.parameter_lines(spec, relations)
     return {
         "spec": spec,
+        "single": spec.precision == "single",
+        "wide": WIDE if spec.precision == "single" else "",
         "prefix": spec.prefix,
         "macro": spec.prefix.upper(),
         "title": layout.comment_text(spec.title or spec.robot),
@@ -305,7 +319,7 @@ def _unit(unit: str, values: dict[str, Any]) -> str:
 
 
 def _constants(
-    functions: list[_Written], values: dict[str, Any], initial: Mapping[str, str]
+    functions: Sequence[_Written | Tile], values: dict[str, Any], initial: Mapping[str, str]
 ) -> list[tuple[str, str]]:
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))
@@ -313,9 +327,15 @@ def _constants(
 
 
 def _runtime(spec: ModuleSpec) -> dict[str, str]:
+    names = (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
+    names += TILE_RUNTIME if spec.tile_sources else ()
+    return {name: _source(name, spec.precision).read_text("utf-8") for name in names}
+
+
+def _source(name: str, precision: Precision) -> Path:
+    """A file of the runtime: its own in that precision, where it has one."""
     folder = resource_dir("csrc")
-    places = (folder / "include", folder)
-    return {
-        name: (places[0] if name.endswith(".h") else places[1]).joinpath(name).read_text("utf-8")
-        for name in (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
-    }
+    own = folder / precision / name
+    if own.is_file():
+        return own
+    return (folder / "include" if name.endswith(".h") else folder) / name

@@ -1,5 +1,6 @@
 """The example programs of a fitted module: which there are, and their calls as finished strings."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -9,7 +10,8 @@ EXAMPLES = ("example_computed_torque", "example_residual_observer")
 """Templates, and names of the programs."""
 
 SELF_CHECK = "self_check"
-PROGRAMS = (SELF_CHECK, *EXAMPLES)
+COUNT = "count_instructions"
+PROGRAMS = (SELF_CHECK, COUNT, *EXAMPLES)
 """All programs that a folder may hold: their C files stand beside the library's."""
 
 
@@ -17,6 +19,30 @@ def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
     """Those of a module: none without values, nor where a joint of q has no motor to obey."""
     every = all(joint.actuated for joint in spec.joints)
     return EXAMPLES if spec.fitted is not None and every else ()
+
+
+def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
+    """What the template of the program that counts instructions needs besides.
+
+    None of a robot with loops: how many turns of Newton close them depends on the posture.
+    """
+    if spec.closure is not None:
+        return None
+    functions = (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+    counted = [
+        {
+            "name": function.name,
+            "role": function.name.removeprefix(f"{spec.prefix}_"),
+            "inputs": [argument.name for argument in function.inputs],
+        }
+        for function in functions
+    ]
+    return {
+        "states": 16,
+        "largest": max(math.prod(f.outputs[0].shape) for f in functions),
+        "counted": counted,
+        "counts_of_inputs": sorted({len(function.inputs) for function in functions}),
+    }
 
 
 def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:

@@ -44,8 +44,8 @@ class Closed:
     """How a function of the closed robot closes the loops and uses one of the opened tree.
 
     Attributes:
-        kind: which macro of the template writes it: "projected" | "inertia_matrix" | "poses" |
-            "posture" | "coupling".
+        kind: which macro of the template writes it: "rows" | "projected" | "inertia_matrix" |
+            "poses" | "posture" | "coupling".
         loops: C name of the closure.
         q, qd, qdd: C names of the motion that is given; empty where none is.
         start: C name of the closed posture from which the loops are closed.
@@ -69,8 +69,13 @@ class Closed:
     @property
     def calls(self) -> tuple[str, ...]:
         """Roles of the tree's functions that it calls."""
-        carried = ("tree_drift",) if self.qd else ()
-        return ("tree_closure", "tree_residual", *carried, f"{self.tree}_{self.role}")
+        head = self.loops.removesuffix("loops")
+        closing = [f"tree_{head}{part}" for part in ("factor", "solve", "turned")]
+        if self.kind not in ("posture", "poses"):
+            closing.append(f"tree_{head}coupling")
+        if self.qd and self.kind != "rows":
+            closing.append("tree_drift")
+        return ("tree_closure", "tree_residual", *closing, f"{self.tree}_{self.role}")
 
 
 @dataclass(frozen=True)
@@ -140,11 +145,12 @@ def _regressors(
 ) -> tuple[Function, ...]:
     joints, p, c = model.geometry.coordinates, len(model.columns), base.rank
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
-    standard = [(joint * p + k, value) for (joint, k), value in model.regressor.items()]
     values = {
         (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
     }
-    kept = [(joint * c + i, value) for (joint, i), value in sorted(values.items(), key=_by_place)]
+    order = {at: number for number, at in enumerate(sorted(values))}
+    standard = _by_column(model.regressor)
+    kept = _by_column(values)
     inputs = given.motion
     per = "torque per unit of each"
     return (
@@ -152,25 +158,34 @@ def _regressors(
             "_regressor", "regressor", "Regressor of the standard parameters.",
             "tau = phi chi", inputs,
             ArgumentSpec("phi", (joints, p), "SI", f"{per} standard parameter"),
-            tuple(sorted(standard, key=lambda entry: entry[0])),
+            tuple((joint * p + k, value) for (joint, k), value in standard),
         ),
         Function(
             "_base_regressor", "base_regressor", "Regressor of the base parameters.",
             "tau = phi beta", inputs,
-            ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"), tuple(kept),
+            ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"),
+            tuple((joint * c + i, value) for (joint, i), value in kept),
         ),
         Function(
             "_base_regressor", "base_regressor_nonzeros",
             "The entries of the base regressor that are not always 0.",
             "values[k] = phi[nonzero_row[k]][nonzero_column[k]]", inputs,
             ArgumentSpec("values", (len(kept),), "SI", "entries, row after row"),
-            tuple((k, value) for k, (_, value) in enumerate(kept)),
+            tuple((order[at], value) for at, value in kept),
         ),
     )  # fmt: skip
 
 
-def _by_place(item: tuple[tuple[int, int], Expr]) -> tuple[int, int]:
-    return item[0]
+def _by_column(
+    values: Mapping[tuple[int, int], Expr],
+) -> list[tuple[tuple[int, int], Expr]]:
+    """Entries of {(joint, column): value} column after column.
+
+    So what the columns of a link read is computed, read and done with before the next link: row
+    after row it would have to be kept for all rows. Most of what does not fit into registers goes:
+    a quarter of the code for a microcontroller, and its loads and stores.
+    """
+    return sorted(values.items(), key=lambda item: (item[0][1], item[0][0]))
 
 
 def dynamics_functions(

@@ -1,12 +1,20 @@
 """What makes an emitted folder a package: its version, what is installed, texts of the build."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.codegen.examples import SELF_CHECK, call_head, example_values, examples_of
+from modeler.codegen.examples import (
+    COUNT,
+    SELF_CHECK,
+    call_head,
+    count_values,
+    example_values,
+    examples_of,
+)
 from modeler.codegen.render import render
+from modeler.codegen.single import of_precision
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
 C_INTERFACE = 1
@@ -57,18 +65,20 @@ def package_files(
         values: what all templates of the module are given.
     """
     prefix = spec.prefix
-    examples = examples_of(spec)
+    examples, count = examples_of(spec), count_values(spec)
     given = {
         **values,
         "package": _package(spec, code),
         "examples": examples,
         "programs": (SELF_CHECK, *examples),
+        "counts": count is not None,
         "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
         "every": _functions(spec),
         "home": _home(spec),
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
+        "solving": _solving(values["functions"], prefix),
     }
     names = {
         "Makefile": "Makefile",
@@ -82,13 +92,17 @@ def package_files(
     texts = {name: render(template, **given) for name, template in names.items()}
     for name in examples:
         texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    return texts
+    if count is not None:
+        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
+    return of_precision(spec.precision, texts)
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
     prefix = spec.prefix
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
-    public = [name for name in (f"{prefix}.h", f"{prefix}_fitted.h") if name in code]
+    public = [
+        name for name in (f"{prefix}.h", f"{prefix}_fitted.h", f"{prefix}_tile.h") if name in code
+    ]
     for name in public:  # grows while it is read
         public += [h for h in _included(code[name]) if h in code and h not in public]
     return Package(
@@ -106,6 +120,15 @@ def _included(text: str) -> list[str]:
 
 def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
     return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+
+
+def _solving(functions: Sequence[Any], prefix: str) -> dict[str, int]:
+    """Operations of the factors of the loops' equations, and of a solution with them."""
+    own = [f for f in functions if f.name in (f"{prefix}_tree_factor", f"{prefix}_tree_solve")]
+    return {
+        "additions": sum(f.additions for f in own),
+        "multiplications": sum(f.multiplications for f in own),
+    }
 
 
 def _home(spec: ModuleSpec) -> str:

@@ -7,19 +7,12 @@ Sums and products keep the order of evaluation of the graph: floating point is n
 from dataclasses import dataclass
 from fractions import Fraction
 
+from modeler.codegen.target import DOUBLE, FUNCTIONS, Target
 from modeler.core.errors import EmitError
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
 PI = "3.14159265358979323846"
-
-_FUNCTIONS = {
-    "sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "exp": "exp", "tanh": "tanh",
-    "abs": "fabs",
-}  # fmt: skip
-
-# Integers up to here are exact in double, so a quotient of two such literals is rounded once.
-_EXACT_INTEGER = 2**53
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,23 +27,27 @@ class Text:
         return self.text if self.level >= level else f"({self.text})"
 
 
-def number_text(value: Fraction) -> Text:
-    """Text of a number that is not negative: the double nearest to it.
+def number_text(value: Fraction, target: Target = DOUBLE) -> Text:
+    """Text of a number that is not negative: the one of the target nearest to it.
 
     A decimal literal where that is exact (`9.81`), else a quotient (`(1.0/3.0)`), which is rounded
     once as well.
 
     Raises:
-        EmitError: too large for a double.
+        EmitError: too large for the target.
     """
     assert value >= 0
-    try:
-        nearest = float(value)
-    except OverflowError:
-        raise EmitError(f"number {value} is too large for double precision; rescale it") from None
-    if Fraction(repr(nearest)) == value or max(value.numerator, value.denominator) > _EXACT_INTEGER:
-        return Text(repr(nearest), ATOM)
-    return Text(f"({value.numerator}.0/{value.denominator}.0)", ATOM)
+    if value > target.largest:
+        raise EmitError(f"number {value} is too large for {target.precision} precision; rescale it")
+    nearest, end = float(value), target.suffix
+    if Fraction(repr(nearest)) == value or max(value.numerator, value.denominator) > target.exact:
+        return Text(f"{nearest!r}{end}", ATOM)
+    return Text(f"({value.numerator}.0{end}/{value.denominator}.0{end})", ATOM)
+
+
+def pi_text(target: Target = DOUBLE) -> Text:
+    """Text of pi."""
+    return Text(f"{PI}{target.suffix}", ATOM)
 
 
 def float_text(value: float) -> str:
@@ -85,22 +82,21 @@ def quotient_text(a: Text, b: Text) -> Text:
     return Text(f"{a.within(PRODUCT)}/{b.within(ATOM)}", PRODUCT)
 
 
-def power_text(base: Text, exponent: Text) -> Text:
+def power_text(base: Text, exponent: Text, target: Target = DOUBLE) -> Text:
     """base to the power of exponent."""
-    return Text(f"pow({base.text}, {exponent.text})", ATOM)
+    return Text(f"{target.functions['pow']}({base.text}, {exponent.text})", ATOM)
 
 
-def call_text(name: str, argument: Text) -> Text:
-    """name(argument); the argument of `sign` must be a name, because it is written twice.
+def call_text(name: str, argument: Text, target: Target = DOUBLE) -> Text:
+    """name(argument); the argument of `sign` must be a name, because it may be written twice.
 
     Raises:
         EmitError: no such function in C99.
     """
     if name == "sign":
         assert argument.level == ATOM
-        return Text(f"(double)(({argument.text} > 0.0) - ({argument.text} < 0.0))", ATOM)
-    if name not in _FUNCTIONS:
-        raise EmitError(
-            f"function {name} has no C99 form here; expected {', '.join([*_FUNCTIONS, 'sign'])}"
-        )
-    return Text(f"{_FUNCTIONS[name]}({argument.text})", ATOM)
+        return Text(target.sign.format(argument.text), ATOM)
+    if name not in target.functions:
+        expected = ", ".join([*(f for f in FUNCTIONS if f != "pow"), "sign"])
+        raise EmitError(f"function {name} has no C99 form here; expected {expected}")
+    return Text(f"{target.functions[name]}({argument.text})", ATOM)

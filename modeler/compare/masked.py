@@ -23,6 +23,7 @@ _COLORS = {
     "no good value": PALE_PINK,
     "impossible derivative": PALE_GREEN,
     "filter end": PALE_YELLOW,
+    "loops open": PALE_PINK,
     GAP: PALE_YELLOW,
     OTHER: PALE_BROWN,
 }

@@ -1,4 +1,4 @@
-"""The library's functions, declared from the manifest; nothing else knows cffi."""
+"""The library's functions, declared from the manifest; with bind_fused.py all that knows cffi."""
 
 import re
 from collections.abc import Sequence
@@ -53,6 +53,9 @@ void modeler_batch_status_4(void *, size_t, const modeler_input *, double *, siz
 class Library:
     """A loaded library; its functions release the interpreter lock and may run in threads.
 
+    Arrays are float64 here, whatever the precision of the code: that in single precision is given
+    copies in float32, and its results are copied back.
+
     Attributes:
         spec: the manifest it belongs to.
     """
@@ -66,8 +69,10 @@ class Library:
         """
         self.spec = spec
         self._ffi = cffi.FFI()
+        self._single = spec.precision == "single"
         loops = _LOOP_RUNTIME if spec.closure is not None else ""
-        self._ffi.cdef(_RUNTIME + loops + _declarations(spec))
+        declared = _RUNTIME + loops + _declarations(spec)
+        self._ffi.cdef(_in_single(declared) if self._single else declared)
         try:
             self._library: Any = self._ffi.dlopen(str(path))
             self._check()
@@ -94,6 +99,10 @@ class Library:
     def _function(self, role: str) -> Any:
         return getattr(self._library, f"{self.spec.prefix}_{role}")
 
+    def address(self, name: str) -> int:
+        """Where a function of the library stands, for C that calls it; the caller holds this."""
+        return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
+
     def batch(
         self,
         function: FunctionSpec,
@@ -111,20 +120,21 @@ class Library:
         """
         assert (status is not None) == function.status
         assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4, 5)
-        given = self._ffi.new("modeler_input[]", len(inputs))
-        for place, array in zip(given, inputs, strict=True):
-            assert array.flags.c_contiguous and array.dtype == np.float64
-            place.data = self._doubles(array)
+        runtime, arrays, result = self._runtime, self._own(inputs), self._place(out)
+        given = self._ffi.new(f"{runtime}_input[]", len(arrays))
+        for place, array in zip(given, arrays, strict=True):
+            place.data = self._numbers(array)
             place.step = array.shape[1] if array.ndim == 2 else 0
         samples = len(out)
         step = out.size // samples if samples else 0
         pointer = self._ffi.cast("void *", getattr(self._library, function.name))
-        arguments = [pointer, samples, given, self._doubles(out), step]
+        arguments = [pointer, samples, given, self._numbers(result), step]
         if status is None:
-            getattr(self._library, f"modeler_batch_{len(inputs)}")(*arguments)
+            getattr(self._library, f"{runtime}_batch_{len(inputs)}")(*arguments)
         else:
-            driver = getattr(self._library, f"modeler_batch_status_{len(inputs)}")
+            driver = getattr(self._library, f"{runtime}_batch_status_{len(inputs)}")
             driver(*arguments, self._integers(status))
+        self._give_back(result, out)
 
     def observation(
         self,
@@ -139,22 +149,49 @@ class Library:
 
         s: (n, signals), for effects that read any.
         """
-        arguments = [self._doubles(a) for a in (q, qd, qdd, s, W) if a is not None]
+        arrays = self._own([a for a in (q, qd, qdd, s) if a is not None])
+        result = self._place(W)
+        arguments = [self._numbers(a) for a in (*arrays, result)]
         if status is not None:
             arguments.append(self._integers(status))
         self._function("observation")(len(q), *arguments)
+        self._give_back(result, W)
 
     def base_parameters(self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray) -> None:
         """Fill beta from chi by the grouping relations."""
-        getattr(self._library, function.name)(self._doubles(chi), self._doubles(beta))
+        (given,), result = self._own([chi]), self._place(beta)
+        getattr(self._library, function.name)(self._numbers(given), self._numbers(result))
+        self._give_back(result, beta)
+
+    @property
+    def _runtime(self) -> str:
+        """Start of the names of the C runtime."""
+        return "modelerf" if self._single else "modeler"
+
+    def _own(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """The arrays as the code reads them."""
+        assert all(a.flags.c_contiguous and a.dtype == np.float64 for a in arrays)
+        if not self._single:
+            return list(arrays)
+        with np.errstate(over="ignore"):  # infinite in single precision: the results will tell
+            return [array.astype(np.float32) for array in arrays]
+
+    def _place(self, out: np.ndarray) -> np.ndarray:
+        """Where the code writes what is for `out`."""
+        assert out.flags.c_contiguous and out.dtype == np.float64
+        return np.empty_like(out, dtype=np.float32) if self._single else out
+
+    def _give_back(self, result: np.ndarray, out: np.ndarray) -> None:
+        if result is not out:
+            out[...] = result
 
     def _integers(self, array: np.ndarray) -> Any:
         assert array.flags.c_contiguous and array.dtype == np.intc
         return self._ffi.cast("int *", array.ctypes.data)
 
-    def _doubles(self, array: np.ndarray) -> Any:
+    def _numbers(self, array: np.ndarray) -> Any:
         # The address itself: half the time of from_buffer; the caller holds the array.
-        return self._ffi.cast("double *", array.ctypes.data)
+        return self._ffi.cast("float *" if self._single else "double *", array.ctypes.data)
 
 
 def check_names(spec: ModuleSpec) -> None:
@@ -183,6 +220,11 @@ def check_names(spec: ModuleSpec) -> None:
                 f"{spec.robot}: the manifest names {got or 'no'} inputs of {role}, expected "
                 f"{count}; generate it again"
             )
+
+
+def _in_single(declared: str) -> str:
+    """Declarations of the same code in single precision."""
+    return re.sub(r"\bmodeler_", "modelerf_", re.sub(r"\bdouble\b", "float", declared))
 
 
 def _declarations(spec: ModuleSpec) -> str:

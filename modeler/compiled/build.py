@@ -6,11 +6,11 @@ it is renamed into place, so that any number of processes may build the same rob
 """
 
 import hashlib
-import os
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from modeler.compiled.cache import cache_folder, in_use, libraries, placed, tidy, whole
 from modeler.compiled.toolchain import Toolchain, compile_library, find_toolchain
 from modeler.core.errors import BuildError
 
@@ -36,15 +36,6 @@ def build_library(sources: Mapping[str, str]) -> Path:
         ) from error
 
 
-def cache_folder() -> Path:
-    """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else ~/.cache/modeler."""
-    own = os.environ.get("MODELER_CACHE", "")
-    if own:
-        return Path(own)
-    shared = os.environ.get("XDG_CACHE_HOME", "")
-    return (Path(shared) if shared else Path.home() / ".cache") / "modeler"
-
-
 def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
     parts = [*tools.command, *tools.flags, tools.identity]
     for name in sorted(sources):
@@ -56,23 +47,26 @@ def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
 
 def _intact(folder: Path) -> Path | None:
     """The library of `folder`, if it is still what was built."""
-    for path in sorted(folder.glob("*.so")):
-        if hashlib.sha256(path.read_bytes()).hexdigest() == path.stem:
+    for path in libraries(folder):
+        in_use(path)  # before it is read: from here on nobody removes it
+        if whole(path):
             return path
     return None
 
 
 def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".build-") as scratch:
+    cache = folder.parent
+    cache.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=cache, prefix=".build-") as scratch:
         for name, text in sources.items():
             (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
         made = Path(scratch) / "library"
         units = [name for name in sorted(sources) if name.endswith(".c")]
         compile_library(tools, Path(scratch), units, made)
         final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}.so"
-        made.replace(final)
-    for other in folder.glob("*.so"):
-        if other != final and hashlib.sha256(other.read_bytes()).hexdigest() != other.stem:
+        placed(made, final)
+    for other in libraries(folder):
+        if other != final and not whole(other):
             other.unlink(missing_ok=True)
+    tidy(cache)
     return final

@@ -28,7 +28,7 @@ _WANTED = (
     ("-march=native", "-mcpu=native"),
 )
 _ALWAYS = ("-std=c99", "-fPIC")
-_OPTIMISED = "-O2"
+_OPTIMISED = "-O3"
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,9 @@ class Toolchain:
 def find_toolchain() -> Toolchain:
     """The compiler named by the environment variable CC, else the first of cc, gcc, clang.
 
-    The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O2,
-    code for this very processor, fused multiply-add.
+    The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O3,
+    code for this very processor, fused multiply-add. Where CC has a flag, what is chosen of its
+    kind is left out: `CC="gcc -march=x86-64-v2"` gives code for that processor.
 
     Raises:
         BuildError: there is none, or it does not know a flag of CFLAGS; says what to do.
@@ -85,7 +86,7 @@ def _words(variable: str, text: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=8)
 def _examined(command: tuple[str, ...], own: tuple[str, ...]) -> Toolchain:
-    used = (*_ALWAYS, *(own or (_OPTIMISED, *_known(command))))
+    used = (*_ALWAYS, *(own or _chosen(command)))
     # The predefined macros name the compiler's version and, with -march=native, this processor.
     macros = _run(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
     if own and macros.returncode != 0 and _knows(command, []):
@@ -97,15 +98,25 @@ def _examined(command: tuple[str, ...], own: tuple[str, ...]) -> Toolchain:
     return Toolchain(command, used, macros.stdout)
 
 
-def _known(command: tuple[str, ...]) -> list[str]:
-    """The wanted flags that the compiler knows."""
-    favourites = [alternatives[0] for alternatives in _WANTED]
+def _chosen(command: tuple[str, ...]) -> list[str]:
+    """The wanted flags that the compiler knows; none of a kind that its command has already."""
+    stated = {_kind(word) for word in command[1:]}
+    wanted = [each for each in _WANTED if not stated & {_kind(flag) for flag in each}]
+    optimised = [] if _kind(_OPTIMISED) in stated else [_OPTIMISED]
+    favourites = [alternatives[0] for alternatives in wanted]
     if _knows(command, favourites):  # one start of the compiler instead of one per flag
-        return favourites
-    flags: list[str] = []
-    for alternatives in _WANTED:
+        return optimised + favourites
+    flags = optimised
+    for alternatives in wanted:
         flags += [flag for flag in alternatives if _knows(command, [flag])][:1]
     return flags
+
+
+def _kind(flag: str) -> str:
+    """What a flag says something of: -O2 and -Os, -march=native and -march=core2 are of a kind."""
+    if flag.startswith("-O"):
+        return "-O"
+    return flag.partition("=")[0].replace("-fno-", "-f", 1)
 
 
 def _knows(command: Sequence[str], flags: Sequence[str]) -> bool:

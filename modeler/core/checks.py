@@ -7,7 +7,7 @@ import numpy as np
 from modeler.core.errors import ShapeError
 
 
-def as_samples(value: Any, name: str, joints: int) -> np.ndarray:
+def as_samples(value: Any, name: str, joints: int, finite: bool = True) -> np.ndarray:
     """`value` as a C-contiguous float64 array (n, joints).
 
     A copy only if it is not that already.
@@ -16,6 +16,7 @@ def as_samples(value: Any, name: str, joints: int) -> np.ndarray:
         value: anything numpy makes an array of.
         name: of the argument, for messages.
         joints: number of columns.
+        finite: False to let values pass that are not finite.
 
     Raises:
         ShapeError: another shape, not real numbers, or a value that is not finite; says which row.
@@ -26,14 +27,27 @@ def as_samples(value: Any, name: str, joints: int) -> np.ndarray:
             f"{name}: got shape {array.shape}, expected (samples, {joints})"
             f"{_hint(array, name, joints)}"
         )
-    finite = np.isfinite(array)
-    if not finite.all():
-        row, column = (int(i) for i in np.argwhere(~finite)[0])
+    if finite and not (good := np.isfinite(array)).all():
+        row, column = (int(i) for i in np.argwhere(~good)[0])
         raise ShapeError(
             f"{name}: got {array[row, column]} in row {row}, column {column} (counted from 0), "
             "expected finite numbers; leave such samples out"
         )
     return array
+
+
+def as_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
+    """`value` as a C-contiguous bool array of that shape.
+
+    Raises:
+        ShapeError: another shape, or anything but True and False.
+    """
+    array = np.asarray(value)
+    if array.shape != shape or array.dtype != np.bool_:
+        raise ShapeError(
+            f"{name}: got shape {array.shape} of type {array.dtype}, expected {shape} of bool"
+        )
+    return np.ascontiguousarray(array)
 
 
 def as_vector(value: Any, name: str, length: int) -> np.ndarray:

@@ -10,6 +10,9 @@ Method = Literal[
 ModelKind = Literal["torque", "energy"]
 """What a row of the fit states: a joint's torque, or the energy balance of a window."""
 
+Precision = Literal["double", "single"]
+"""Of the emitted C: its numbers are `double`, or `float`."""
+
 GAIN_METHOD = "tls"
 """Total least squares, for drive gains besides."""
 

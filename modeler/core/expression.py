@@ -76,8 +76,8 @@ class Expression:
 class _Algebra:
     """What the parts of an expression stand for.
 
-    A class: a function within another that calls itself refers to itself, so it would keep the
-    values, arrays perhaps, until garbage is collected.
+    A class, for a function within another that calls itself would keep the values, arrays perhaps,
+    until the garbage is collected.
     """
 
     text: str

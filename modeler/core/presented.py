@@ -1,11 +1,11 @@
 """What every result says of itself: a line, a summary, tables, frames, figures, HTML.
 
 A result states what it holds; how it is shown stands in one room, `modeler.notebook`, which
-registers a `Presentation` for each class when `modeler.api` is imported.
+is told by `modeler.api`, and says it by a `Presentation` for each class when one is first shown.
 """
 
 import html
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,6 +45,7 @@ class Presentation:
 
 
 _PRESENTATIONS: dict[type, Presentation] = {}
+_LATER: dict[str, Callable[[], None]] = {}
 
 
 def present(kind: type, presentation: Presentation) -> None:
@@ -52,8 +53,16 @@ def present(kind: type, presentation: Presentation) -> None:
     _PRESENTATIONS[kind] = presentation
 
 
+def present_later(names: Iterable[str], load: Callable[[], None]) -> None:
+    """Says what calls `present` for classes of these names; it runs when one is first shown."""
+    _LATER.update(dict.fromkeys(names, load))
+
+
 def presented(kind: type) -> Presentation | None:
     """How the objects of a class, or of one that it derives from, are shown."""
+    for name in (k.__name__ for k in kind.__mro__):
+        if name in _LATER:
+            _LATER.pop(name)()
     return next((_PRESENTATIONS[k] for k in kind.__mro__ if k in _PRESENTATIONS), None)
 
 

@@ -1,11 +1,14 @@
 """Residuals that remember: what that does to the standard deviations."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.estimate.least_squares import Estimate
+from modeler.estimate.passing import Neighbours
 from modeler.observation import Observation
+from modeler.observation.passing import explained
 from modeler.observation.row_filter import SPREAD
 
 _WORTH = 1.2  # a factor above it is said
@@ -40,7 +43,12 @@ class Colour:
 
 
 def coloured(
-    observation: Observation, W: np.ndarray, y: np.ndarray, counted: np.ndarray, estimate: Estimate
+    observation: Observation,
+    W: np.ndarray | Neighbours,
+    y: np.ndarray,
+    counted: np.ndarray,
+    estimate: Estimate,
+    at: Sequence[int] | None = None,
 ) -> Colour:
     """By how much autocorrelated residuals raise the standard deviations.
 
@@ -57,28 +65,89 @@ def coloured(
 
     Args:
         observation: says which row is which sample and joint.
-        W: (rows, c).
+        W: (rows, c), or that of the observation while its rows pass, of the same counted.
         y: (rows,).
         counted: (rows,) rows that were fitted.
         estimate: of those rows; its covariance is for white residuals.
+        at: (c,) columns of the observation that W would have, in order; None: all.
     """
-    C, own_way, filtered = estimate.covariance, estimate.influence, _of_the_filter(observation)
+    if isinstance(W, Neighbours):
+        return _passing(W, estimate, at)
+    C, own_way = estimate.covariance, estimate.influence
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
-        r = _at_least(autocorrelation(residual[own], sample, observation.segment), filtered)
+        r = remembered(observation, residual[own], sample)
         rms = np.sqrt(np.mean(residual[own] ** 2))
-        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.pull[own] * rms
+        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.of(W)[own] * rms
         extra += repeated(rows, r, sample, observation.segment)
         told = int(np.sum(r > _TOLD)) - 1
         if told:
             memory.append((joint.name, told * _spacing(observation)))
+    return Colour(_factors(C, extra), tuple(memory))
+
+
+def _factors(C: np.ndarray, extra: np.ndarray) -> np.ndarray:
     white = np.diag(C)
     ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
-    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory))
+    return np.sqrt(np.maximum(ratio, 1.0))
+
+
+def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -> Colour:
+    """As `coloured`, while the rows pass."""
+    observation, keep = beside.observation, beside.keep
+    c = len(observation.names)
+    places = np.arange(c) if at is None else np.asarray(at, dtype=int)
+    own_way, beta = estimate.influence, np.zeros(c)
+    beta[places] = estimate.beta
+    residual = observation.torque - explained(observation, beta)
+    matrices, memories, memory = [], [], []
+    for j, joint in enumerate(observation.joints):
+        r, A = np.ones(1), np.zeros((c, len(places)))
+        sample = np.flatnonzero(keep[:, j])
+        if sample.size:
+            left = residual[sample, j]
+            r = remembered(observation, left, sample)
+            if own_way is None:
+                A[places] = estimate.covariance / estimate.sigma[j]
+            else:
+                assert own_way.bread is not None  # others ask for W
+                A[places] = own_way.bread * np.sqrt(np.mean(left**2))
+            if told := int(np.sum(r > _TOLD)) - 1:
+                memory.append((joint.name, told * _spacing(observation)))
+        matrices.append(A)
+        memories.append(r)
+    extra = beside.repeated(matrices, memories)
+    return Colour(_factors(estimate.covariance, extra), tuple(memory))
+
+
+def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
+    """r(0) = 1, r(1), ... of the residual of one joint, at least that of the parallel filter.
+
+    Args:
+        observation: of the rows.
+        e: (rows,) residual of one joint.
+        sample: (rows,) its samples, ascending.
+    """
+    found = autocorrelation(e, sample, observation.segment)
+    return _at_least(found, _of_the_filter(observation))
+
+
+def repeated_whole(
+    rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
+) -> np.ndarray:
+    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose); `repeated` is its diagonal.
+
+    With rows^T rows it is the middle of the covariance of least squares over these rows.
+    """
+    total = np.zeros((rows.shape[1], rows.shape[1]))
+    for lag in range(1, len(r)):
+        left, right = _pairs(sample, segment, lag)
+        total += r[lag] * (rows[left].T @ rows[right])
+    return total + total.T
 
 
 def repeated(
@@ -115,8 +184,12 @@ def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> n
 
 def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows that are `lag` samples apart within a segment."""
-    right = np.searchsorted(sample, sample + lag).clip(0, len(sample) - 1)
-    together = (sample[right] == sample + lag) & (segment[sample[right]] == segment[sample])
+    if not len(sample):
+        return sample, sample
+    place = np.full(sample[-1] - sample[0] + 1 + lag, -1)
+    place[sample - sample[0]] = np.arange(len(sample))
+    right = place[sample - sample[0] + lag]
+    together = (right >= 0) & (segment[sample[right]] == segment[sample])
     return np.flatnonzero(together), right[together]
 
 

@@ -53,6 +53,23 @@ def triangle(matrix: np.ndarray) -> np.ndarray:
     return np.asarray(np.linalg.qr(matrix, mode="r"))
 
 
+def merged(first: Compressed, second: Compressed) -> Compressed:
+    """The rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
+
+    Each triangle errs backwards by rounding of its own rows only, so any order of merging is as
+    exact as one factorisation (Demmel, Grigori, Hoemmen and Langou 2012, SIAM J. Sci. Comput.
+    34(1)); take a fixed order where equal runs must give equal bits.
+
+    Args:
+        first: of some rows.
+        second: of other rows of the same columns and joints.
+    """
+    assert first.names == second.names and np.array_equal(first.free, second.free)
+    stacked = np.concatenate([first.triangles, second.triangles], axis=1)
+    triangles = np.stack([triangle(own) for own in stacked])
+    return Compressed(first.names, triangles, first.rows + second.rows, first.free)
+
+
 def compress(
     W: np.ndarray,
     y: np.ndarray,

@@ -1,7 +1,7 @@
 """Ordinary and weighted least squares with their covariance."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,12 +19,27 @@ class Influence:
     """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
 
     Attributes:
-        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted.
+        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted. None:
+            W bread.
         residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
+        bread: (c, c) where the pull is not kept.
     """
 
-    pull: np.ndarray
+    pull: np.ndarray | None
     residual: np.ndarray
+    bread: np.ndarray | None = None
+
+    def of(self, W: np.ndarray) -> np.ndarray:
+        """The pull of the rows of W (rows, c)."""
+        if self.pull is not None:
+            return self.pull
+        assert self.bread is not None
+        return np.asarray(W @ self.bread)
+
+    def times(self, factor: float) -> "Influence":
+        """The same rows, each with a pull so many times as large."""
+        pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
+        return replace(self, pull=pull, bread=bread)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 
 from modeler.estimate.least_squares import Estimate, Influence, least_sigma, least_squares
+from modeler.estimate.passing import residual_of
 from modeler.estimate.problem import Problem
 
 
@@ -30,7 +31,12 @@ def ordinary(problem: Problem) -> Estimate:
     return dataclasses.replace(
         found,
         covariance=bread @ middle @ bread,
-        influence=Influence(
-            problem.W @ bread * problem.counted[:, None], problem.y - problem.W @ found.beta
-        ),
+        influence=_influence(problem, found.beta, bread),
     )
+
+
+def _influence(problem: Problem, beta: np.ndarray, bread: np.ndarray) -> Influence:
+    if problem.streamed:
+        residual = problem.y - problem.observation.y + residual_of(problem.observation, beta)
+        return Influence(None, residual, bread)
+    return Influence(problem.W @ bread * problem.counted[:, None], problem.y - problem.W @ beta)

@@ -8,6 +8,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.estimate.compressed import Compressed
 from modeler.observation import Observation
+from modeler.observation.passing import is_streamed
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -19,7 +20,7 @@ class Problem:
 
     Attributes:
         observation: says which row is which joint and sample, and holds the motion.
-        W: (rows, c).
+        given: (rows, c) W; None: that of the observation.
         y: (rows,) N m or N.
         counted: (rows,) rows to fit; the others are of joints without a torque.
         names: (c,) base parameters first, then those of loads.
@@ -29,13 +30,23 @@ class Problem:
     """
 
     observation: Observation
-    W: np.ndarray
+    given: np.ndarray | None
     y: np.ndarray
     counted: np.ndarray
     names: tuple[str, ...]
     units: tuple[str, ...]
     data: Compressed
     model: "CompiledModel | None" = None
+
+    @property
+    def W(self) -> np.ndarray:
+        """(rows, c)."""
+        return self.observation.W if self.given is None else self.given
+
+    @property
+    def streamed(self) -> bool:
+        """True if W is better not asked for: it is large."""
+        return self.given is None and is_streamed(self.observation)
 
     @property
     def joint(self) -> np.ndarray:

@@ -1,12 +1,14 @@
 """Does the fit predict motion like that of its logs? What was left out answers."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.estimate.compressed import triangle
+from modeler.estimate.passing import compressed, residual_of
 from modeler.observation import Observation
+from modeler.observation.passing import is_streamed
 
 FOLDS = 8
 
@@ -53,20 +55,30 @@ def crossed(
     seen = np.unique(number[observation.row_sample[rows]])
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
     joint = observation.row_joint
-    weighed = np.column_stack([observation.W, observation.y]) / sigma[joint][:, None]
-    parts = [triangle(weighed[rows & (fold == k)]) for k in range(min(FOLDS, len(seen)))]
+    folds = [rows & (fold == k) for k in range(min(FOLDS, len(seen)))]
+    parts = _triangles(observation, folds, sigma)
     left = np.zeros(len(sigma))
-    for k in range(len(parts)):
-        own = rows & (fold == k)
+    for k, own in enumerate(folds):
         if refit is None:
-            beta = solved(np.vstack([weighed[:0], *parts[:k], *parts[k + 1 :]]))
+            beta = solved(np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]]))
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
-        residual = observation.y[own] - observation.W[own] @ beta
+        residual = residual_of(observation, beta, own)
         left += np.bincount(joint[own], residual**2, len(sigma))
     total = np.bincount(joint[rows], observation.y[rows] ** 2, len(sigma))
     with np.errstate(divide="ignore", invalid="ignore"):
         return Crossed(np.sqrt(np.where(total > 0.0, left / total, np.nan)), swing, len(seen))
+
+
+def _triangles(
+    observation: Observation, folds: Sequence[np.ndarray], sigma: np.ndarray
+) -> list[np.ndarray]:
+    """Of the rows of each fold, divided by the sigma of their joint."""
+    if is_streamed(observation):
+        return [compressed(observation, own).whole(sigma) for own in folds]
+    deviation = sigma[observation.row_joint][:, None]
+    weighed = np.column_stack([observation.W, observation.y]) / deviation
+    return [triangle(weighed[own]) for own in folds]
 
 
 def _swing(observation: Observation) -> float:

@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtri
 
 from modeler.core.choices import Method
 from modeler.estimate.compressed import Compressed, triangle
@@ -103,7 +103,7 @@ def _eliminate(whole: np.ndarray, full: Estimate) -> tuple[list[int], list[int],
         rest = [i for i in kept if i != weakest]
         count = len(dropped) + 1
         trial = (_squares(whole, rest) - reference) / count / noise
-        quantile = float(fisher.ppf(1.0 - LEVEL, count, full.degrees))
+        quantile = float(fdtri(count, full.degrees, 1.0 - LEVEL))
         if not trial < quantile:
             break
         kept, ratio, limit = rest, trial, quantile

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,12 +14,14 @@ from modeler.estimate.coloured import coloured
 from modeler.estimate.compressed import Compressed, compress
 from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
 from modeler.estimate.methods import method_of
+from modeler.estimate.passing import Neighbours, compressed
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.parameter import estimates
 from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult, JointFit, ParameterEstimate
 from modeler.observation import Observation
+from modeler.observation.passing import is_streamed
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -29,18 +32,32 @@ class Equations:
     """y = W beta, row for row those of an observation; first the base parameters, then loads.
 
     Attributes:
-        W: (rows, c + loads).
+        observation: whose W stands first.
+        extra: (rows, loads) further columns.
         y: (rows,) N m or N.
         names: (c + loads,) of the columns.
         units: (c + loads,) of the parameters.
         sentences: what a reader of the fit must know of them.
     """
 
-    W: np.ndarray
+    observation: Observation
+    extra: np.ndarray
     y: np.ndarray
     names: tuple[str, ...]
     units: tuple[str, ...]
     sentences: tuple[str, ...] = ()
+
+    @cached_property
+    def W(self) -> np.ndarray:
+        """(rows, c + loads)."""
+        W = self.observation.W
+        return np.column_stack([W, self.extra]) if self.extra.shape[1] else W
+
+    @property
+    def kept(self) -> np.ndarray | None:
+        """W; None where it is large and the base parameters' alone: then rows are to pass by."""
+        alone = not self.extra.shape[1] and is_streamed(self.observation)
+        return None if alone else self.W
 
 
 def identify(
@@ -64,7 +81,8 @@ def identify(
 
 def base_equations(observation: Observation) -> Equations:
     """The equations of the bare robot."""
-    return Equations(observation.W, observation.y, observation.names, observation.units)
+    none = np.zeros((len(observation.y), 0))
+    return Equations(observation, none, observation.y, observation.names, observation.units)
 
 
 def fit_equations(
@@ -77,43 +95,45 @@ def fit_equations(
     estimator = method_of(method)
     dead = dead_joints(observation)
     alive = ~np.isin(observation.row_joint, dead)
-    _check_enough_rows(observation, equations, int(alive.sum()))
+    check_enough_rows(observation, len(equations.names), int(alive.sum()))
     problem, count = _problem(observation, equations, alive, model), len(observation.names)
     estimate = estimator.estimate(problem)
+    rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
     essential = essential_parameters(problem.data, estimate, method)
-    colour = coloured(observation, equations.W, equations.y, alive, estimate)
+    colour = coloured(observation, rows, equations.y, alive, estimate)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
-    every = _parameters(estimate, essential, equations, np.sqrt(np.diag(covariance)))
+    every = parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance)))
     return FitResult(
         robot=observation.robot,
         method=method,
-        status=_status(estimate),
+        status=status_of(estimate),
         samples=len(observation.time),
         rows=int(alive.sum()),
         condition_number=estimate.condition_number,
         condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before,
         essential_error=essential.error_after,
-        joints=_joints(observation, problem.data, estimate),
+        joints=joints_of(observation, problem.data, estimate),
         parameters=every[:count],
         covariance=covariance[:count, :count],
         loads=every[count:],
-        sentences=(*equations.sentences, *_dead_sentences(observation, dead), *estimate.sentences,
-                   *_sentences(estimate, essential), *colour.sentences()),
+        sentences=(*equations.sentences, *dead_sentences(observation, dead), *estimate.sentences,
+                   *sentences_of(estimate, essential), *colour.sentences()),
         processing=observation.report.processing,
         standard=estimate.standard,
         own=estimate.sentences,
-        essential=_reduced(observation, equations, alive, essential),
+        essential=_reduced(equations, rows, alive, essential),
     )  # fmt: skip
 
 
 def _reduced(
-    observation: Observation, equations: Equations, alive: np.ndarray, essential: Essential
+    equations: Equations, rows: np.ndarray | Neighbours, alive: np.ndarray, essential: Essential
 ) -> Reduced | None:
     """The essential parameters alone, as sure as their own residuals let them be."""
     at = [equations.names.index(name) for name in essential.names]
-    W, reduced = equations.W[:, at], essential.reduced
-    factors = coloured(observation, W, equations.y, alive, reduced).factors
+    reduced = essential.reduced
+    W = rows if isinstance(rows, Neighbours) else rows[:, at]
+    factors = coloured(equations.observation, W, equations.y, alive, reduced, at).factors
     sigma = factors * np.sqrt(np.diag(reduced.covariance))
     units = dict(zip(equations.names, equations.units, strict=True))
     return reduced_model(essential, reduced, sigma, units)
@@ -125,17 +145,14 @@ def _problem(
     alive: np.ndarray,
     model: "CompiledModel | None",
 ) -> Problem:
-    data = compress(
-        equations.W[alive],
-        equations.y[alive],
-        observation.row_joint[alive],
-        len(observation.joints),
-        equations.names,
-        [j for j, joint in enumerate(observation.joints) if not joint.actuated],
-    )
-    return Problem(
-        observation, equations.W, equations.y, alive, equations.names, equations.units, data, model
-    )
+    free = [j for j, joint in enumerate(observation.joints) if not joint.actuated]
+    W, y, joint = equations.kept, equations.y, observation.row_joint
+    if W is None:
+        data = compressed(observation, alive, free)
+    else:
+        joints = len(observation.joints)
+        data = compress(W[alive], y[alive], joint[alive], joints, equations.names, free)
+    return Problem(observation, W, y, alive, equations.names, equations.units, data, model)
 
 
 def parts_of(
@@ -152,8 +169,8 @@ def parts_of(
     seen = dataclasses.replace(estimate, sigma=rms)
     sigma = np.sqrt(np.diag(estimate.covariance))
     return (
-        _parameters(estimate, essential, equations, sigma),
-        _joints(observation, data, seen),
+        parameters_of(estimate, essential, equations, sigma),
+        joints_of(observation, data, seen),
         data,
     )
 
@@ -177,7 +194,8 @@ def dead_joints(observation: Observation) -> list[int]:
     return dead
 
 
-def _dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+def dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+    """A line on each joint whose torque is not connected."""
     return [
         f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
         "used; is it connected? if it has no motor, mark it passive in the robot file (mu = 0)"
@@ -185,8 +203,12 @@ def _dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
     ]
 
 
-def _check_enough_rows(observation: Observation, equations: Equations, rows: int) -> None:
-    columns = equations.W.shape[1]
+def check_enough_rows(observation: Observation, columns: int, rows: int) -> None:
+    """Refuse fewer rows than parameters.
+
+    Raises:
+        DataError: there are.
+    """
     if rows < columns:
         raise DataError(
             f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
@@ -194,14 +216,18 @@ def _check_enough_rows(observation: Observation, equations: Equations, rows: int
         )
 
 
-def _parameters(
+def parameters_of(
     estimate: Estimate, essential: Essential, equations: Equations, sigma: np.ndarray
 ) -> tuple[ParameterEstimate, ...]:
+    """The values of an estimate, by name."""
     labels = list(zip(equations.names, equations.units, strict=True))
     return estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
 
 
-def _joints(observation: Observation, data: Compressed, estimate: Estimate) -> tuple[JointFit, ...]:
+def joints_of(
+    observation: Observation, data: Compressed, estimate: Estimate
+) -> tuple[JointFit, ...]:
+    """What an estimate leaves of each joint."""
     residual, torque = data.residual_norms(estimate.beta), data.torque_norms()
     return tuple(
         JointFit(
@@ -216,13 +242,15 @@ def _joints(observation: Observation, data: Compressed, estimate: Estimate) -> t
     )
 
 
-def _status(estimate: Estimate) -> str:
+def status_of(estimate: Estimate) -> str:
+    """In a word."""
     if estimate.rank.aside:
         return "rank deficient"
     return "ok" if estimate.settled else "not settled"
 
 
-def _sentences(estimate: Estimate, essential: Essential) -> list[str]:
+def sentences_of(estimate: Estimate, essential: Essential) -> list[str]:
+    """What a reader must know of an estimate."""
     said = [tangle.sentence() for tangle in estimate.rank.aside]
     if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
         said.append(

@@ -91,7 +91,7 @@ def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimat
     known = loaded.torques[:, i]
     equations = dataclasses.replace(
         loaded.equations,
-        W=np.column_stack([loaded.equations.W, known]),
+        extra=np.column_stack([loaded.equations.extra, known]),
         y=loaded.equations.y + known,
         names=(*loaded.equations.names, "factor"),
         units=(*loaded.equations.units, "1"),

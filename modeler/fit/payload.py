@@ -133,7 +133,8 @@ def _with_load(
     own = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept]
     remarks = _remarks(payload, columns, names, kept, sums)
     return Equations(
-        W=np.column_stack([equations.W, columns[:, kept]]),
+        observation=observation,
+        extra=np.column_stack([equations.extra, columns[:, kept]]),
         y=y,
         names=(*equations.names, *own),
         units=(*equations.units, *(units[i] for i in kept)),

@@ -90,6 +90,7 @@ class FitResult(Presented):
         energy: how it compares with the torque model; None for the torque model itself.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
+        reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
     """
 
     robot: str
@@ -115,6 +116,7 @@ class FitResult(Presented):
     energy: EnergyReport | None = None
     gains: tuple[ParameterEstimate, ...] = ()
     singular_values: tuple[float, ...] = ()
+    reading: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def beta(self) -> np.ndarray:
@@ -193,6 +195,7 @@ class FitResult(Presented):
             "model": "torque" if self.energy is None else "energy",
             "energy": None if self.energy is None else self.energy.to_json(),
             **_verdict_to_json(self.verdict),
+            **({"reading": dict(self.reading)} if self.reading else {}),
         }
 
 
@@ -226,6 +229,7 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             energy=energy_report_from_json(raw.get("energy")),
             gains=tuple(read_parameter(entry) for entry in raw.get("gains", [])),
             singular_values=tuple(map(float, raw.get("singular_values", []))),
+            reading={str(k): int(v) for k, v in raw.get("reading", {}).items()},
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from modeler.core.contract import ModuleSpec
 from modeler.estimate.coloured import autocorrelation
-from modeler.estimate.compressed import Compressed, compress
+from modeler.estimate.compressed import Compressed
 from modeler.estimate.least_squares import solve_by_qr
+from modeler.estimate.passing import compressed, residual_of
 from modeler.estimate.possible import Nearest, carried_by, machine_of, nearest_possible
 from modeler.fit.clock import time_doubts
 from modeler.fit.crossed import Crossed, crossed
@@ -47,6 +48,7 @@ def with_verdict(
     told: Sequence[Told] = (),
     bare: Sequence[str] | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
+    data: Compressed | None = None,
 ) -> FitResult:
     """The fit with its verdict.
 
@@ -63,11 +65,12 @@ def with_verdict(
         told: findings of other stages about the logs; one that is certain makes the fit unusable.
         bare: names of the logs without a load; None: all.
         refit: how the fit is made without some samples; None: by least squares of the torques.
+        data: all rows that were fitted, where the observation has a part of them only.
     """
     rows = _rows(observation, bare)
     sigma = np.array([joint.sigma for joint in result.joints])
-    W, y, joint = observation.W[rows], observation.y[rows], observation.row_joint[rows]
-    data = compress(W, y, joint, len(sigma), observation.names)
+    if data is None:
+        data = compressed(observation, rows)
     seen = crossed(observation, rows, sigma, refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
@@ -101,7 +104,7 @@ def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:
 
 def _lasting(observation: Observation, rows: np.ndarray, result: FitResult) -> np.ndarray:
     """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
-    residual = observation.y - observation.W @ result.beta
+    residual = residual_of(observation, result.beta)
     found = np.zeros(len(result.joints))
     for j, joint in enumerate(result.joints):
         own = rows & (observation.row_joint == j)
@@ -128,7 +131,7 @@ def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[D
     white = data.whole(np.array([joint.sigma for joint in result.joints]))[:, :-1]
     root = white / _colour(white, result)
     nearest = nearest_possible(machine, result.beta, root)
-    limit = float(chi2.ppf(1.0 - CHANCE, max(1, np.linalg.matrix_rank(root)))) ** 0.5
+    limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
     if nearest is None or nearest.distance <= limit:
         return []
     blamed = carried_by(machine, result.beta, root, nearest.distance)

@@ -6,11 +6,11 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import cont2discrete, lfilter
 
 from modeler.core.brief import Brief
 from modeler.effects import Memory
 from modeler.observation.bristle import bristle
+from modeler.observation.closable import nearest_closed
 from modeler.observation.motion import Segment
 from modeler.observation.signals import signals_of
 
@@ -196,6 +196,12 @@ class Signals(Brief):
         step[j] = size
         ahead[kind] = ahead[kind] + step
         behind[kind] = behind[kind] - step
+        if (
+            kind == 0
+        ):  # beside the last posture that closes the loops there may be one that does not
+            nearest = nearest_closed(model, ahead[0], behind[0])
+            if nearest is not None:
+                ahead[0], behind[0] = ahead[0][nearest], behind[0][nearest]
         forth, back = (
             model.inverse_dynamics(q, v, a, beta, self.read) for q, v, a in (ahead, behind)
         )
@@ -237,6 +243,8 @@ class Signals(Brief):
 
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    from scipy.signal import lfilter  # it takes long to load
+
     numerator, denominator = _oscillator(step, frequency, damping)
     first = load[0]
     return first + lfilter(numerator, denominator, load - first)
@@ -245,6 +253,8 @@ def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -
 @lru_cache(maxsize=1024)
 def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points."""
+    from scipy.signal import cont2discrete
+
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
     numerator, denominator, _ = cont2discrete(
         ([w**2], [1.0, 2.0 * damping * w, w**2]), step, method="foh"

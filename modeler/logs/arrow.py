@@ -22,6 +22,7 @@ class _Arrow:
     """A column of a table of Arrow."""
 
     column: pa.ChunkedArray
+    before: int = 0  # rows of the file that stand before it
 
     @property
     def numeric(self) -> bool:
@@ -36,12 +37,16 @@ class _Arrow:
     def numbers(self) -> np.ndarray:
         if not self.numeric:
             raise NotNumbers(self._why())
-        return np.array(pc.cast(self.column, pa.float64(), safe=False).to_numpy(), dtype=float)
+        column = pc.cast(self.column, pa.float64(), safe=False)
+        if column.null_count or not column.num_chunks:
+            return np.array(column.to_numpy(), dtype=float)
+        # Arrow's own `to_numpy` loads pandas, where it is installed.
+        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks])
 
     def _why(self) -> str:
         kind = self.column.type
         if pa.types.is_string(kind) or pa.types.is_large_string(kind):
-            for row, value in enumerate(self.column.to_pylist(), start=1):
+            for row, value in enumerate(self.column.to_pylist(), start=self.before + 1):
                 try:
                     float(value if value is not None else "nan")
                 except ValueError:
@@ -55,20 +60,20 @@ class _Arrow:
 def read_csv(path: Path, wanted: Wanted) -> Columns:
     """The columns of a CSV file."""
     del wanted  # one table, no parts
-    with _told(path, "CSV"):
+    with told(path, "CSV"):
         check_csv(path)
-        return _columns(_parsed(path))
+        return arrow_columns(_parsed(path))
 
 
 def read_parquet(path: Path, wanted: Wanted) -> Columns:
     """The columns of a Parquet file."""
     del wanted
-    with _told(path, "PARQUET"):
-        return _columns(pa.parquet.ParquetFile(path).read())  # read_table refuses equal names
+    with told(path, "PARQUET"):
+        return arrow_columns(pa.parquet.ParquetFile(path).read())  # read_table refuses equal names
 
 
 @contextmanager
-def _told(path: Path, what: str) -> Iterator[None]:
+def told(path: Path, what: str) -> Iterator[None]:
     """Errors of Arrow as one line."""
     try:
         yield
@@ -88,8 +93,11 @@ def _parsed(path: Path) -> pa.Table:
         return pa.csv.read_csv(path, pa.csv.ReadOptions(use_threads=False))
 
 
-def _columns(table: pa.Table) -> Columns:
-    named = [(_bare(name), _Arrow(table.column(i))) for i, name in enumerate(table.column_names)]
+def arrow_columns(table: pa.Table, before: int = 0) -> Columns:
+    """The columns of a table; `before` rows of its file stand before it."""
+    named = [
+        (bare(name), _Arrow(table.column(i), before)) for i, name in enumerate(table.column_names)
+    ]
     return Columns(tuple(named), table.num_rows)
 
 
@@ -97,7 +105,7 @@ def _with_point(value: str) -> str:
     return " with a decimal point" if re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value) else ""
 
 
-def _bare(name: str) -> str:
+def bare(name: str) -> str:
     """A column name without blanks and quotes around it: `"time", "q1"` leaves both."""
     name = name.strip()
     if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":

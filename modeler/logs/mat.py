@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy.io
 
 from modeler.logs.arrays import Held, columns_of
 from modeler.logs.columns import Columns, Wanted, reading
@@ -21,6 +20,8 @@ def read_mat(path: Path, wanted: Wanted) -> Columns:
         header = file.read(520)
     if header.startswith((b"MATLAB 7.3", _HDF5)) or _HDF5 in header:
         return read_mat73(path, wanted)
+    import scipy.io  # only here: other logs need not wait for it
+
     with reading(path, "MAT file"):
         content = scipy.io.loadmat(path, simplify_cells=True)
         found, other = [], []

@@ -1,6 +1,7 @@
 """A log as named columns of floats, under our names, or a DataError that says what is wrong."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,19 @@ _SHOWN = 40  # names of columns that a message lists
 _FEW = 6
 
 
+@dataclass(frozen=True)
+class Part:
+    """Some consecutive rows of a file.
+
+    Attributes:
+        columns: of these rows.
+        before: rows of the file that stand before them.
+    """
+
+    columns: Columns
+    before: int = 0
+
+
 class Table:
     """The columns of one log by our names; numbers are converted when they are asked for.
 
@@ -35,10 +49,14 @@ class Table:
         mapping: LogMap | None = None,
         joints: Sequence[JointSpec] = (),
         any_topic: bool = False,
+        part: Part | None = None,
     ) -> None:
         self.path = path
         mapping = mapping or LogMap()
-        self.found: Columns = read_columns(path, Wanted(mapping.topic, any_topic))
+        self._part = part
+        self.found: Columns = (
+            read_columns(path, Wanted(mapping.topic, any_topic)) if part is None else part.columns
+        )
         self.rows: int = self.found.rows
         self._joints = joints
         self._columns: dict[str, Column] = {}
@@ -60,7 +78,7 @@ class Table:
                 f"{self.path}: column {twice[0]} appears {names.count(twice[0])} times; "
                 "keep one of them"
             )
-        if self.rows < LEAST_ROWS:
+        if self.rows < LEAST_ROWS and self._part is None:
             raise DataError(
                 f"{self.path}: {self.rows} rows; expected at least {LEAST_ROWS}; record a "
                 "longer motion"
@@ -126,8 +144,27 @@ class Table:
             lines.append(f"no time column: rows counted at {self._rate:g} Hz")
         return lines
 
+    @property
+    def whole(self) -> bool:
+        """True if these are all rows of the file."""
+        return self._part is None
+
+    @property
+    def before(self) -> int:
+        """Rows of the file that stand before these."""
+        return 0 if self._part is None else self._part.before
+
+    @property
+    def rated(self) -> bool:
+        """True if time is counted from the rate, for want of a column."""
+        return self._rate is not None
+
     def __contains__(self, name: str) -> bool:
         return name in self._units
+
+    def column(self, name: str) -> str:
+        """The file's own name of a column of ours."""
+        return self._taken.get(name, name)
 
     def called(self, name: str) -> str:
         """A column as the user knows it: `t (time)`, or `time` if that is its name in the file."""
@@ -166,7 +203,7 @@ class Table:
         if name not in self:
             raise DataError(f"{self.path}: {self._absent(name)}")
         if name == "time" and self._rate:
-            return np.arange(self.rows) / self._rate
+            return np.arange(self.before, self.before + self.rows) / self._rate
         try:
             values = self._columns[self._taken.get(name, name)].numbers()
         except NotNumbers as why:

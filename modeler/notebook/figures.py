@@ -5,12 +5,12 @@ paper; the pages that commands write have the ones that can be zoomed.
 """
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.diagnose import Diagnosis
 from modeler.fit import FitResult
-from modeler.pictures.draw_matplotlib import Drawing, drawing
 from modeler.pictures.picture import (
     BLUE,
     COLORS,
@@ -23,24 +23,31 @@ from modeler.pictures.picture import (
 )  # fmt: skip
 from modeler.pictures.thinning import thin_curves
 from modeler.robot import Robot
-from modeler.show.picture import picture_figure as skeleton_figure
 from modeler.showing import show
+
+if TYPE_CHECKING:
+    from modeler.pictures.draw_matplotlib import Drawing
 
 _MOST_BARS = 40
 
 
-def picture_figure(picture: Picture) -> Drawing:
+def picture_figure(picture: Picture) -> "Drawing":
     """The picture as a figure."""
+    from modeler.pictures.draw_matplotlib import drawing  # it takes long to load
+
     return drawing(picture)
 
 
-def robot_figure(robot: Robot) -> Drawing:
+def robot_figure(robot: Robot) -> "Drawing":
     """The robot at its [home], as wide as a column of a paper."""
+    from modeler.pictures.draw_matplotlib import Drawing
+    from modeler.show.picture import picture_figure as skeleton_figure
+
     found = show(robot)
     return skeleton_figure(found.skeleton, found.posture, Drawing)
 
 
-def parameters_figure(fit: FitResult) -> Drawing:
+def parameters_figure(fit: FitResult) -> "Drawing":
     """How sure each parameter is: its sigma in percent of its value."""
     known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
@@ -48,7 +55,7 @@ def parameters_figure(fit: FitResult) -> Drawing:
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
-    return drawing(Picture(
+    return picture_figure(Picture(
         name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
         panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
                        (bars,)),),),
@@ -77,7 +84,7 @@ def _error_bars(diagnosis: Diagnosis, after: bool) -> Bars:
 
 def log_figure(
     title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
-) -> Drawing:
+) -> "Drawing":
     """Positions and torques of all joints against time."""
     panels = tuple(
         (Panel(what, "time [s]", label, tuple(_curves(joints, time, values)), zero=True),)
@@ -86,7 +93,7 @@ def log_figure(
             ("torques", "tau [N m, N]", tau),
         )
     )
-    return drawing(Picture(
+    return picture_figure(Picture(
         name="channels", title=title, caption="", panels=panels, heights=(1.0, 1.0),
         widths=(1.0,), height=620, shared_time=True,
     ))  # fmt: skip

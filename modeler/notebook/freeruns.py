@@ -2,13 +2,16 @@
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 from modeler.core.presented import Figures, Presentation, Tables, present
 from modeler.core.table import Table
 from modeler.freerun import FreeRun
 from modeler.freerun.pictures import free_run_picture
 from modeler.notebook.figures import picture_figure
-from modeler.pictures.draw_matplotlib import Drawing
+
+if TYPE_CHECKING:
+    from modeler.pictures.draw_matplotlib import Drawing
 
 
 def present_free_runs() -> None:
@@ -38,5 +41,5 @@ def _figures(found: FreeRun) -> Figures:
     return drawn
 
 
-def _drawn(found: FreeRun, j: int) -> Drawing:
+def _drawn(found: FreeRun, j: int) -> "Drawing":
     return picture_figure(free_run_picture(found, j))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,10 +21,12 @@ from modeler.diagnose.sentences import blind_spots
 from modeler.notebook.figures import errors_picture, picture_figure
 from modeler.pages.evidence import evidence_picture
 from modeler.pages.shown import shown
-from modeler.pictures.draw_matplotlib import Drawing
 from modeler.pictures.picture import Picture
 from modeler.scoring.contest import Contest
 from modeler.scoring.contest_text import contest_lines
+
+if TYPE_CHECKING:
+    from modeler.pictures.draw_matplotlib import Drawing
 
 
 def present_judgements() -> None:
@@ -132,7 +135,7 @@ def _comparison_figures(comparison: Comparison) -> Figures:
     return found
 
 
-def _figure(draw: Callable[[], Picture]) -> Drawing:
+def _figure(draw: Callable[[], Picture]) -> "Drawing":
     return picture_figure(draw())
 
 
@@ -194,5 +197,5 @@ def _diagnosis_figures(diagnosis: Diagnosis) -> Figures:
     return found
 
 
-def _evidence(diagnosis: Diagnosis, step: Step) -> Drawing:
+def _evidence(diagnosis: Diagnosis, step: Step) -> "Drawing":
     return picture_figure(evidence_picture(shown(diagnosis.search, step)))

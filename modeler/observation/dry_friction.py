@@ -13,10 +13,10 @@ from modeler.observation.processing import Processing
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
 
-_TOP = 0.98
+TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
 _HALVED = 10  # times, from positions anywhere to 1e-3 of home
-_IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
+IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
 
 
 @dataclass(frozen=True)
@@ -120,8 +120,8 @@ def floors_of(
             continue
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
-        idle = not travel.size or np.ptp(travel) < _IDLE_TRAVEL[part.unit]
-        top = float(np.quantile(speeds, _TOP)) if speeds.size else 0.0
+        idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
+        top = float(np.quantile(speeds, TOP)) if speeds.size else 0.0
         floors[part.name] = float("inf") if idle else processing.low_speed * top
     return floors
 

@@ -1,10 +1,20 @@
 """Spikes of one to three samples in torques, velocities and accelerations: of wires, not motion."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.observation.isolated import REACH, departures, lone, nearby, threshold
+from modeler.observation.isolated import (
+    REACH,
+    departures,
+    departures_near,
+    floor_here,
+    lone,
+    nearby,
+    spread,
+    threshold,
+)
 from modeler.observation.resolution import resolution
 
 LONGEST = 3
@@ -26,27 +36,47 @@ _MEAN = 5  # samples before and after a spike over which the speed is taken
 _RARELY = 0.95  # quantile of the changes of the speed over that time
 _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
+_FEW = 0.02  # of the values that may be spikes, or all are looked at
 
 Spike = tuple[int, int, float]
 """First sample, the one after the last, and the largest departure with its sign."""
 
 
-def glitches(stretches: Sequence[np.ndarray]) -> list[list[Spike]]:
+def glitches(
+    stretches: Sequence[np.ndarray],
+    departed: Sequence[np.ndarray] | None = None,
+    floor: float | None = None,
+) -> list[list[Spike]]:
     """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
 
     Args:
         stretches: (n,) of values without gaps, all of one channel.
+        departed: (n,) `departures` of each; None: taken here.
+        floor: `glitch_floor` of the whole channel, of which these are a part; None: they are all.
     """
     if not stretches:
         return []
-    departed = [departures(values) for values in stretches]
-    whole = np.concatenate(stretches)
-    low, high = np.quantile(whole, [0.01, 0.99])
-    floor = max(threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * (high - low))
+    if departed is None:
+        departed = [departures(values) for values in stretches]
+    if floor is None:
+        floor = glitch_floor(stretches, departed)
+    else:
+        floor = floor_here(departed, floor, RARE)
     return [
         _runs(values, own, lone(own, floor))
         for values, own in zip(stretches, departed, strict=True)
     ]
+
+
+def glitch_floor(stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
+    """Departure below which no value of a channel is a spike; infinite without values."""
+    if not stretches:
+        return float("inf")
+    whole = np.concatenate(stretches)
+    low, high = np.quantile(whole, [0.01, 0.99])
+    return max(
+        threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * float(high - low)
+    )
 
 
 def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[Spike]:
@@ -63,9 +93,39 @@ def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class TorqueNoise:
+    """What is usual in the torques of a log; J joints.
+
+    Attributes:
+        floors: (J,) `glitch_floor` of each.
+        range: (J,) between 1 % and 99 % of its values.
+        top: (J,) speed that 98 % of the samples stay below.
+    """
+
+    floors: np.ndarray
+    range: np.ndarray
+    top: np.ndarray
+
+
+def torque_noise(
+    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray], departed: Sequence[np.ndarray]
+) -> TorqueNoise:
+    """What is usual in torques (n, J) without gaps, with the speeds and `departures` of each."""
+    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
+    floors = [
+        glitch_floor([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
+        for j in range(stretches[0].shape[1])
+    ]
+    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
+    return TorqueNoise(np.array(floors), high - low, top)
+
+
 def torque_glitches(
-    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
-) -> list[list[list[Spike]]]:
+    stretches: Sequence[np.ndarray],
+    speeds_of: Callable[[], Sequence[np.ndarray]],
+    usual: TorqueNoise | None = None,
+) -> tuple[list[list[list[Spike]]], TorqueNoise | None]:
     """By joint and stretch, the spikes of torques that no motion and no blow explains.
 
     A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
@@ -74,24 +134,58 @@ def torque_glitches(
 
     Args:
         stretches: (n, J) torques without gaps; a joint without a measured torque is all 0.
-        speeds: (n, J) of the joints.
+        speeds_of: gives the speeds (n, J) of the joints; asked for where they matter.
+        usual: in the whole log, of which these are a part; None: they are all of it.
+
+    Returns:
+        The spikes, and what is usual; None without stretches.
     """
     if not stretches:
-        return []
-    sizes = [np.abs(np.column_stack([departures(own) for own in tau.T])) for tau in stretches]
-    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
-    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
+        return [], usual
+    departed = [_departed(tau, usual) for tau in stretches]
+    speeds = None if usual is not None else speeds_of()
+    if usual is None:
+        assert speeds is not None
+        usual = torque_noise(stretches, speeds, departed)
+    found = [
+        glitches(
+            [tau[:, j] for tau in stretches], [own[:, j] for own in departed],
+            float(usual.floors[j]),
+        )
+        for j in range(stretches[0].shape[1])
+    ]  # fmt: skip
+    if any(spikes for by_joint in found for spikes in by_joint):
+        found = _unexplained(found, departed, speeds or speeds_of(), usual)
+    return found, usual
+
+
+def _unexplained(
+    found: Sequence[Sequence[Sequence[Spike]]],
+    departed: Sequence[np.ndarray],
+    speeds: Sequence[np.ndarray],
+    usual: TorqueNoise,
+) -> list[list[list[Spike]]]:
+    """The spikes that no motion and no blow explains."""
+    sizes = [np.abs(own) for own in departed]
     return [
         [
             [spike for spike in spikes
              if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike[2]) > high[j] - low[j] or _moves(speed[:, j], spike, _SLOW * top[j]))]
-            for spikes, size, speed in zip(
-                glitches([tau[:, j] for tau in stretches]), sizes, speeds, strict=True
-            )
+             and (abs(spike[2]) > usual.range[j]
+                  or _moves(speed[:, j], spike, _SLOW * usual.top[j]))]
+            for spikes, size, speed in zip(own, sizes, speeds, strict=True)
         ]
-        for j in range(stretches[0].shape[1])
+        for j, own in enumerate(found)
     ]  # fmt: skip
+
+
+def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:
+    """(n, J) departures of the torques of a stretch; 0 where they are surely no spikes."""
+    if usual is not None:
+        places = np.flatnonzero((spread(tau) > usual.floors).any(axis=1))
+        if len(places) < _FEW * len(tau):
+            return departures_near(tau, places)
+    return np.column_stack([departures(own) for own in tau.T])
 
 
 def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:

@@ -10,9 +10,11 @@ from modeler.observation.isolated import (
     LEAST,
     NEAR,
     STEPS,
+    floor_here,
     lone,
     nearby,
     running_median,
+    spread,
     threshold,
 )
 
@@ -113,13 +115,39 @@ def floors(walks: Sequence[Walk], resolution: np.ndarray) -> np.ndarray:
     return np.maximum(lonely, top)
 
 
+def surely_none(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
+    """True if no step of a stretch can be a leap, as its slopes hardly change over 11 samples.
+
+    Args:
+        time: (n,) s.
+        q: (n, J) rad or m, all finite.
+        known: (J,) `floors` of the whole log.
+    """
+    if len(time) <= LEAST:
+        return True
+    dt = np.diff(time)[:, None]
+    most = spread(np.diff(q, axis=0) / dt) * dt  # at least the excess of any step
+    return bool(np.all(most.max(axis=0) <= np.minimum(known, 0.5 * _TURN)))
+
+
+def floors_here(walks: Sequence[Walk], known: np.ndarray) -> np.ndarray:
+    """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
+    if not walks:
+        return known
+    return np.array([
+        floor_here([walk.excess[:, j] for walk in walks], floor, RARE)
+        for j, floor in enumerate(known)
+    ])  # fmt: skip
+
+
 def _excess(step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float) -> np.ndarray:
     """What a step has beyond speed x time; a stamp that came late or early excuses it.
 
     The rows may have been sampled evenly and stamped unevenly, or the other way round.
     """
-    ways = np.sort(np.stack([speed * dt, speed * usual]), axis=0)
-    return np.asarray(step - np.clip(step, ways[0], ways[1]))
+    stamped, even = speed * dt, speed * usual
+    low, high = np.minimum(stamped, even), np.maximum(stamped, even)
+    return np.asarray(step - np.minimum(np.maximum(step, low), high))
 
 
 def _whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:

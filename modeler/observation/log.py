@@ -1,7 +1,7 @@
 """A log: what one run of the robot left behind, before any processing."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -62,11 +62,43 @@ class Log(Presented):
         return float(np.median(np.diff(self.time)))
 
 
+FINGER = 32_768
+"""Rows of which a long log keeps one fingerprint; that of the log is theirs together."""
+
+LONG = 250_000
+"""Rows above which a log is long: it need not be in memory at once."""
+
+
 def fingerprint(*measurements: np.ndarray) -> str:
     """A text that equal arrays share and others do not: SHA-256 of their numbers, in hexadecimal.
 
-    The numbers and not the bytes of the file: a copy as CSV of a Parquet log is the same run.
+    The numbers and not the bytes of the file: a copy as CSV of a Parquet log is the same run. A
+    long log has the fingerprint of those of its blocks, which are taken one by one.
+
+    Args:
+        measurements: (n, ...) each.
     """
+    rows = len(measurements[0])
+    if rows <= LONG:
+        return _digest(measurements).hex()
+    blocks = [
+        finger(*(values[first : first + FINGER] for values in measurements))
+        for first in range(0, rows, FINGER)
+    ]
+    return fingerprint_of(blocks)
+
+
+def finger(*measurements: np.ndarray) -> bytes:
+    """That of one block of a long log: rows from a multiple of `FINGER` on."""
+    return _digest(measurements)
+
+
+def fingerprint_of(fingers: Sequence[bytes]) -> str:
+    """That of a long log."""
+    return hashlib.sha256(b"".join(fingers)).hexdigest()
+
+
+def _digest(measurements: Sequence[np.ndarray]) -> bytes:
     content = hashlib.sha256()
     for values in measurements:
         # Adding 0 makes -0 into 0: writers differ there, and no fit does.
@@ -74,7 +106,7 @@ def fingerprint(*measurements: np.ndarray) -> str:
         numbers[np.isnan(numbers)] = np.nan
         content.update(f"{numbers.shape}".encode())
         content.update(numbers.tobytes())
-    return content.hexdigest()
+    return content.digest()
 
 
 def shared_rows(log: Log, content: str, start: float, end: float) -> bool:

@@ -2,11 +2,14 @@
 
 import numpy as np
 
-from modeler.observation.motion import BRIDGES, CAUSES, CONTRADICTED, EDGE, MISSING, SATURATED
+from modeler.observation.motion import BRIDGES, CAUSES, CONTRADICTED, EDGE, MISSING, OPEN, SATURATED
 from modeler.observation.observation import Observation
 from modeler.observation.stretch import Stretch
 
-MASKS = ("low speed", "torque at its limit", "no good value", "impossible derivative", "filter end")
+MASKS = (
+    "low speed", "torque at its limit", "no good value", "impossible derivative", "filter end",
+    "loops open",
+)  # fmt: skip
 """In short, for legends."""
 
 WHY = {
@@ -15,6 +18,7 @@ WHY = {
     "no good value": "a position or torque is missing or damaged, or lies beside one that is",
     "impossible derivative": "a logged speed or acceleration is not that of the positions",
     "filter end": "the position filter still starts up there",
+    "loops open": "the loops cannot be closed with these positions",
 }
 """In a sentence."""
 
@@ -24,6 +28,7 @@ _OF = {
     BRIDGES: "no good value",
     CONTRADICTED: "impossible derivative",
     EDGE: "filter end",
+    OPEN: "loops open",
 }
 
 

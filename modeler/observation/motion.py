@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import butter, sosfiltfilt
 
 from modeler.core.brief import Brief
 from modeler.observation.processing import Processing
@@ -25,7 +24,8 @@ MISSING = "have no measured position or torque, or a damaged one"
 BRIDGES = "lie beside missing positions, as near as the position filter reaches"
 CONTRADICTED = "have impossible derivatives, or lie as near to them as the position filter reaches"
 SATURATED = "have a torque at its limit"
-CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED)
+OPEN = "have positions with which the loops cannot be closed"
+CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN)
 """In this order; the first that applies counts."""
 
 
@@ -135,8 +135,8 @@ def _causes(
         SATURATED: piece.clipped & (not keep_saturated),
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
-    for k, name in enumerate(CAUSES):
-        cause[(cause < 0) & flags[name]] = k
+    for name, flagged in flags.items():
+        cause[(cause < 0) & flagged] = CAUSES.index(name)
     return cause
 
 
@@ -156,6 +156,8 @@ def low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
     """`values` (n, ...) through the zero-phase Butterworth low-pass; as they are for cutoff 0."""
     if cutoff == 0.0:
         return values
+    from scipy.signal import butter, sosfiltfilt  # it takes long to load
+
     sections = butter(4, cutoff, fs=1.0 / step, output="sos")
     # Odd extension over the start-up time; scipy's default is too short for a low cut-off.
     padding = min(len(values) - 1, max(15, round(2.0 / (cutoff * step))))

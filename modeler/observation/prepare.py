@@ -19,7 +19,7 @@ from modeler.observation.band import (
     what_trembles,
 )
 from modeler.observation.consistency import Consistency, consistency, without_late
-from modeler.observation.damage import Damage, repaired
+from modeler.observation.damage import Damage, Defects, Usual, damages, defects
 from modeler.observation.derivatives import quieter, without_velocities
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
@@ -48,6 +48,7 @@ class Prepared:
         damages: values that no robot can have made, by log.
         trembles: sentences on joints that tremble beside their motion.
         band: Hz of the motion of the fastest joint, or what pieces of that length can show.
+        usual: what is usual in the channels, by log.
     """
 
     processing: Processing
@@ -62,6 +63,7 @@ class Prepared:
     damages: tuple[tuple[Damage, ...], ...]
     trembles: tuple[str, ...]
     band: float
+    usual: tuple[Usual, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +79,9 @@ class Mending(Brief):
     spec: ModuleSpec
 
     @cached_property
-    def mended(self) -> list[tuple[Log, tuple[Damage, ...]]]:
-        """What `repaired` makes of each."""
-        return [repaired(log, self.spec) for log in self.logs]
+    def mended(self) -> list[tuple[Log, Defects, Usual]]:
+        """What `defects` makes of each."""
+        return [defects(log, self.spec) for log in self.logs]
 
 
 def prepare(
@@ -98,9 +100,10 @@ def prepare(
             differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
+    read = list(logs)
     mended = (mending or Mending(logs, spec)).mended
     if not processing.keep_damaged:
-        logs = [log for log, _ in mended]
+        logs = [log for log, _, _ in mended]
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
     split_logs = [split(log, run, logged[run]) for run, log in enumerate(logs)]
     pieces = [piece for found, _ in split_logs for piece in found]
@@ -118,8 +121,8 @@ def prepare(
         _checked(log, own, chosen) if use else None
         for log, own, use in zip(logs, found, logged, strict=True)
     ]
-    read = [piece for own, use in zip(found, logged, strict=True) if use for piece in own]
-    if processing.derivatives == "auto" and quieter(read, chosen.position_cutoff or 0.0):
+    rated = [piece for own, use in zip(found, logged, strict=True) if use for piece in own]
+    if processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff or 0.0):
         found = [without_velocities(own) for own in found]
         logged, checks = [False] * len(logs), [None] * len(logs)
     if processing.derivatives == "auto" and not chosen.keep_contradicted:
@@ -128,7 +131,7 @@ def prepare(
                 found[run], logged[run] = without_velocities(found[run]), False
                 checks[run] = without_late(check, found[run])
     if not chosen.keep_contradicted:
-        found = [_believed(own, check) for own, check in zip(found, checks, strict=True)]
+        found = [believed(own, check) for own, check in zip(found, checks, strict=True)]
     segments: list[Segment] = []
     dropped = [0] * len(logs)
     for piece in (piece for own in found for piece in own):
@@ -159,7 +162,10 @@ def prepare(
             _rings(spec, [s for p, s in zip(pieces, spectra, strict=True) if p.run == run])
             for run in range(len(logs))
         ),
-        damages=tuple(damages for _, damages in mended),
+        damages=tuple(
+            damages(log, spec, defect) for log, (_, defect, _) in zip(read, mended, strict=True)
+        ),
+        usual=tuple(usual for _, _, usual in mended),
         trembles=what_trembles(motions),
         band=shown_band(motions, pieces),
     )
@@ -174,14 +180,14 @@ def _checked(log: Log, pieces: Sequence[Piece], chosen: Processing) -> Consisten
     return consistency(log, pieces, chosen.parallel_cutoff, not chosen.keep_contradicted)
 
 
-def _believed(pieces: tuple[Piece, ...], check: Consistency | None) -> tuple[Piece, ...]:
+def believed(pieces: Sequence[Piece], check: Consistency | None) -> tuple[Piece, ...]:
     """The pieces without their contradicted samples: an acceleration enters every torque.
 
     Where accelerations come from the logged velocities, the filter carries a wrong velocity as far
     as its start-up reaches: like a bridge, it takes its surroundings with it.
     """
     if check is None:
-        return pieces
+        return tuple(pieces)
     return tuple(
         dataclasses.replace(piece, contradicted=bad)
         for piece, bad in zip(pieces, check.bad, strict=True)
@@ -198,7 +204,7 @@ def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Non
                 f"{log.name}: joints {', '.join(log.joints)}; {spec.robot} has "
                 f"{', '.join(names)}; read the log with this robot"
             )
-        _check_size(log, spec)
+        check_size(log, spec)
         if processing.derivatives == "log" and log.qd is None:
             raise DataError(
                 f"{log.name}: no logged velocities qd{names[0]} ... for derivatives = "
@@ -247,11 +253,15 @@ def _check_windows(logs: Sequence[Log], pieces: Sequence[Piece], processing: Pro
         )
 
 
-def _check_size(log: Log, spec: ModuleSpec) -> None:
-    """No robot has such values, and their squares overflow."""
+def check_size(log: Log, spec: ModuleSpec) -> None:
+    """No robot has such values, and their squares overflow.
+
+    Raises:
+        DataError: names the largest.
+    """
     for label in ("q", "qd", "qdd", "tau"):
         values = getattr(log, label)
-        if values is None:
+        if values is None or not np.isfinite(values).any():
             continue
         row, j = np.unravel_index(int(np.nanargmax(np.abs(values))), values.shape)
         if abs(values[row, j]) > LARGEST:

@@ -1,5 +1,7 @@
 """A log of any format as a `Log`, in the columns of the log format."""
 
+import dataclasses
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -31,17 +33,33 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     """
     path = Path(path)
     table = Table(path, mapping, spec.joints)
+    log = log_of(table, spec)
+    ranges = Ranges.of(log)
+    doubts = ranges.doubts(log.step, spec)
+    ranges.check(path, spec)
+    return dataclasses.replace(
+        log,
+        notes=(*log.notes, *doubts),
+        content=fingerprint(log.time, log.q, log.tau),
+    )
+
+
+def log_of(table: Table, spec: ModuleSpec) -> Log:
+    """The rows of a table as a log, each looked at by itself.
+
+    Raises:
+        DataError: as `read_log` does, but for what only a whole log can tell.
+    """
     time = _time(table)
     notes: list[str] = [*table.notes]
     q = np.column_stack([_position(table, joint, spec) for joint in spec.joints])
     torques = [_torque(table, joint, spec) for joint in spec.joints]
-    tau = np.column_stack([values for values, _ in torques])
-    log = Log(
-        name=path.name,
+    return Log(
+        name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
         q=q,
-        tau=tau,
+        tau=np.column_stack([values for values, _ in torques]),
         qd=_optional(table, "qd", spec, notes),
         qdd=_optional(table, "qdd", spec, notes),
         commanded=_optional(table, "qc", spec, notes),
@@ -49,11 +67,19 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
         extra=_extra(table, spec, notes),
         torque_source=tuple(source for _, source in torques),
         missing=_missing(table, spec),
-        notes=tuple(notes + _doubts(time, q, tau, spec)),
-        content=fingerprint(time, q, tau),
+        notes=tuple(notes),
     )
-    _check_measured(path, log, spec)
-    return log
+
+
+def needed(table: Table, spec: ModuleSpec) -> list[str]:
+    """The file's names of the columns that a fit of these joints reads."""
+    used = _used_names(spec) | {"time", "segment"}
+    return [
+        table.column(name)
+        for name in table.names
+        if (name in used or name.startswith("temperature")) and table.is_numeric(name)
+        and not (name == "time" and table.rated)
+    ]  # fmt: skip
 
 
 def _time(table: Table) -> np.ndarray:
@@ -61,25 +87,35 @@ def _time(table: Table) -> np.ndarray:
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         raise DataError(
-            f"{table.path}: column {name}, row {bad[0] + 1}: no value; every row needs its time; "
-            "delete the row or restore the time"
+            f"{table.path}: column {name}, row {table.before + bad[0] + 1}: no value; every row "
+            "needs its time; delete the row or restore the time"
         )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         row = int(back[0]) + 1
-        raise DataError(
-            f"{table.path}: column {name}, row {row + 1}: {time[row]:.9g} s after "
-            f"{time[row - 1]:.9g} s; expected increasing time; delete repeated rows, or sort "
-            "and split the file where the clock restarts"
-        )
-    step = float(np.median(np.diff(time)))
+        raise backwards(table, table.before + row, time[row - 1], time[row])
+    if len(time) > 1:
+        check_step(table.path, name, float(np.median(np.diff(time))))
+    return time
+
+
+def backwards(table: Table, row: int, before: float, time: float) -> DataError:
+    """The error of a row, counted from 0, whose time is not after the one before it."""
+    return DataError(
+        f"{table.path}: column {table.called('time')}, row {row + 1}: {time:.9g} s after "
+        f"{before:.9g} s; expected increasing time; delete repeated rows, or sort "
+        "and split the file where the clock restarts"
+    )
+
+
+def check_step(path: Path, name: str, step: float) -> None:
+    """Refuse a median step, s, that squares of say nothing."""
     if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
         raise DataError(
-            f"{table.path}: column {name}: median step of {step:.3g} s; expected "
+            f"{path}: column {name}: median step of {step:.3g} s; expected "
             f"{_SHORTEST_STEP:g} to {_LONGEST_STEP:g} s; write the time in seconds, or map it "
             "with its unit"
         )
-    return time
 
 
 def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
@@ -135,8 +171,8 @@ def _segment(table: Table) -> np.ndarray | None:
     bad = np.flatnonzero(np.isnan(values))
     if bad.size:
         raise DataError(
-            f"{table.path}: column {table.called('segment')}, row {bad[0] + 1}: no value; number "
-            "every row, or leave the column out"
+            f"{table.path}: column {table.called('segment')}, row "
+            f"{table.before + bad[0] + 1}: no value; number every row, or leave the column out"
         )
     return values
 
@@ -167,6 +203,8 @@ def _temperatures(
         logged = np.isfinite(values)
         if not name.startswith("temperature") or logged.all():
             continue
+        if not logged.any() and not table.whole:
+            continue  # other rows may tell
         if not logged.any():
             raise DataError(
                 f"{table.path}: {table.called(name)} has no values; record it, or drop the column"
@@ -186,36 +224,74 @@ def _missing(table: Table, spec: ModuleSpec) -> dict[str, int]:
     return {name: count for name, count in counts.items() if count}
 
 
-def _doubts(time: np.ndarray, q: np.ndarray, tau: np.ndarray, spec: ModuleSpec) -> list[str]:
-    """Sentences on units and dead channels; usable, so no error."""
-    found = []
-    step = float(np.median(np.diff(time)))
-    if step > _SLOW_STEP:
-        found.append(f"median time step {step:.3g} s: is the column in seconds?")
-    for index, joint in enumerate(spec.joints):
-        values = q[np.isfinite(q[:, index]), index]
-        if joint.kind == "revolute" and values.size and _span(values) > _FAR:
-            found.append(f"q{joint.name} spans {_span(values):.4g}: is it in rad?")
-        torque = tau[np.isfinite(tau[:, index]), index]
-        if joint.actuated and torque.size and _span(torque) == 0.0:
-            found.append(f"the torque of joint {joint.name} never changes: is it connected?")
-    return found
+@dataclass(frozen=True, eq=False)
+class Ranges:
+    """Between which values the channels of a log lie; J joints, infinite without any.
 
+    Attributes:
+        values: (2, J) finite positions and torques.
+        low: (2, J) the least of them.
+        high: (2, J) the largest.
+    """
 
-def _span(values: np.ndarray) -> float:
-    """From the least to the largest; infinite where that is beyond all numbers."""
-    return float(values.max()) - float(values.min())
+    values: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
 
-
-def _check_measured(path: Path, log: Log, spec: ModuleSpec) -> None:
-    for index, joint in enumerate(spec.joints):
-        for prefix, values in (("q", log.q), ("torque of joint ", log.tau)):
-            if np.isfinite(values[:, index]).sum() < 2:
-                raise DataError(
-                    f"{path}: {prefix}{joint.name} has no values; record it, or delete the log"
-                )
-    moving = [i for i, joint in enumerate(spec.joints) if joint.actuated]
-    if moving and np.nanmax(np.abs(log.tau[:, moving])) == 0.0:
-        raise DataError(
-            f"{path}: every measured torque is 0; expected joint torques; check the recording"
+    @staticmethod
+    def of(log: Log) -> "Ranges":
+        """Of some rows."""
+        there, low, high = (
+            np.stack(rows) for rows in zip(*map(_range, (log.q, log.tau)), strict=True)
         )
+        return Ranges(there, low, high)
+
+    def over(self, other: "Ranges") -> "Ranges":
+        """Of the rows of both."""
+        return Ranges(
+            self.values + other.values,
+            np.minimum(self.low, other.low),
+            np.maximum(self.high, other.high),
+        )
+
+    def doubts(self, step: float, spec: ModuleSpec) -> list[str]:
+        """Sentences on units and dead channels; usable, so no error."""
+        found = []
+        if step > _SLOW_STEP:
+            found.append(f"median time step {step:.3g} s: is the column in seconds?")
+        span = self.high - self.low
+        for index, joint in enumerate(spec.joints):
+            if joint.kind == "revolute" and span[0, index] > _FAR:
+                found.append(f"q{joint.name} spans {span[0, index]:.4g}: is it in rad?")
+            if joint.actuated and span[1, index] == 0.0:
+                found.append(f"the torque of joint {joint.name} never changes: is it connected?")
+        return found
+
+    def check(self, path: Path, spec: ModuleSpec) -> None:
+        """Refuse a log without measurements.
+
+        Raises:
+            DataError: a channel has no values, or every torque is 0.
+        """
+        for index, joint in enumerate(spec.joints):
+            for row, prefix in enumerate(("q", "torque of joint ")):
+                if self.values[row, index] < 2:
+                    raise DataError(
+                        f"{path}: {prefix}{joint.name} has no values; record it, or delete the log"
+                    )
+        moving = [i for i, joint in enumerate(spec.joints) if joint.actuated]
+        largest = np.maximum(np.abs(self.low[1, moving]), np.abs(self.high[1, moving]))
+        if moving and largest.max() == 0.0:
+            raise DataError(
+                f"{path}: every measured torque is 0; expected joint torques; check the recording"
+            )
+
+
+def _range(values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of values (n, J), NaN where missing: how many there are, the least and the largest."""
+    low, high = values.min(axis=0), values.max(axis=0)
+    if np.isfinite(low).all() and np.isfinite(high).all():
+        return np.full(values.shape[1], len(values)), low, high
+    there = np.isfinite(values).sum(axis=0)
+    low, high = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
+    return there, np.where(there > 0, low, np.inf), np.where(there > 0, high, -np.inf)

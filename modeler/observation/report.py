@@ -37,6 +37,7 @@ class LogReport(Brief):
         content: fingerprint of the file's measurements.
         span: first and last time, s.
         torque_source: where each joint's torque comes from, in words.
+        open_times: of samples with which the loops cannot be closed, s.
     """
 
     name: str
@@ -60,6 +61,7 @@ class LogReport(Brief):
     content: str = ""
     span: tuple[float, float] = (0.0, 0.0)
     torque_source: tuple[str, ...] = ()
+    open_times: tuple[float, ...] = ()
 
     def lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""
@@ -85,6 +87,7 @@ class LogReport(Brief):
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {found.line()}" for found in self.contradictions]
+        text += [f"  {line}" for line in self._open()]
         return text + [f"  {note}" for note in self.notes]
 
     def doubts(self) -> list[str]:
@@ -105,7 +108,19 @@ class LogReport(Brief):
                 "the logged speeds or accelerations are not those of the positions in "
                 f"{self.contradicted} samples; they are not used, but check these channels"
             )
+        found += self._open()
         return [f"{self.name}: {line}" for line in (*found, *self.notes)]
+
+    def _open(self) -> list[str]:
+        """A sentence where loops cannot be closed."""
+        if not self.open_times:
+            return []
+        count = len(self.open_times)
+        return [
+            f"the loops cannot be closed at {count} of {self.rows} samples, "
+            f"{'first ' if count > 1 else ''}at {self.open_times[0]:.6g} s; not used, but check "
+            "positions and geometry there"
+        ]
 
 
 @dataclass(frozen=True)

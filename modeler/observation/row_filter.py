@@ -90,16 +90,32 @@ def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | 
         cutoff: Hz at -3 dB; 0 for none.
         decimation: samples per row; None: `RATE` rows per period of the cut-off.
     """
-    samples = len(whole)
+    decimation = spacing(step, cutoff, decimation)
+    inside = np.flatnonzero(whole)
+    centres = inside[(len(inside) - 1) % decimation // 2 :: decimation]
+    return filter_at(centres, len(whole), step, cutoff)
+
+
+def spacing(step: float, cutoff: float, decimation: int | None) -> int:
+    """Samples from one row to the next; see `row_filter`."""
     if decimation is None:
-        decimation = max(1, round(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+        return max(1, round(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+    return decimation
+
+
+def reach_of(step: float, cutoff: float) -> int:
+    """Samples to both sides of a row's centre that it is a mean over."""
+    spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
+    return int(np.ceil(_REACH * spread)) if spread > _NONE else 0
+
+
+def filter_at(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
+    """The filter of a segment of so many samples, with rows centred on some of them (rows,)."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
-    reach = int(np.ceil(_REACH * spread)) if spread > _NONE else 0
+    reach = reach_of(step, cutoff)
     offsets = np.arange(-reach, reach + 1)
     bell = np.exp(-0.5 * (offsets / spread) ** 2) if reach else np.ones(1)
     bell = bell / bell.sum()
-    inside = np.flatnonzero(whole)
-    centres = inside[(len(inside) - 1) % decimation // 2 :: decimation]
     places = centres[:, None] + offsets
     there = (places >= 0) & (places < samples)
     row, tap = np.nonzero(there)

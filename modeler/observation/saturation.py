@@ -6,7 +6,7 @@ LEAST_RUN = 5
 QUANTA = 3.0
 
 
-def saturated(values: np.ndarray) -> np.ndarray:
+def saturated(values: np.ndarray, extremes: tuple[float, float] | None = None) -> np.ndarray:
     """Samples at which a torque is clipped; (n,) bool.
 
     A run counts when the torque is exactly its largest or smallest value of the whole log for at
@@ -16,21 +16,34 @@ def saturated(values: np.ndarray) -> np.ndarray:
 
     Args:
         values: (n,) torque of one joint, NaN where missing.
+        extremes: smallest and largest value of the log elsewhere, of which these are a part.
     """
     found = np.zeros(len(values), dtype=bool)
-    levels = np.unique(values[np.isfinite(values)])
-    if len(levels) < 2:
+    if not len(values):
         return found
-    gaps = np.diff(levels)
+    low, high = float(np.fmin.reduce(values)), float(np.fmax.reduce(values))
+    if not low < high:
+        return found
+    ends = [low, high]
+    if extremes is not None:
+        ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
+    runs = [(end, run) for end in ends for run in _runs(values == end) if _long_enough(run)]
+    if not runs:
+        return found
+    gaps = np.diff(np.unique(values[np.isfinite(values)]))
     # Differences at the level of rounding (a product with a drive gain) are no resolution.
-    resolution = float(np.min(gaps[gaps > 1e-9 * np.ptp(levels)]))
-    for extreme in (levels[0], levels[-1]):
-        for start, stop in _runs(values == extreme):
-            beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
-            leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
-            if stop - start >= LEAST_RUN and leap > QUANTA * resolution:
-                found[start:stop] = True
+    resolution = float(np.min(gaps[gaps > 1e-9 * (high - low)]))
+    for extreme, (start, stop) in runs:
+        beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
+        leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
+        if leap > QUANTA * resolution:
+            found[start:stop] = True
     return found
+
+
+def _long_enough(run: tuple[int, int]) -> bool:
+    """True of a run that may be clipped."""
+    return run[1] - run[0] >= LEAST_RUN
 
 
 def _runs(flags: np.ndarray) -> list[tuple[int, int]]:

@@ -1,6 +1,6 @@
 """Pieces of a log on a uniform time grid: filters never run across a gap."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,7 +74,12 @@ class SplitReport:
     short: int
 
 
-def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], SplitReport]:
+def split(
+    log: Log,
+    run: int,
+    logged_motion: bool,
+    extremes: Sequence[tuple[float, float] | None] | None = None,
+) -> tuple[tuple[Piece, ...], SplitReport]:
     """The uniform pieces of a log.
 
     Cut where `segment` changes and where a step exceeds 5 median steps; rows without a position
@@ -86,10 +91,11 @@ def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], S
         log: one log.
         run: its index.
         logged_motion: logged velocities and accelerations are used.
+        extremes: of each torque in the whole log, of which this is a part; None: it is all of it.
     """
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
-    clipped = np.column_stack([saturated(log.tau[:, j]) for j in range(log.tau.shape[1])])
+    clipped = _clipped(log, extremes)
     step = log.step
     steps = np.diff(log.time[rows])
     cut = steps > GAP * step
@@ -107,6 +113,11 @@ def split(log: Log, run: int, logged_motion: bool) -> tuple[tuple[Piece, ...], S
         short=sum(len(group) for group in groups if len(group) < _LEAST),
     )
     return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
+
+
+def _clipped(log: Log, extremes: Sequence[tuple[float, float] | None] | None) -> np.ndarray:
+    ends = [None] * log.tau.shape[1] if extremes is None else extremes
+    return np.column_stack([saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)])
 
 
 def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:

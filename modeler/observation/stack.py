@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.observation.closable import without_open
 from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, with_every_joint
+from modeler.observation.evaluated import Evaluated
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
@@ -15,7 +17,6 @@ from modeler.observation.prepare import Mending, Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport, JointReport, LogReport
 from modeler.observation.row_filter import row_filter
-from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch, stretch
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ def observe(
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
+        LoopError: hardly a sample closes the loops.
     """
     prepared = prepare(model.spec, logs, processing or Processing(), mending)
     return observed(model, logs, prepared, every_joint)
@@ -55,7 +57,9 @@ def observed(
 
     Raises:
         DataError: no usable row.
+        LoopError: hardly a sample closes the loops.
     """
+    prepared, open_times = without_open(model, logs, prepared)
     parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
     chosen = with_floors(prepared.processing, floors)
@@ -65,7 +69,10 @@ def observed(
         choices=prepared.choices,
         trembles=prepared.trembles,
         band=prepared.band,
-        logs=tuple(_log_report(log, run, prepared, stretches) for run, log in enumerate(logs)),
+        logs=tuple(
+            dataclasses.replace(_log_report(log, run, prepared, stretches), open_times=times)
+            for run, (log, times) in enumerate(zip(logs, open_times, strict=True))
+        ),
         joints=_joint_reports(model, parts, floors, stretches),
     )
     if not any(part.used.any() for part in stretches):
@@ -88,7 +95,7 @@ def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
         joints=model.spec.joints,
         names=tuple(base.name for base in model.spec.base),
         units=tuple(base.unit for base in model.spec.base),
-        regressor=_regressor(model, like.stretches),
+        regressor=Evaluated(model, like.stretches),
     )
 
 
@@ -125,7 +132,7 @@ def _stack(
         torque=np.concatenate([part.filtered(_torque(part.segment)) for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
-        regressor=_regressor(model, stretches),
+        regressor=Evaluated(model, stretches),
         report=report,
     )
 
@@ -136,26 +143,13 @@ def _motion(part: Stretch) -> np.ndarray:
     return np.concatenate(
         [
             rows.means(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
-            for rows, w, _ in part.blocks()
+            for rows, w, _ in part.parts()
         ]
     )
 
 
 def _torque(segment: Segment) -> Callable[[slice], np.ndarray]:
     return lambda window: segment.tau[window]
-
-
-def _regressor(
-    model: "CompiledModel", stretches: Sequence[Stretch]
-) -> Callable[[Segment, slice], np.ndarray]:
-    """The base regressor over the samples of a segment, with what its effects read."""
-    signals = {id(part.segment): signals_of(model.spec, part.segment) for part in stretches}
-
-    def regressor(s: Segment, w: slice) -> np.ndarray:
-        read = signals[id(s)]
-        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
-
-    return regressor
 
 
 def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:

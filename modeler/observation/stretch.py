@@ -33,17 +33,20 @@ class Stretch(Brief):
 
         Evaluated in blocks, so that a long log needs no more memory than a short one.
         """
-        blocks = [
-            self._means(part, evaluate(window), window, self.used[rows])
-            for part, window, rows in self.blocks()
-        ]
-        return np.concatenate(blocks)
+        return np.concatenate([values for _, values in self.blocks(evaluate)])
 
-    def blocks(self) -> Iterator[tuple[RowFilter, slice, slice]]:
+    def blocks(
+        self, evaluate: Callable[[slice], np.ndarray], samples: int = _BLOCK
+    ) -> Iterator[tuple[slice, np.ndarray]]:
+        """The same, about so many samples at a time: which rows, and their values."""
+        for part, window, rows in self.parts(samples):
+            yield rows, self._means(part, evaluate(window), window, self.used[rows])
+
+    def parts(self, samples: int = _BLOCK) -> Iterator[tuple[RowFilter, slice, slice]]:
         """Filters of a few rows each, the samples that they reach, and which rows they are."""
         centres = self.rows.centres
         decimation = int(centres[1] - centres[0]) if len(centres) > 1 else 1
-        count = max(1, _BLOCK // decimation)
+        count = max(1, samples // decimation)
         for first in range(0, len(centres), count):
             rows = slice(first, min(first + count, len(centres)))
             window = self.rows.window(rows)

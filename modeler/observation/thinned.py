@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.observation.closable import nearest_closed
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
+from modeler.observation.passing import columns_at
 from modeler.observation.row_filter import RowFilter
 from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
@@ -47,6 +49,9 @@ class Part:
 
     def _filtered(self, compiled: "CompiledModel", motion: list[np.ndarray]) -> np.ndarray:
         q, qd, qdd = motion
+        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
+        if nearest is not None:
+            q = np.ascontiguousarray(q[nearest])
         values = compiled.base_regressor(q, qd, qdd, self.read)
         whole = self.segment.whole[self.samples]
         means = [
@@ -96,7 +101,7 @@ def thinned(compiled: "CompiledModel", observation: Observation) -> Rows:
             parts.append(_part(compiled, part, rows))
     place = np.concatenate(chosen)
     return Rows(
-        W=observation.columns[place],
+        W=columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
         speed=observation.qd[place],

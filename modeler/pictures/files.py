@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.core.files import write_atomically
-from modeler.pictures.draw_matplotlib import images
 from modeler.pictures.picture import Picture, picture_csv
 
 
@@ -21,6 +20,8 @@ def write_files(
     Raises:
         ModelerError: the folder cannot be written.
     """
+    from modeler.pictures.draw_matplotlib import images  # it takes long to load
+
     written = []
     for number, picture in enumerate(pictures, start=1):
         files = {**images(picture), "csv": picture_csv(picture).encode()}

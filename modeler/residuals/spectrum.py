@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import signal
 
 from modeler.core.brief import Brief
 
@@ -101,6 +100,8 @@ def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
 
 def _welch(pieces: list[np.ndarray], period: float) -> tuple[np.ndarray, np.ndarray]:
     """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
+    from scipy import signal  # it takes long to load
+
     # a quarter of the longest segment: about seven windows to average over
     window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
     total, weight = np.zeros(window // 2 + 1), 0.0

@@ -12,7 +12,6 @@ from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 
 from modeler.show.scene import BASE, Dot, Face, Line, Point, Scene
 
-PICTURE_KINDS = (".png", ".svg", ".pdf")
 SETTINGS: Any = {"svg.hashsalt": "modeler", "svg.fonttype": "none", "font.size": 7}
 """Of matplotlib, while it draws."""
 

@@ -1,7 +1,6 @@
 """A random torque on the machine itself, as from seals, cables and the air."""
 
 import numpy as np
-from scipy.signal import lfilter
 
 from modeler.simulate.elementary import exponential
 from modeler.simulate.settings import SimulationSettings
@@ -20,6 +19,8 @@ def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -
     shape = (ticks, rms.size)
     if not settings.process_noise:
         return np.zeros(shape)
+    from scipy.signal import lfilter  # it takes long to load
+
     white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
     kept = float(exponential(-1 / (settings.rate * _CORRELATION)))
     white[1:] *= np.sqrt(1 - kept**2)  # the first sample has the variance of all

@@ -36,7 +36,7 @@ _PLACES = 6
 """Decimals of rad and m in which two closed postures are told apart."""
 _POLISHED = 1e-25
 """Last step of the polishing, in sizes of the robot or rad: far below the digits of a double."""
-_POLISHING = 8
+_POLISHING = 20
 
 
 @dataclass(frozen=True)
@@ -109,6 +109,14 @@ class Closing(Brief):
         """(n, equations, unknowns)."""
         flat = self.evaluate([entry for line in self.jacobian for entry in line], u)
         return flat.reshape(len(u), len(self.equations), self.unknowns)
+
+    def linearised(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """`residuals`, `openness` and `jacobians` of (n, unknowns), which share most steps."""
+        slopes = [entry for line in self.jacobian for entry in line]
+        count, every = len(self.equations), len(self.equations) + len(self.others)
+        found = self.evaluate([*self.equations, *self.others, *slopes], u)
+        openness = np.max(np.abs(found[:, :every]), axis=1, initial=0.0)
+        return found[:, :count], openness, found[:, every:].reshape(len(u), count, self.unknowns)
 
     def scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
         """Jacobians with travels counted in sizes of the robot and rows of usual length 1."""
@@ -233,7 +241,7 @@ def polished(
 ) -> tuple[float, ...]:
     """The doubles next to the closed posture that `home` is up to rounding: the same everywhere.
 
-    Newton with 40 digits on the independent equations, the given variables held.
+    Newton on the independent equations, their residuals with 40 digits, the given variables held.
 
     Args:
         closing: the loops.
@@ -245,21 +253,21 @@ def polished(
         LoopError: it does not settle; loops so near to singular have no certain digits.
     """
     mp, solved = precise(), list(closing.solved)
+    count = len(solved)
     equations = [closing.equations[i] for i in chosen]
     slopes = [closing.jacobian[i][k] for i in chosen for k in solved]
     u = [decimal(float(x)) for x in home]
     for _ in range(_POLISHING):
         inputs = {f"q[{k}]": x for k, x in enumerate(u)}
         found = precise_values(closing.graph, [*equations, *slopes], {**closing.values, **inputs})
-        f, J = mp.matrix(found[: len(solved)]), mp.matrix(len(solved))
-        for place, slope in enumerate(found[len(solved) :]):
-            J[place // len(solved), place % len(solved)] = slope
+        # The step is good to a double, what is left is known to 40 digits: so it goes on shrinking.
+        f, J = (np.array(part, dtype=float) for part in (found[:count], found[count:]))
         try:
-            step = mp.lu_solve(J, f)
-        except ZeroDivisionError:
+            step = np.linalg.solve(J.reshape(count, count), f)
+        except np.linalg.LinAlgError:
             break
         for k, change in zip(solved, step, strict=True):
-            u[k] -= change
+            u[k] -= float(change)
         if max(abs(change) for change in step) < _POLISHED * closing.size:
             for k in solved:  # what should be 0 is left at the size of the last step, not at 0
                 u[k] = mp.nint(u[k] / _POLISHED) * _POLISHED

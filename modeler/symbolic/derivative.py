@@ -5,6 +5,9 @@ from collections.abc import Mapping, Sequence
 from modeler.core.errors import DerivationError
 from modeler.symbolic.graph import Expr, Node
 
+_EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
+"""Operations that have a derivative wherever they have a value, for our purposes."""
+
 
 def derivatives(values: Sequence[Expr], direction: Mapping[str, Expr]) -> list[Expr]:
     """d values / ds where each symbol of `direction` moves with that speed; others stand still.
@@ -25,6 +28,8 @@ def derivatives(values: Sequence[Expr], direction: Mapping[str, Expr]) -> list[E
             found[index] = direction.get(node.args[0], zero)
         elif node.static:
             found[index] = zero
+        elif node.op in _EVERYWHERE and not any(found[abs(ref)].ref for ref in node.args):
+            found[index] = zero  # most nodes depend on few symbols
         else:
             found[index] = _derivative(index, node, values[0], found)
     return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
@@ -49,6 +54,6 @@ def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr]) -
         "tan": lambda x: 1 + value * value,
         "tanh": lambda x: 1 - value * value,
     }
-    if node.op not in rules:
+    if node.op not in _EVERYWHERE:
         raise DerivationError(f"{node.op} has no derivative everywhere")
     return rules[node.op](args[0]) * slopes[0]

@@ -20,10 +20,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Union
 
-import numpy as np
+from modeler.symbolic.evaluation import Plan
 
 PRIME = 2**61 - 1
 _LARGEST_MULTIPLE = 64
+_PLANS = 16  # of evaluation that are kept
 _MULTIPLIED = range(101)  # exponents of which powers are multiplied out
 
 Number = int | Fraction
@@ -54,6 +55,7 @@ class Graph:
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
+        self._plans: dict[tuple[int, ...], Plan] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -271,10 +273,12 @@ class Graph:
 
     def evaluate(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
         """Values of the outputs; `values` gives a number or an array of samples per symbol."""
-        found: dict[int, Any] = {0: 0.0}
-        for index in self.reachable(outputs):
-            found[index] = _evaluate(self.nodes[index], values, found)
-        return [found[abs(o.ref)] if o.ref >= 0 else -found[-o.ref] for o in outputs]
+        refs = tuple(output.ref for output in outputs)
+        plan = self._plans.pop(refs, None) or Plan(self.nodes, self.reachable(outputs), refs)
+        self._plans[refs] = plan  # the last that was asked for is the last to go
+        if len(self._plans) > _PLANS:
+            del self._plans[next(iter(self._plans))]
+        return plan(values)
 
 
 def _composed(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
@@ -284,22 +288,6 @@ def _composed(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
 
 def _random_residue(name: str) -> int:
     return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "big") % PRIME
-
-
-_FUNCTIONS = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
-    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
-}  # fmt: skip
-
-
-def _evaluate(node: Node, values: Mapping[str, Any], found: Mapping[int, Any]) -> Any:
-    if node.op == "num":
-        return float(node.args[0])
-    if node.op == "pi":
-        return np.pi
-    if node.op == "sym":
-        return values[node.args[0]]
-    return combined(node, found, _FUNCTIONS)
 
 
 def combined(

@@ -115,15 +115,16 @@ class _Paths:
         wide = self.rng.uniform(-0.5, 1.5, (count, len(self.given)))
         return np.asarray(low + np.clip(wide, 0.0, 1.0) * (high - low))
 
-    def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Residuals, Jacobian with travels in sizes of the robot, sign of det J_s."""
-        J = self.closing.jacobians(u) * self.scale
-        return self.closing.residuals(u), J, np.linalg.slogdet(J[:, :, self.solved])[0]
+    def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Residuals, Jacobian with travels in sizes of the robot, sign of det J_s, openness."""
+        f, openness, J = self.closing.linearised(u)
+        J = J * self.scale
+        return f, J, np.linalg.slogdet(J[:, :, self.solved])[0], openness
 
     def step(self) -> np.ndarray:
         """One step of every walker; the postures, all but closed, that are reached by it."""
-        f, J, sign = self._linearised(self.u)
-        lost = self.closing.openness(self.u) > _OPEN * self.closing.size
+        f, J, sign, openness = self._linearised(self.u)
+        lost = openness > _OPEN * self.closing.size
         lost |= (sign != self.sign) | self._outside(self.u)
         self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
         stuck = self.pace < _SLOWEST
@@ -131,7 +132,7 @@ class _Paths:
             # From the edge of what is reached steps go astray: who is stuck starts again at home.
             back = np.where(stuck[:, None], self.home, self.before)
             self.u = np.where(lost[:, None], back, self.u)
-            f[lost], J[lost], _ = self._linearised(self.u[lost])
+            f[lost], J[lost], *_ = self._linearised(self.u[lost])
         self._turn(stuck)
         self.before = self.u
         self.u = self.u + self._advance(f, J)

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import modeler.api as api
+import modeler.api.entries as entries
 from modeler.api.door import fitting
 from modeler.core.errors import DataError
 
-FUNCTIONS = {name: f for name, f in vars(api).items() if inspect.isfunction(f)}
+FUNCTIONS = {name: f for name, f in vars(entries).items() if inspect.isfunction(f)}
 SOME: Any = inspect.Parameter.empty
 
 

@@ -7,11 +7,12 @@ import inspect
 import pytest
 
 import modeler.api as api
+import modeler.api.entries as entries
 
 MODULES = sorted(
     {
         "modeler.core.table",
-        *(thing.__module__ for thing in vars(api).values() if inspect.isfunction(thing)),
+        *(thing.__module__ for thing in vars(entries).values() if inspect.isfunction(thing)),
     }
 )
 

@@ -48,6 +48,7 @@ READING = {  # what each command reads; outputs come after it
     "show": "show arm.toml",
     "completion": "completion bash",
     "free-run": "free-run m.json a.parquet@2:",
+    "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
 }
 
 

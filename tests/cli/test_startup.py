@@ -10,7 +10,7 @@ from typing import get_args
 
 import pytest
 
-from modeler.cli import parser
+from modeler.cli import main, parser
 from modeler.cli.closed_forms import _CLOSED_FORMS, _COMMENT, _SHEETS, _TABLES
 from modeler.cli.derive import _FORMS
 from modeler.cli.parsers.derive import Form
@@ -64,6 +64,41 @@ def test_what_answers_at_once_loads_nothing_long(words, status) -> None:
     ended, out, packages = loaded(*words)
     assert ended == status and bool(out) == (status == 0)
     assert not packages & LONG
+
+
+PICTURES = {"matplotlib", "rich", "h5py", "rosbags", "cvxpy", "IPython"}
+NUMBERS = {"scipy", "pyarrow", "cffi", "pandas", "threadpoolctl", "clarabel"}
+SYMBOLS = {"sympy", "casadi", "jinja2", "flint"}
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory) -> Path:
+    """A folder with a log and a model."""
+    folder = tmp_path_factory.mktemp("started")
+    log, model = str(folder / "run.parquet"), str(folder / "m.json")
+    assert main(["simulate", "emps", "--out", log, "--duration", "6", "--seed", "1"]) == 0
+    assert main(["fit", "emps", log, "--out", model]) == 0
+    return folder
+
+
+# command, and what it has no use for
+LONGER = {
+    "derive": ("derive scara", PICTURES | NUMBERS | {"jinja2"}),
+    "generate": ("generate scara --out {}/c", PICTURES | NUMBERS | {"casadi"}),
+    "show": ("show wrist --out {}/w.html", PICTURES | NUMBERS | SYMBOLS - {"jinja2"}),
+    "home": ("home five-bar", PICTURES | NUMBERS),
+    "log": ("log {}/run.parquet", PICTURES | {"pandas", "casadi", "clarabel", "threadpoolctl"}),
+    "fit": ("fit emps {0}/run.parquet --out {0}/n.json", PICTURES | {"pandas", "casadi"}),
+    "compare": ("compare {0}/m.json {0}/run.parquet", PICTURES | {"pandas", "casadi"}),
+    "diagnose": ("diagnose {0}/m.json {0}/run.parquet", PICTURES | {"pandas", "casadi"}),
+}
+
+
+@pytest.mark.parametrize("command", LONGER)
+def test_a_command_loads_nothing_long_that_it_has_no_use_for(place: Path, command: str) -> None:
+    words, unused = LONGER[command]
+    status, _, packages = loaded(*words.format(place).split())
+    assert status == 0 and not packages & unused
 
 
 def test_long_packages_would_be_noticed() -> None:

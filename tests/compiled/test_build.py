@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import modeler.compiled.build as build
+import modeler.compiled.cache as kept
 import modeler.compiled.model as compiled_model
 from modeler.codegen import write_emitted
 from modeler.compiled import load, load_folder
@@ -111,9 +112,32 @@ def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):
     assert find_toolchain().flags == ("-std=c99", "-fPIC", "-O1", "-ffp-contract=off")
     works(load(emps.spec, emps.files))
     monkeypatch.setenv("CFLAGS", "")
-    assert "-O2" in find_toolchain().flags
+    assert "-O3" in find_toolchain().flags
     works(load(emps.spec, emps.files))
     assert len(libraries(cache)) == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "stays", "goes"),
+    [
+        ("-march=x86-64", "-O3", "-march=native"),
+        ("-mcpu=native", "-O3", "-march=native"),
+        ("-O1 -ffp-contract=off", "-fno-math-errno", "-ffp-contract=fast"),
+        ("-Os", "-fno-math-errno", "-O3"),
+        ("-ftree-slp-vectorize", "-ffp-contract=fast", "-fno-tree-slp-vectorize"),
+    ],
+)
+def test_flags_of_the_command_win(cache, emps, monkeypatch, words, stays, goes, tmp_path):
+    real = compiler("gcc")
+    wrapped = tmp_path / "any-cc"  # which takes flags of every processor
+    wrapped.write_text(f'#!/bin/sh\nfor w; do shift; case $w in -mcpu=*) ;; *) set -- "$@" "$w";; '
+                       f'esac; done\nexec {real} "$@"\n')  # fmt: skip
+    wrapped.chmod(0o755)
+    monkeypatch.delenv("CFLAGS", raising=False)
+    monkeypatch.setenv("CC", f"{wrapped} {words}")
+    flags = find_toolchain().flags
+    assert stays in flags and goes not in flags
+    works(load(emps.spec, emps.files))
 
 
 @pytest.mark.parametrize(
@@ -161,13 +185,13 @@ def test_a_cache_that_cannot_be_written_is_said(emps, monkeypatch, tmp_path):
 
 def test_the_cache_is_where_the_environment_says(monkeypatch, tmp_path):
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path))
-    assert build.cache_folder() == tmp_path
+    assert kept.cache_folder() == tmp_path
     monkeypatch.delenv("MODELER_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert build.cache_folder() == tmp_path / "modeler"
+    assert kept.cache_folder() == tmp_path / "modeler"
     monkeypatch.delenv("XDG_CACHE_HOME")
     monkeypatch.setenv("HOME", str(tmp_path))
-    assert build.cache_folder() == tmp_path / ".cache" / "modeler"
+    assert kept.cache_folder() == tmp_path / ".cache" / "modeler"
 
 
 def test_flags_that_a_compiler_does_not_know_are_left_out(monkeypatch, tmp_path):

@@ -2,11 +2,14 @@
 
 import dataclasses
 import io
+from collections.abc import Callable
 from html.parser import HTMLParser
 
 import numpy as np
 import pytest
 
+import modeler.core.presented as presented_module
+import modeler.notebook as notebook
 from modeler.api import derive, load
 from modeler.core.errors import DataError
 from modeler.core.presented import Presented, presented
@@ -195,3 +198,15 @@ def _checked(text: str) -> int:
     checker.close()
     assert not checker.open
     return checker.rows
+
+
+def test_what_is_shown_later_is_loaded_under_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A name that no class has would never be looked up."""
+    later: dict[str, Callable[[], None]] = {}
+    monkeypatch.setattr(presented_module, "_LATER", later)
+    monkeypatch.setattr(presented_module, "_PRESENTATIONS", found := {})
+    notebook.register()
+    assert later and not found
+    for say in {*later.values()}:
+        say()
+    assert {kind.__name__ for kind in found} == later.keys()

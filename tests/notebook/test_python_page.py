@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-import modeler.api as api
+import modeler.api.entries as entries
 from modeler.core.presented import presented
 from tests.notebook.session import session
 
@@ -21,7 +21,7 @@ def test_every_function_stands_there() -> None:
     told = set(re.findall(r"`(\w+)\(", " ".join(row[0] for row in rows("Functions"))))
     offered = {
         name
-        for name, thing in vars(api).items()
+        for name, thing in vars(entries).items()
         if callable(thing) and not isinstance(thing, type) and name[0] != "_"
     }
     assert told == offered - {"Mapped", "AnyLog"}

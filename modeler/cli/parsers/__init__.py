@@ -19,6 +19,7 @@ from modeler.cli.parsers.diagnose import add_diagnose
 from modeler.cli.parsers.estimators import add_estimators
 from modeler.cli.parsers.excite import add_excite
 from modeler.cli.parsers.fit import add_compare, add_fit
+from modeler.cli.parsers.fleet import add_fleet
 from modeler.cli.parsers.free_run import add_free_run
 from modeler.cli.parsers.home import add_home
 from modeler.cli.parsers.lists import add_effects, add_robots
@@ -32,8 +33,8 @@ from modeler.cli.parsers.words import arguments_of, sorted_words
 
 _COMMANDS = (
     add_derive, add_show, add_home, add_generate, add_log, add_fit, add_compare, add_free_run,
-    add_diagnose, add_add, add_physical, add_simulate, add_excite, add_convert, add_robots,
-    add_effects, add_estimators, add_reproduce, add_demo, add_completion,
+    add_diagnose, add_add, add_fleet, add_physical, add_simulate, add_excite, add_convert,
+    add_robots, add_effects, add_estimators, add_reproduce, add_demo, add_completion,
 )  # fmt: skip
 
 

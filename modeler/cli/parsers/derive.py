@@ -12,6 +12,7 @@ from modeler.cli.parsers.options import (
     add_robot,
 )
 from modeler.cli.places import ModuleFolder, Output, RobotOrModel
+from modeler.core.choices import Precision
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
@@ -104,6 +105,13 @@ def add_generate(commands: Commands) -> None:
     add_effects(parser)
     parser.add_argument(
         "--out", metavar="DIR", required=True, type=ModuleFolder, help="folder to write"
+    )
+    parser.add_argument(
+        "--precision", choices=get_args(Precision), default="double",
+        help="of all numbers of the C: double, or float for a microcontroller",
+    )  # fmt: skip
+    parser.add_argument(
+        "--cuda", action="store_true", help="also the base regressor for graphics processors"
     )
     add_force(parser)
     add_json(parser, "write the manifest for machines")

@@ -6,6 +6,7 @@ from typing import get_args
 from modeler.cli.parsers.options import (
     Commands,
     Run,
+    add_dask,
     add_json,
     add_map,
     add_number,
@@ -62,6 +63,7 @@ def add_fit(commands: Commands) -> None:
     _add_model(parser)
     _add_processing(parser)
     _add_load(parser)
+    add_dask(parser)
     add_page(parser)
     add_json(parser, "write the result for machines")
     parser.set_defaults(load=_fit)

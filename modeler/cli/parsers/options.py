@@ -84,6 +84,15 @@ def add_page(parser: argparse.ArgumentParser, kind: type[Output] = Output) -> No
     )
 
 
+def add_dask(parser: argparse._ActionsContainer) -> None:
+    """`--dask`, of commands that read much."""
+    parser.add_argument(
+        "--dask", metavar="ADDRESS", type=Word,
+        help="a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster "
+        "of this machine's processors",
+    )  # fmt: skip
+
+
 def add_force(parser: argparse.ArgumentParser) -> None:
     """`--force`, for commands that write folders of code."""
     parser.add_argument(

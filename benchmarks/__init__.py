@@ -1,0 +1,1 @@
+"""How fast modeler is, side by side with peers in one run: `python -m benchmarks --json FILE`."""

@@ -1,0 +1,82 @@
+"""All lines in one run: `python -m benchmarks --json FILE`."""
+
+import argparse
+import fnmatch
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from benchmarks.all import LINES
+from benchmarks.line import Line, Missing
+from benchmarks.machine import machine
+from benchmarks.markdown import markdown
+
+
+def main(words: list[str] | None = None) -> int:
+    """Measure what is asked for; the exit status."""
+    asked = _parser().parse_args(words)
+    if asked.markdown:
+        print(markdown(json.loads(Path(asked.markdown).read_text(encoding="utf-8"))))
+        return 0
+    lines = [line for line in LINES if _wanted(line, asked.only)]
+    if asked.list:
+        for line in lines:
+            for key in line.keys:
+                print(f"{key.name:<48}{key.unit:<4}{key.meaning}")
+        return 0
+    if not lines:
+        print(f"benchmarks: no line matches {' '.join(asked.only)}; see --list", file=sys.stderr)
+        return 1
+    report = measured(lines, asked.quick)
+    if asked.json:
+        Path(asked.json).write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    return 0
+
+
+def measured(lines: list[Line], quick: bool) -> dict[str, Any]:
+    """The report: machine, values, and why some are missing; tells each as it comes."""
+    start = time.perf_counter()
+    report: dict[str, Any] = {"machine": machine(), "quick": quick, "values": {}, "missing": {}}
+    for line in lines:
+        try:
+            values, why = dict(line.measure(quick)), "its peer or tool is not on this machine"
+        except Missing as missing:
+            values, why = {}, str(missing)
+        except Exception as error:  # one line that breaks must not take the others along
+            values, why = {}, f"{type(error).__name__}: {error}"
+        for key in line.keys:
+            value = values.get(key.name)
+            report["values"][key.name] = value
+            if value is None:
+                report["missing"][key.name] = why
+            told = f"missing: {why}" if value is None else f"{value:.4g} {key.unit}"
+            print(f"{key.name:<48}{told}", flush=True)
+    report["seconds"] = round(time.perf_counter() - start, 1)
+    return report
+
+
+def _wanted(line: Line, patterns: list[str]) -> bool:
+    names = [key.name for key in line.keys]
+    return not patterns or any(fnmatch.filter(names, f"{pattern}*") for pattern in patterns)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks",
+        description="How fast modeler is on this machine, side by side with its peers.",
+        epilog="example: python -m benchmarks --only help_seconds scalar_vs --json speed.json",
+    )
+    parser.add_argument("--json", metavar="FILE", help="write machine and numbers, by stable keys")
+    parser.add_argument(
+        "--only", metavar="KEY", nargs="+", default=[], help="lines with such a key (start, or *)"
+    )
+    parser.add_argument("--quick", action="store_true", help="a tenth of the work, less sure")
+    parser.add_argument("--list", action="store_true", help="what there is to measure, and leave")
+    parser.add_argument("--markdown", metavar="FILE", help="print a table of such a JSON file")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,14 @@
+"""Every line, in the order of the report."""
+
+from benchmarks import answers, callgrind, folder, least_squares, memory, regressor, start, streams
+
+LINES = (
+    *start.LINES,
+    *regressor.LINES,
+    *callgrind.LINES,
+    *folder.LINES,
+    *memory.LINES,
+    *least_squares.LINES,
+    *streams.LINES,
+    *answers.LINES,
+)

@@ -1,0 +1,1 @@
+"""Other libraries that compute the same, built the way their users build them."""

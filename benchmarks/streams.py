@@ -1,0 +1,103 @@
+"""Fits of long logs, the whole process: seconds and memory."""
+
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from benchmarks.child import modeler
+from benchmarks.line import Key, Line
+from modeler.api import compile_model, derive, generate, load
+
+ROBOT = "ur10e"
+_STEP, _PIECE = 1e-3, 200_000
+_WAVES, _NOISE, _TREMBLE = 5, 0.5, 1e-5
+LENGTHS = {"1e6": (1_000_000, 2.5, 1.5, 500.0, 300.0), "1e7": (10_000_000, 20.0, None, 600.0, None)}
+_QUICK = 10  # times shorter
+
+
+def write_log(place: Path, samples: int) -> None:
+    """A log of smooth motion at 1 kHz, positions and torques with noise, in row groups."""
+    model = compile_model(generate(derive(load(ROBOT))))
+    names = [joint.name for joint in model.spec.joints]
+    writer = None
+    for piece in _pieces(model, names, samples):
+        writer = writer or pq.ParquetWriter(place, piece.schema)
+        writer.write_table(piece)
+    assert writer is not None
+    writer.close()
+
+
+def _pieces(model, names: list[str], samples: int) -> Iterator[pa.Table]:
+    rng = np.random.default_rng(1)
+    n = len(names)
+    beta = rng.uniform(0.5, 2.0, len(model.spec.base))
+    w = 2.0 * np.pi * rng.uniform(0.05, 0.5, (n, _WAVES))
+    a, phase = rng.uniform(0.1, 0.5, (n, _WAVES)), rng.uniform(0.0, 6.28, (n, _WAVES))
+    for first in range(0, samples, _PIECE):
+        t = np.arange(first, min(first + _PIECE, samples)) * _STEP
+        angle = t[:, None, None] * w + phase
+        q, qd = (a * np.sin(angle)).sum(2), (a * w * np.cos(angle)).sum(2)
+        qdd = -(a * w * w * np.sin(angle)).sum(2)
+        tau = model.inverse_dynamics(q, qd, qdd, beta) + rng.normal(0.0, _NOISE, q.shape)
+        q = q + rng.normal(0.0, _TREMBLE, q.shape)
+        columns = {"time": t}
+        columns |= {f"q{name}": q[:, j] for j, name in enumerate(names)}
+        columns |= {f"tau{name}": tau[:, j] for j, name in enumerate(names)}
+        yield pa.table(columns)
+
+
+def _measure(quick: bool) -> Mapping[str, float]:
+    found = {}
+    modeler(["derive", ROBOT])  # the compiled model is in the cache from here on
+    with tempfile.TemporaryDirectory() as scratch:
+        log, model = Path(scratch) / "log.parquet", str(Path(scratch) / "model.json")
+        for name, (samples, *_) in LENGTHS.items():
+            write_log(log, samples // _QUICK if quick else samples)
+            words = ["fit", ROBOT, str(log), "--out", model]
+            if name == "1e6":
+                modeler(words)
+            used = modeler(words)
+            found[f"fit_seconds.{name}"] = used.wall
+            found[f"fit_cpu_seconds.{name}"] = used.cpu
+            found[f"fit_peak_mb.{name}"] = used.peak
+            log.unlink()
+    return found | {"fit_seconds_per_1e6": found["fit_seconds.1e6"]}
+
+
+def _keys() -> tuple[Key, ...]:
+    keys = [Key("fit_seconds_per_1e6", "s", "As fit_seconds.1e6.", 2.5, 1.5)]
+    for name, (_, must, aim, most, least) in LENGTHS.items():
+        what = f"`modeler fit {ROBOT}` of {name} samples of 6 joints (Parquet), the whole process"
+        keys += [
+            Key(f"fit_seconds.{name}", "s", f"{what}.", must, aim),
+            Key(f"fit_cpu_seconds.{name}", "s", f"{what}: processor time of all threads."),
+            Key(f"fit_peak_mb.{name}", "MB", f"{what}: largest resident memory.", most, least),
+        ]
+    return tuple(keys)
+
+
+def _unfiltered(quick: bool) -> Mapping[str, float]:
+    with tempfile.TemporaryDirectory() as scratch:
+        log, model = Path(scratch) / "log.parquet", str(Path(scratch) / "model.json")
+        write_log(log, 300_000 // (_QUICK if quick else 1))
+        used = modeler(["fit", ROBOT, str(log), "--out", model, "--parallel-cutoff", "0",
+                        "--decimate", "1"])  # fmt: skip
+    return {"unfiltered_fit_cpu_seconds": used.cpu, "unfiltered_fit_peak_mb": used.peak}
+
+
+LINES = (
+    Line(_keys(), _measure, 60),
+    Line(
+        (
+            Key("unfiltered_fit_cpu_seconds", "s",
+                "`modeler fit` of 3e5 samples of 6 joints, every sample a row: processor time."),
+            Key("unfiltered_fit_peak_mb", "MB", "The same: largest resident memory."),
+        ),
+        _unfiltered,
+        30,
+    ),
+)  # fmt: skip

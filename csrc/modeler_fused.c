@@ -1,0 +1,513 @@
+/* Least squares on the fly; see modeler_fused.h. */
+#include "modeler_fused.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Columns of a tile are this far apart: 2 KB would put them all on the same lines of a cache. */
+#define STRIDE (MODELER_FUSED_ROWS + 8)
+
+/* A column this small beside an R this small is left: b would not be exact to rounding. */
+#define SMALLEST_SQUARE 1e-250
+
+/* Largest times this, squared, overflows. */
+#define OVERFLOWS (1.4e154 / MODELER_FUSED_LARGEST)
+
+#if defined(__clang__)
+#define MODELER_SHUFFLES 1
+#elif defined(__GNUC__)
+#define MODELER_SHUFFLES (__GNUC__ >= 12)
+#endif
+
+#if defined(__GNUC__) && defined(__x86_64__)
+#define DISPATCHED 1
+#define OWN(name) name##_avx512
+#define TARGET __attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma")))
+#define LANES 8
+#define COLUMNS 4
+#define KEEP(v) __asm__("" : "+v"(v))
+#include "modeler_fused_body.h"
+#define OWN(name) name##_avx2
+#define TARGET __attribute__((target("avx2,fma")))
+#define LANES 4
+#define COLUMNS 2
+#define KEEP(v) __asm__("" : "+x"(v))
+#include "modeler_fused_body.h"
+#endif
+
+#define OWN(name) name##_baseline
+#define TARGET
+#define LANES 2
+#define COLUMNS 2
+#define KEEP(v) (void)0
+#include "modeler_fused_body.h"
+
+int modeler_fused_level(int wanted)
+{
+    int best = MODELER_BASELINE;
+#ifdef DISPATCHED
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+        best = MODELER_AVX2;
+        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+            __builtin_cpu_supports("avx512dq"))
+            best = MODELER_AVX512;
+    }
+#endif
+    return wanted < best && wanted >= MODELER_BASELINE ? wanted : best;
+}
+
+/* How a joint's part of a state stands while samples pass. */
+typedef struct {
+    int first, entries; /* of the source */
+    size_t p, filled, stride;
+    double *R, *tile;
+} shaft;
+
+static size_t padded(int entries)
+{
+    return ((size_t)entries + 1 + 3) / 4 * 4;
+}
+
+/* Clears what the rows of the tile need to fill vectors; how many rows that makes. */
+static size_t completed(const shaft *own)
+{
+    const size_t whole = (own->filled + 15) / 16 * 16, entries = (size_t)own->entries;
+    for (size_t k = 0; k <= entries && whole > own->filled; k++)
+        memset(own->tile + k * own->stride + own->filled, 0,
+               (whole - own->filled) * sizeof(double));
+    return whole;
+}
+
+/* R of [R; tile]; the tile is empty then. */
+static void absorb(int level, shaft *own)
+{
+    const size_t whole = completed(own);
+    if (whole == 0)
+        return;
+    own->filled = 0;
+#ifdef DISPATCHED
+    if (level == MODELER_AVX512) {
+        absorb_avx512(whole, own->stride, own->p, own->R, own->tile);
+        return;
+    }
+    if (level == MODELER_AVX2) {
+        absorb_avx2(whole, own->stride, own->p, own->R, own->tile);
+        return;
+    }
+#endif
+    (void)level;
+    absorb_baseline(whole, own->stride, own->p, own->R, own->tile);
+}
+
+/* Adds the products of the rows of the tile with those `lag` earlier. */
+static void multiply(int level, const shaft *own, size_t whole, size_t lag, double *out)
+{
+#ifdef DISPATCHED
+    if (level == MODELER_AVX512) {
+        products_of_avx512(whole, own->stride, own->p, own->tile - lag, own->tile, out);
+        return;
+    }
+    if (level == MODELER_AVX2) {
+        products_of_avx2(whole, own->stride, own->p, own->tile - lag, own->tile, out);
+        return;
+    }
+#endif
+    (void)level;
+    products_of_baseline(whole, own->stride, own->p, own->tile - lag, own->tile, out);
+}
+
+/* 0 or NaN for each lane: NaN if a value of it is not finite or too large to be squared. */
+static void spoilt(int level, int entries, const double *values, double lanes[MODELER_LANES])
+{
+#ifdef DISPATCHED
+    if (level == MODELER_AVX512) {
+        spoilt_avx512(entries, values, lanes);
+        return;
+    }
+    if (level == MODELER_AVX2) {
+        spoilt_avx2(entries, values, lanes);
+        return;
+    }
+#endif
+    (void)level;
+    spoilt_baseline(entries, values, lanes);
+}
+
+int modeler_fused_size(const modeler_source *source, int joint)
+{
+    int entries = 0;
+    for (int k = 0; k < source->nonzeros; k++)
+        entries += source->row[k] == joint;
+    return (int)padded(entries);
+}
+
+size_t modeler_fused_state(const modeler_source *source)
+{
+    size_t doubles = 0;
+    for (int j = 0; j < source->joints; j++) {
+        const size_t p = (size_t)modeler_fused_size(source, j);
+        doubles += p * p;
+    }
+    return doubles;
+}
+
+/* Lanes of one group of samples. */
+typedef struct {
+    double *values;           /* (nonzeros, lanes) */
+    double *q, *qd, *qdd, *s; /* (lanes, joints), (lanes, signals): of the last group */
+    double *torque;           /* (joints, lanes) */
+    double *one;              /* (nonzeros,) of one sample */
+    unsigned char *use;       /* (joints, lanes) */
+    shaft *shafts;
+} group;
+
+static size_t group_doubles(const modeler_source *source)
+{
+    const size_t n = (size_t)source->joints, m = (size_t)source->signals;
+    return MODELER_LANES * ((size_t)source->nonzeros + 4 * n + m) + (size_t)source->nonzeros;
+}
+
+static size_t tile_doubles(const modeler_source *source, size_t stride)
+{
+    size_t columns = 0;
+    for (int j = 0; j < source->joints; j++)
+        columns += (size_t)modeler_fused_size(source, j);
+    return columns * stride;
+}
+
+static size_t work_of(const modeler_source *source, size_t stride)
+{
+    const size_t doubles = group_doubles(source) + tile_doubles(source, stride);
+    return 64 + doubles * sizeof(double) + (size_t)source->joints * (sizeof(shaft) + MODELER_LANES);
+}
+
+size_t modeler_fused_work(const modeler_source *source)
+{
+    return work_of(source, STRIDE);
+}
+
+size_t modeler_fused_products_work(const modeler_source *source)
+{
+    return work_of(source, STRIDE + MODELER_FUSED_PAST);
+}
+
+static void *aligned(void *work)
+{
+    return (void *)(((uintptr_t)work + 63) / 64 * 64);
+}
+
+/* Divides the work memory, and a state among the joints where there is one. Tiles begin with zeros
+ * and, before the rows, with `past` rows of zeros. */
+static group divided(const modeler_source *source, size_t past, double *state, void *work)
+{
+    const size_t stride = STRIDE + past;
+    const size_t n = (size_t)source->joints, m = (size_t)source->signals;
+    group own;
+    double *tile = aligned(work);
+    own.values = tile + tile_doubles(source, stride);
+    memset(tile, 0, tile_doubles(source, stride) * sizeof *tile);
+    own.torque = own.values + MODELER_LANES * (size_t)source->nonzeros;
+    own.q = own.torque + MODELER_LANES * n;
+    own.qd = own.q + MODELER_LANES * n;
+    own.qdd = own.qd + MODELER_LANES * n;
+    own.s = own.qdd + MODELER_LANES * n;
+    own.one = own.s + MODELER_LANES * m;
+    own.shafts = (shaft *)(void *)(own.one + source->nonzeros);
+    own.use = (unsigned char *)(own.shafts + n);
+    int entry = 0;
+    for (int j = 0; j < source->joints; j++) {
+        shaft *joint = own.shafts + j;
+        joint->first = entry;
+        while (entry < source->nonzeros && source->row[entry] == j)
+            entry++;
+        joint->entries = entry - joint->first;
+        joint->p = padded(joint->entries);
+        joint->filled = 0;
+        joint->stride = stride;
+        joint->tile = tile + past;
+        joint->R = state;
+        if (state != NULL)
+            state += joint->p * joint->p;
+        tile += joint->p * stride;
+    }
+    return own;
+}
+
+/* Rows of `width` values from sample `first` on; the last group repeats its last sample. */
+static const double *lanes_of(const double *rows, size_t width, size_t first, size_t count,
+                              double *copy)
+{
+    if (count == MODELER_LANES || rows == NULL)
+        return rows == NULL ? NULL : rows + first * width;
+    for (size_t lane = 0; lane < MODELER_LANES; lane++) {
+        const size_t sample = first + (lane < count ? lane : count - 1);
+        memcpy(copy + lane * width, rows + sample * width, width * sizeof *copy);
+    }
+    return copy;
+}
+
+static void evaluate(const modeler_source *source, const modeler_samples *given, size_t first,
+                     size_t count, const group *own)
+{
+    const size_t n = (size_t)source->joints, m = (size_t)source->signals;
+    const size_t entries = (size_t)source->nonzeros;
+    const double *q = lanes_of(given->q, n, first, count, own->q);
+    const double *qd = lanes_of(given->qd, n, first, count, own->qd);
+    const double *qdd = lanes_of(given->qdd, n, first, count, own->qdd);
+    const double *s = lanes_of(given->s, m, first, count, own->s);
+    if (source->tile != NULL) {
+        source->tile(q, qd, qdd, s, own->values);
+        return;
+    }
+    /* One sample after the other. */
+    double *one = own->one;
+    for (size_t lane = 0; lane < MODELER_LANES; lane++) {
+        if (source->entries_signals != NULL)
+            source->entries_signals(q + lane * n, qd + lane * n, qdd + lane * n, s + lane * m, one);
+        else
+            source->entries(q + lane * n, qd + lane * n, qdd + lane * n, one);
+        for (size_t k = 0; k < entries; k++)
+            own->values[k * MODELER_LANES + lane] = one[k];
+    }
+}
+
+/* Torques, weights and masks of a group, lane by lane; weights multiply the entries. */
+static void measure(const modeler_source *source, const modeler_samples *given, size_t first,
+                    size_t count, const group *own)
+{
+    const size_t n = (size_t)source->joints;
+    for (size_t j = 0; j < n; j++)
+        for (size_t lane = 0; lane < MODELER_LANES; lane++) {
+            const size_t at = (first + (lane < count ? lane : count - 1)) * n + j;
+            const int used = lane < count && (given->use == NULL || given->use[at]);
+            own->use[j * MODELER_LANES + lane] = (unsigned char)used;
+            own->torque[j * MODELER_LANES + lane] = given->tau[at];
+        }
+    if (given->weight == NULL)
+        return;
+    for (size_t j = 0; j < n; j++) {
+        const shaft *joint = own->shafts + j;
+        double *values = own->values + MODELER_LANES * (size_t)joint->first;
+        double weight[MODELER_LANES];
+        for (size_t lane = 0; lane < MODELER_LANES; lane++) {
+            weight[lane] = given->weight[(first + (lane < count ? lane : count - 1)) * n + j];
+            own->torque[j * MODELER_LANES + lane] *= weight[lane];
+        }
+        for (int k = 0; k < joint->entries; k++, values += MODELER_LANES)
+            for (size_t lane = 0; lane < MODELER_LANES; lane++)
+                values[lane] *= weight[lane];
+    }
+}
+
+/* Leaves out samples with a used row that is not finite; marks them in bad, returns how many. */
+static size_t leave_out(const modeler_source *source, size_t count, int level, const group *own,
+                        unsigned char bad[MODELER_LANES])
+{
+    const size_t n = (size_t)source->joints;
+    double lanes[MODELER_LANES];
+    size_t left = 0;
+    memset(bad, 0, MODELER_LANES);
+    for (size_t j = 0; j < n; j++) {
+        const shaft *joint = own->shafts + j;
+        const unsigned char *use = own->use + j * MODELER_LANES;
+        memcpy(lanes, own->torque + j * MODELER_LANES, sizeof lanes);
+        spoilt(level, joint->entries, own->values + MODELER_LANES * (size_t)joint->first, lanes);
+        for (size_t lane = 0; lane < MODELER_LANES; lane++)
+            bad[lane] |= (unsigned char)(use[lane] && !(lanes[lane] == 0.0));
+    }
+    for (size_t lane = 0; lane < count; lane++)
+        left += bad[lane];
+    for (size_t k = 0; left > 0 && k < n * MODELER_LANES; k++)
+        own->use[k] = (unsigned char)(own->use[k] && !bad[k % MODELER_LANES]);
+    return left;
+}
+
+/* Puts the rows in use behind those that wait in the tile; reduces them where it is full. */
+static size_t append(shaft *joint, const double *values, const double *torque,
+                     const unsigned char *use, int level)
+{
+    const size_t entries = (size_t)joint->entries;
+    size_t used = 0;
+    for (size_t lane = 0; lane < MODELER_LANES; lane++)
+        used += use[lane];
+    if (joint->filled + MODELER_LANES > MODELER_FUSED_ROWS)
+        absorb(level, joint);
+    if (used == MODELER_LANES) {
+        double *place = joint->tile + joint->filled;
+        for (size_t k = 0; k < entries; k++)
+            memcpy(place + k * joint->stride, values + k * MODELER_LANES, MODELER_LANES * sizeof *place);
+        memcpy(place + entries * joint->stride, torque, MODELER_LANES * sizeof *place);
+        joint->filled += MODELER_LANES;
+        return used;
+    }
+    for (size_t lane = 0; lane < MODELER_LANES && used > 0; lane++) {
+        if (!use[lane])
+            continue;
+        double *place = joint->tile + joint->filled++;
+        for (size_t k = 0; k < entries; k++)
+            place[k * joint->stride] = values[k * MODELER_LANES + lane];
+        place[entries * joint->stride] = torque[lane];
+    }
+    return used;
+}
+
+size_t modeler_fused_triangles(const modeler_source *source, size_t samples,
+                               const modeler_samples *given, int level, double *state,
+                               size_t *rows, unsigned char *bad, void *work)
+{
+    const group own = divided(source, 0, state, work);
+    unsigned char left[MODELER_LANES];
+    size_t left_out = 0;
+    level = modeler_fused_level(level);
+    for (size_t first = 0; first < samples; first += MODELER_LANES) {
+        const size_t more = samples - first, count = more < MODELER_LANES ? more : MODELER_LANES;
+        evaluate(source, given, first, count, &own);
+        measure(source, given, first, count, &own);
+        left_out += leave_out(source, count, level, &own, left);
+        if (bad != NULL)
+            memcpy(bad + first, left, count);
+        for (int j = 0; j < source->joints; j++) {
+            shaft *joint = own.shafts + j;
+            const size_t at = MODELER_LANES * (size_t)j;
+            rows[j] += append(joint, own.values + MODELER_LANES * (size_t)joint->first,
+                              own.torque + at, own.use + at, level);
+        }
+    }
+    for (int j = 0; j < source->joints; j++)
+        absorb(level, own.shafts + j);
+    return left_out;
+}
+
+/* Puts all rows behind those in the tile, those out of use as zeros. */
+static void append_all(shaft *joint, const double *values, const double *torque,
+                       const unsigned char *use)
+{
+    double *place = joint->tile + joint->filled;
+    size_t used = 0;
+    for (size_t lane = 0; lane < MODELER_LANES; lane++)
+        used += use[lane];
+    for (int k = 0; k <= joint->entries; k++, place += joint->stride) {
+        const double *from = k < joint->entries ? values + k * MODELER_LANES : torque;
+        memcpy(place, from, MODELER_LANES * sizeof *place);
+        for (size_t lane = 0; lane < MODELER_LANES && used < MODELER_LANES; lane++)
+            place[lane] = use[lane] ? place[lane] : 0.0;
+    }
+    joint->filled += MODELER_LANES;
+}
+
+/* The last rows of the tile stand before the next ones. */
+static void step_on(shaft *joint)
+{
+    for (size_t k = 0; k < joint->p; k++) {
+        double *rows = joint->tile + k * joint->stride;
+        memmove(rows - MODELER_FUSED_PAST, rows + joint->filled - MODELER_FUSED_PAST,
+                MODELER_FUSED_PAST * sizeof *rows);
+    }
+    joint->filled = 0;
+}
+
+/* Adds the products of all joints and lags, and empties the tiles. */
+static void multiply_all(const modeler_source *source, const group *own, int level, int first,
+                         const int *last, double *out)
+{
+    for (int j = 0; j < source->joints; j++) {
+        shaft *joint = own->shafts + j;
+        const size_t whole = completed(joint);
+        for (int lag = first; lag <= last[j]; lag++, out += joint->p * joint->p)
+            multiply(level, joint, whole, (size_t)lag, out);
+        step_on(joint);
+    }
+}
+
+size_t modeler_fused_products(const modeler_source *source, size_t samples, size_t past,
+                              const modeler_samples *given, int level, int first, const int *last,
+                              double *out, unsigned char *bad, void *work)
+{
+    const group own = divided(source, MODELER_FUSED_PAST, NULL, work);
+    unsigned char left[MODELER_LANES];
+    size_t left_out = 0, filled = 0;
+    level = modeler_fused_level(level);
+    for (size_t at = 0; at < samples; at += MODELER_LANES) {
+        const size_t more = samples - at, count = more < MODELER_LANES ? more : MODELER_LANES;
+        if (at == past)
+            for (int j = 0; j < source->joints; j++)
+                step_on(own.shafts + j);
+        evaluate(source, given, at, count, &own);
+        measure(source, given, at, count, &own);
+        const size_t now = leave_out(source, count, level, &own, left);
+        left_out += at < past ? 0 : now;
+        if (bad != NULL)
+            memcpy(bad + at, left, count);
+        for (int j = 0; j < source->joints; j++) {
+            shaft *joint = own.shafts + j;
+            append_all(joint, own.values + MODELER_LANES * (size_t)joint->first,
+                       own.torque + MODELER_LANES * (size_t)j, own.use + MODELER_LANES * (size_t)j);
+            filled = joint->filled;
+        }
+        if (filled == MODELER_FUSED_ROWS)
+            multiply_all(source, &own, level, first, last, out);
+    }
+    multiply_all(source, &own, level, first, last, out);
+    return left_out;
+}
+
+void modeler_fused_merge(const modeler_source *source, int level, double *state,
+                         const double *other, void *work)
+{
+    const group own = divided(source, 0, state, work);
+    level = modeler_fused_level(level);
+    for (int j = 0; j < source->joints; j++) {
+        shaft *joint = own.shafts + j;
+        for (size_t i = 0; i < joint->p; i++, other += joint->p) {
+            if (joint->filled == MODELER_FUSED_ROWS)
+                absorb(level, joint);
+            for (size_t k = 0; k < joint->p; k++)
+                joint->tile[k * joint->stride + joint->filled] = other[k];
+            joint->filled++;
+        }
+        absorb(level, joint);
+    }
+}
+
+int modeler_rows_size(int columns)
+{
+    return (int)padded(columns);
+}
+
+size_t modeler_rows_work(int columns)
+{
+    return 64 + padded(columns) * STRIDE * sizeof(double);
+}
+
+size_t modeler_rows_triangle(const modeler_rows *given, int level, double *triangle, size_t *added,
+                             void *work)
+{
+    const size_t p = padded(given->columns);
+    shaft own = {0, given->columns, p, 0, STRIDE, triangle, aligned(work)};
+    const size_t columns = (size_t)given->columns;
+    size_t left_out = 0;
+    level = modeler_fused_level(level);
+    memset(own.tile, 0, p * STRIDE * sizeof *own.tile);
+    for (size_t i = 0; i < given->rows; i++) {
+        if (given->use != NULL && !given->use[i * given->use_step])
+            continue;
+        const double *row = given->W + i * given->step;
+        double *place = own.tile + own.filled, good = 0.0;
+        for (size_t k = 0; k <= columns; k++) {
+            const double value = k < columns ? row[given->column[k]] : given->y[i * given->y_step];
+            const double scaled = value * OVERFLOWS;
+            good += scaled * scaled * 0.0;
+            place[k * STRIDE] = value;
+        }
+        if (!(good == 0.0)) {
+            left_out++;
+            continue;
+        }
+        ++*added;
+        if (++own.filled == MODELER_FUSED_ROWS)
+            absorb(level, &own);
+    }
+    absorb(level, &own);
+    return left_out;
+}

@@ -1,0 +1,84 @@
+"""`modeler fleet ROBOT LOG...`: one robot kind, many machines and days."""
+
+import argparse
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from modeler.api import compile_model, derive, generate
+from modeler.api.fleets import file_and_at, reduce_logs
+from modeler.cli.console import Json, progress, say, working
+from modeler.cli.places import log_endings
+from modeler.cli.robots import robot_of
+from modeler.core.errors import DataError
+from modeler.fleet import Named, fleet_of, named_logs
+from modeler.fleet.naming import listed_logs
+from modeler.fleet.text import fleet_lines
+from modeler.jobs import open_workers
+from modeler.observation import Processing
+from modeler.pages.fleet import write_fleet
+
+_MANY = 32  # logs from which several processes are worth their start
+
+
+def run_fleet(args: argparse.Namespace) -> Json:
+    """Prints what drifts; writes the page."""
+    processes = _processes(args.workers)
+    named = _named(args)
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        emitted = generate(derive(robot))
+        compiled = compile_model(emitted)
+    processing = Processing(
+        position_cutoff=args.cutoff, parallel_cutoff=args.parallel_cutoff
+    )  # fmt: skip
+    count = processes or (1 if len(named) < _MANY else os.cpu_count() or 1)
+    with (
+        progress(f"reading {len(named)} logs") as bar,
+        open_workers(args.dask, min(count, len(named))) as workers,
+    ):
+        given = reduce_logs(compiled, emitted, named, workers, processing, args.map, bar)
+    with working("comparing machines and days"):
+        found = fleet_of(emitted.spec, given)
+    for line in fleet_lines(found):
+        say(line)
+    if args.report is not None:
+        with working("drawing the page"):
+            place = write_fleet(Path(args.report), found)
+        say(f"written: {place}")
+    return found.as_dict()
+
+
+def _processes(given: int | None) -> int | None:
+    if given is not None and given < 1:
+        raise DataError(f"--workers: got {given}; expected 1 or more")
+    return given
+
+
+def _named(args: argparse.Namespace) -> tuple[Named, ...]:
+    """The logs with their machines and periods."""
+    if args.list is not None:
+        if args.logs or args.name:
+            raise DataError(
+                f"--list {args.list}: got {args.logs[0] if args.logs else '--name'} besides; "
+                "expected all logs in the list, or none"
+            )
+        return listed_logs(Path(args.list))
+    if not args.logs:
+        raise DataError("fleet: got no logs; name files or folders of logs, or a --list of them")
+    return named_logs([file_and_at(place) for place in _files(args.logs)], args.name)
+
+
+def _files(places: Sequence[str]) -> list[str]:
+    """Logs as they are; of a folder, all in it and in its folders."""
+    found = []
+    for place in places:
+        folder = Path(place)
+        if not folder.is_dir() or (folder / "metadata.yaml").is_file():  # a ROS 2 bag is a log
+            found.append(place)
+            continue
+        inside = [str(p) for p in sorted(folder.rglob("*")) if p.suffix.lower() in log_endings()]
+        if not inside:
+            raise DataError(f"{place}: a folder without logs; expected {', '.join(log_endings())}")
+        found += inside
+    return found

@@ -1,0 +1,71 @@
+"""`modeler fit` of logs that are too long to be in memory at once."""
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from modeler.api.long_logs import are_long, check_whole, fit_long, sources_of, too_long
+from modeler.api.spread import by_workers
+from modeler.cli.console import note, progress
+from modeler.compiled import CompiledModel
+from modeler.core.contract import Emitted
+from modeler.core.errors import DataError
+from modeler.derivation import Derivation
+from modeler.fit import IdentifiedModel
+from modeler.fit.long import OF_TRIANGLES
+from modeler.fit.streamed import Reducer, WholeNeeded
+from modeler.jobs import open_workers
+from modeler.observation import Observation, Processing
+
+
+def fit_if_long(
+    args: argparse.Namespace,
+    derivation: Derivation,
+    emitted: Emitted,
+    compiled: CompiledModel,
+    processing: Processing,
+) -> tuple[IdentifiedModel, Observation] | None:
+    """The model of long logs, read in chunks; None where all rows are to be in memory.
+
+    Raises:
+        DataError: they are more rows than a way to fit that needs all of them may have.
+    """
+    places = [*args.logs, *args.payload_log]
+    if args.dask is None and not are_long(places):
+        return None
+    if args.method not in OF_TRIANGLES or args.model == "energy" or args.payload_log:
+        _check_no_dask(args)
+        check_whole(places, args.method)
+        return None
+    try:
+        with progress("reading and reducing") as bar, _reducer(args, emitted) as reducer:
+            sources = sources_of(compiled, args.logs, args.map)
+            model, streamed = fit_long(
+                derivation, emitted, compiled, sources, args.method, processing, bar, reducer
+            )
+    except WholeNeeded as error:
+        if too_long(places):
+            raise
+        note(f"{error}; read as a whole instead")
+        return None
+    return model, streamed.observation
+
+
+@contextmanager
+def _reducer(args: argparse.Namespace, emitted: Emitted) -> Iterator[Reducer | None]:
+    """Workers of a Dask cluster; None: threads of this process."""
+    if args.dask is None:
+        yield None
+        return
+    with open_workers(args.dask) as workers:
+        yield by_workers(workers, emitted)
+
+
+def _check_no_dask(args: argparse.Namespace) -> None:
+    if args.dask is not None:
+        what = "--model energy" if args.model == "energy" else f"--method {args.method}"
+        what = "--payload-log" if args.payload_log else what
+        raise DataError(
+            f"--dask {args.dask}: got {what}, which needs all rows in one memory; expected "
+            f"--method {' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"
+        )

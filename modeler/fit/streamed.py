@@ -1,0 +1,220 @@
+"""The fit of long logs: a look at windows, then every row once, in chunks, in flat memory."""
+
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import reduce
+from os import cpu_count
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError, LoopError
+from modeler.estimate.compressed import Compressed, merged
+from modeler.fit.partial import Partial, merge, reduce_chunk
+from modeler.observation.chunk import chunks
+from modeler.observation.facts import Facts
+from modeler.observation.log import FINGER
+from modeler.observation.observation import Observation
+from modeler.observation.processing import Processing
+from modeler.observation.seen import Chosen
+from modeler.observation.source import Source
+from modeler.observation.streamed_report import Passes, streamed_report
+from modeler.observation.survey import Known, Survey, survey
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+PASSES = 3
+"""Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
+
+Share = Callable[[float], None]
+"""Is told the share of the rows that are done."""
+
+Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Partial]]
+"""The partials of all chunks of a log, in their order."""
+
+
+@dataclass(frozen=True, eq=False)
+class Streamed:
+    """Long logs, ready for a fit.
+
+    Attributes:
+        observation: of the windows, whose report is that of all rows.
+        data: triangles of all rows.
+        share: of the rows of the data that the observation has.
+        samples: after decimation.
+        reading: how many passes, chunks and rows there were, for the result.
+    """
+
+    observation: Observation
+    data: Compressed
+    share: float
+    samples: int
+    reading: Mapping[str, int]
+
+
+def stream(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    processing: Processing | None = None,
+    progress: Share = lambda share: None,
+    rows: int = FINGER,
+    reducer: Reducer | None = None,
+) -> Streamed:
+    """Reads every row of long logs once, in chunks, and keeps what a fit needs.
+
+    Windows spread over the logs choose what must be one choice: cut-offs, speed floors, where
+    velocities come from, what is usual in each channel. Then every chunk is mended, split,
+    filtered and reduced to triangles by itself, with margins as long as the filters remember.
+    Where rows contradict what the windows showed, all are read again with what is known then.
+
+    Args:
+        model: the compiled robot.
+        sources: of the logs.
+        processing: None: automatic.
+        progress: is told the share that is done.
+        rows: of a chunk, at least; a multiple of `log.FINGER` for a log read from a file.
+        reducer: of one log; None: by threads of this process.
+
+    Raises:
+        DataError: a log that is damaged, changes while it is read or lacks a column; rows that no
+            choice of the windows fits; no usable row.
+    """
+    _check_memory(model, sources)
+    known, reducer = Known(), reducer or by_threads
+    for number in range(1, PASSES + 1):
+        found = survey(model, sources, processing or Processing(), known, rows)
+        every = list(_all_logs(model, sources, found, reducer, progress))
+        facts = tuple(partial.facts for partial in every)
+        again = _again(facts, found, known)
+        if again is None or number == PASSES:
+            break
+        known = again
+    passes = Passes(found, facts, number)
+    _check(model, sources, facts)
+    return _streamed(model, sources, passes, [partial.data for partial in every])
+
+
+def by_threads(model: "CompiledModel", source: Source, chosen: Chosen) -> Iterator[Partial]:
+    """The partials of all chunks of a log, in their order, by threads of this process.
+
+    As many chunks are in memory as there are threads, and two.
+    """
+    workers = cpu_count() or 1
+    waiting: deque[Future[Partial]] = deque()
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            for chunk in chunks(source, chosen.own, chosen.beside):
+                waiting.append(pool.submit(reduce_chunk, model, chunk, chosen))
+                if len(waiting) > workers:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:  # an error, or Ctrl-C: what has not begun is not begun
+            for future in waiting:
+                future.cancel()
+
+
+def _all_logs(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    found: Survey,
+    reducer: Reducer,
+    progress: Share,
+) -> Iterator[Partial]:
+    """All chunks of each log in one."""
+    total, done = max(1, sum(source.rows for source in sources)), 0
+    begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
+    for source, partials in zip(sources, begun, strict=True):
+        whole: Partial | None = None
+        for partial in partials:
+            whole = partial if whole is None else merge(whole, partial)
+            rows = whole.facts.tally.count("rows")
+            progress(min(1.0, (done + rows) / total))
+        if whole is None:
+            raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
+        done += whole.facts.tally.count("rows")
+        yield whole
+
+
+def _again(facts: Sequence[Facts], found: Survey, known: Known) -> Known | None:
+    """What another pass is to know; None if this one was given all."""
+    low = found.chosen[0].processing.low_speed
+    floors = {name: low * top for own in facts for name, top in own.awake.items()}
+    wrong = [k for k, own in enumerate(facts) if own.wrongly_clipped()]
+    if not floors and not wrong:
+        return None
+    extremes = {
+        k: tuple(zip(own.ranges.low[1].tolist(), own.ranges.high[1].tolist(), strict=True))
+        for k, own in enumerate(facts)
+    }
+    return Known({**known.floors, **floors}, extremes)
+
+
+def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Facts]) -> None:
+    """Refuse what only a log as a whole shows.
+
+    Raises:
+        DataError: a channel without values, or a position whose count changes for good.
+    """
+    for source, own in zip(sources, facts, strict=True):
+        own.ranges.check(Path(source.name), model.spec)
+        turned = {j: t for j, t in own.first("wrap").items() if not _repeats(model, j)}
+        for kind, found in (("another zero", own.first("zero")), ("another turn", turned)):
+            for j, time in found.items():
+                name, rows = model.spec.joints[j].name, own.tally.count("rows")
+                raise WholeNeeded(
+                    f"{source.name}: q{name} counts from {kind} from {time:.6g} s on; a log of "
+                    f"{rows} rows is read in chunks, which cannot be joined across that; fit its "
+                    f"parts, as in {source.name}@:{time:.6g}"
+                )
+
+
+def _check_memory(model: "CompiledModel", sources: Sequence[Source]) -> None:
+    """Refuse an effect that remembers all motion before."""
+    if any(signal.kind == "slip" for signal in model.spec.signals):
+        raise WholeNeeded(
+            f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
+            "and long logs are read in chunks; fit a part of it, FILE@START:END"
+        )
+
+
+def _repeats(model: "CompiledModel", j: int) -> bool:
+    """True if a turn of a joint changes nothing in the model."""
+    joints, signals = len(model.spec.joints), model.spec.signals
+    q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))
+    read = np.full((1, len(signals)), 0.5) if signals else None
+    try:
+        here = model.base_regressor(q, qd, qdd, read)
+        there = model.base_regressor(q + 2.0 * np.pi * np.eye(joints)[j], qd, qdd, read)
+    except LoopError:
+        return True
+    return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))
+
+
+class WholeNeeded(DataError):
+    """Only a log that is in memory as a whole can be fitted."""
+
+
+def _streamed(
+    model: "CompiledModel", sources: Sequence[Source], passes: Passes, every: Sequence[Compressed]
+) -> Streamed:
+    data, seen = reduce(merged, every), passes.found.observation
+    if not data.rows.any():
+        report = streamed_report(model, sources, passes)
+        raise DataError(
+            f"{', '.join(source.name for source in sources)}: no usable row is left: "
+            + "; ".join(joint.line() for joint in report.joints)
+            + "; check these columns, or record longer and faster motion of every joint"
+        )
+    return Streamed(
+        observation=dataclasses.replace(seen, report=streamed_report(model, sources, passes)),
+        data=data,
+        share=min(1.0, float(seen.used.sum() / data.rows.sum())),
+        samples=sum(facts.tally.count("samples") for facts in passes.facts),
+        reading=passes.to_json(),
+    )

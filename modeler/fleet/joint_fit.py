@@ -1,0 +1,210 @@
+"""One fit of a whole fleet: inertial parameters in common, friction, offset and gains by log.
+
+Log k, joint j:  y_kj = W_j (theta + D phi_k) + gamma_kj W_j theta,  theta common to all logs.
+
+phi_k are friction and offset in the log's own units of torque, gamma_kj the part by which its
+torques exceed those of the fleet. theta comes from all logs with phi_k eliminated, by QR of
+triangles; then each log is linear in phi_k and gamma_k. Torques of logs whose gain stands out are
+scaled back, and theta is found again.
+"""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.estimate.compressed import triangle
+from modeler.estimate.least_squares import least_squares, solve_by_qr
+from modeler.estimate.rank import independent_columns
+from modeler.fleet.layout import Layout
+from modeler.fleet.summary import LogSummary
+
+_ROUNDS = 3  # of theta and gains
+_STANDS_OUT = 4.0  # sigmas, of a gain that is taken out of theta
+
+
+@dataclass(frozen=True, eq=False)
+class LogFit:
+    """What a log deviates by; d unknowns, of which those that it cannot tell are NaN.
+
+    Attributes:
+        values: (d,) friction and offset in SI units, then gains as a share (0.05: 5 % more torque)
+            or the load, mass in kg first.
+        sigmas: (d,) their standard deviations, with what the residuals remember.
+        misfit: sum over the joints of ||r_j||^2 / sigma_j^2, sigma of the log's own fit, and over
+            the unknowns of what each takes off it by chance.
+    """
+
+    values: np.ndarray
+    sigmas: np.ndarray
+    misfit: float
+
+
+@dataclass(frozen=True, eq=False)
+class JointFit:
+    """The fit of the fleet.
+
+    Attributes:
+        theta: (c,) common parameters; 0 where a base parameter may drift.
+        aside: names of common parameters that the logs cannot tell; 0.
+        logs: with friction, offset and gains.
+        loaded: with friction, offset and a load in place of gains; empty if none can be told.
+    """
+
+    theta: np.ndarray
+    aside: tuple[str, ...]
+    logs: tuple[LogFit, ...]
+    loaded: tuple[LogFit, ...]
+
+
+def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> JointFit:
+    """The fit of all logs together.
+
+    Raises:
+        DataError: the logs tell no common parameter, or nothing that may drift.
+    """
+    if not layout.drifting:
+        raise DataError(
+            "the robot file has no friction and no offset, and no torque that a gain could scale: "
+            "nothing can drift; name viscous, coulomb and offset under [effects], or --effects"
+        )
+    sigmas = [least_squares(each.data).sigma for each in summaries]
+    scale = np.ones((len(summaries), len(summaries[0].data.rows)))
+    aside: tuple[str, ...] = ()
+    theta = np.zeros(len(layout.common))
+    logs: tuple[LogFit, ...] = ()
+    for _ in range(_ROUNDS):
+        theta, aside = _common(layout, summaries, sigmas, scale)
+        blocks = _gain_blocks(layout, theta, scale.shape[1])
+        logs = tuple(
+            _log_fit(layout, each, own, theta, blocks)
+            for each, own in zip(summaries, sigmas, strict=True)
+        )
+        updated = _scales(layout, logs, scale.shape)
+        if np.allclose(updated, scale, rtol=0.0, atol=1e-6):
+            break
+        scale = updated
+    loaded = _loaded(layout, summaries, sigmas, theta)
+    return JointFit(theta, aside, logs, loaded)
+
+
+def _common(
+    layout: Layout,
+    summaries: Sequence[LogSummary],
+    sigmas: Sequence[np.ndarray],
+    scale: np.ndarray,
+) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Theta (c,) of all logs with their friction and offsets eliminated, and what is set aside."""
+    if not layout.common.any():
+        return np.zeros(len(layout.common)), ()
+    width, common = len(layout.common), np.flatnonzero(layout.common)
+    order = [*layout.columns, *common, width]
+    whole = np.zeros((0, len(common) + 1))
+    for each, sigma, own in zip(summaries, sigmas, scale, strict=True):
+        data = dataclasses.replace(each.data, triangles=each.data.triangles.copy())
+        data.triangles[:, :, -1] /= own[:, None]
+        below = triangle(data.whole(sigma)[:, order])[len(layout.columns) :]
+        whole = triangle(np.vstack([whole, below[:, len(layout.columns) :]]))
+    names = [summaries[0].data.names[i] for i in common]
+    rank = independent_columns(whole[:, :-1], names)
+    kept = list(rank.kept)
+    theta = np.zeros(width)
+    if kept:
+        theta[common[kept]] = solve_by_qr(whole[:, kept], whole[:, -1])[0]
+    return theta, tuple(tangle.name for tangle in rank.aside)
+
+
+Blocks = Sequence[np.ndarray]
+"""(c, d) for each joint: what of its columns each of the d unknowns is."""
+
+
+def _gain_blocks(layout: Layout, theta: np.ndarray, joints: int) -> Blocks:
+    """Friction, offset and gains."""
+    own, nothing = _units(layout), np.zeros(len(theta))
+    return [
+        np.column_stack([own, *(theta if place == j else nothing for place in layout.gains)])
+        for j in range(joints)
+    ]
+
+
+def _units(layout: Layout) -> np.ndarray:
+    return np.eye(len(layout.common))[:, layout.columns]
+
+
+def _log_fit(
+    layout: Layout,
+    each: LogSummary,
+    sigma: np.ndarray,
+    theta: np.ndarray,
+    blocks: Blocks,
+) -> LogFit:
+    """Least squares of one log beside theta."""
+    own = sigma
+    for _ in range(2):  # weights from the residuals of this very fit
+        kept, values, root, left = _solved(each, own, theta, blocks)
+        spread = left / np.sqrt(np.maximum(each.data.rows - 1, 1))
+        own = np.maximum(spread, sigma)
+    bread = root @ root.T
+    middle = np.zeros_like(bread)
+    for j, block in enumerate(blocks):
+        z = block[:, kept]
+        middle += z.T @ each.repeats[j] @ z / own[j] ** 2
+    white = np.diag(bread)
+    ratio = np.maximum(1.0 + np.diag(bread @ middle @ bread) / white, 1.0)
+    found, sigmas = (np.full(blocks[0].shape[1], np.nan) for _ in range(2))
+    found[kept], sigmas[kept] = values, np.sqrt(white * ratio)
+    return LogFit(found, sigmas, float(np.sum((left / sigma) ** 2) + ratio.sum()))
+
+
+def _solved(
+    each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
+) -> tuple[list[int], np.ndarray, np.ndarray, np.ndarray]:
+    """Columns that can be told, their values, a root of (Z^T Z)^-1, and (n,) ||r_j||."""
+    parts = []
+    for j, R in enumerate(each.data.triangles):
+        parts.append(np.column_stack([R[:, :-1] @ blocks[j], R[:, -1] - R[:, :-1] @ theta]))
+    weighted = [part / s for part, s in zip(parts, sigma, strict=True)]
+    whole = triangle(np.vstack(weighted))
+    names = [str(i) for i in range(whole.shape[1] - 1)]
+    kept = list(independent_columns(whole[:, :-1], names).kept)
+    if not kept:
+        left = np.array([np.linalg.norm(part[:, -1]) for part in parts])
+        return kept, np.zeros(0), np.zeros((0, 0)), left
+    values, root = solve_by_qr(whole[:, kept], whole[:, -1])
+    left = np.array([np.linalg.norm(p[:, -1] - p[:, kept] @ values) for p in parts])
+    return kept, values, root, left
+
+
+def _scales(layout: Layout, logs: Sequence[LogFit], shape: tuple[int, int]) -> np.ndarray:
+    """(logs, n) 1 + gain, of gains that stand out from the fleet."""
+    scale = np.ones(shape)
+    first = len(layout.columns)
+    gain = np.array([log.values[first:] for log in logs])
+    sigma = np.array([log.sigmas[first:] for log in logs])
+    for i, place in enumerate(layout.gains):
+        seen = np.isfinite(gain[:, i])
+        if not seen.any():
+            continue
+        apart = gain[:, i] - np.median(gain[seen, i])
+        out = seen & (np.abs(apart) > _STANDS_OUT * sigma[:, i])
+        scale[out, place] = np.maximum(1.0 + apart[out], 0.1)
+    return scale
+
+
+def _loaded(
+    layout: Layout,
+    summaries: Sequence[LogSummary],
+    sigmas: Sequence[np.ndarray],
+    theta: np.ndarray,
+) -> tuple[LogFit, ...]:
+    """Every log with a load in place of gains."""
+    if not layout.load.shape[1]:
+        return ()
+    block = np.column_stack([_units(layout), layout.load])
+    blocks = [block] * len(summaries[0].data.rows)
+    return tuple(
+        _log_fit(layout, each, own, theta, blocks)
+        for each, own in zip(summaries, sigmas, strict=True)
+    )

@@ -1,0 +1,166 @@
+"""Which machine and which period a log is of: by its folder, by a pattern, or by a list."""
+
+import csv
+import itertools
+import re
+import tomllib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeler.core.errors import DataError
+
+PATTERN = "{machine}/{period}.*"
+"""How logs are named where nobody says it: the folder is the machine, the file the period."""
+
+_FIELD = re.compile(r"(\{[^{}]*\}|\*)")
+_COLUMNS = ("machine", "period", "log")
+
+
+@dataclass(frozen=True)
+class Named:
+    """A log with its names.
+
+    Attributes:
+        machine: which of the robots.
+        period: when, as a day or a number; unique within the machine.
+        place: as it was given, FILE or FILE@START:END.
+    """
+
+    machine: str
+    period: str
+    place: str
+
+
+def named_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) -> tuple[Named, ...]:
+    """Logs with machine and period, those of one machine together, periods in natural order.
+
+    A log that the pattern does not fit is an error: a log that is left out unsaid looks like a
+    machine that is well.
+
+    Args:
+        places: (file, window) of each log; window "" or "0:10".
+        pattern: of the end of the path, with {machine} and {period}; `*` is any text without a
+            slash. None: the folder is the machine, the name of the file without ending the period.
+
+    Raises:
+        DataError: no such pattern, a path that it does not fit, or two logs of one machine and
+            period.
+    """
+    found = re.compile(_expression(PATTERN if pattern is None else pattern))
+    named = []
+    for place, window in places:
+        at = f"@{window}" if window else ""
+        path = Path(place)
+        text = (path if path.parent.name else path.absolute()).as_posix()
+        match = found.search(text)
+        if match is None:
+            raise DataError(
+                f"{place}: does not fit --name {pattern or PATTERN}; expected a path that ends so; "
+                "give another pattern, or a --list"
+            )
+        parts = match.groupdict()
+        machine = parts.get("machine") or path.absolute().parent.name
+        named.append(Named(machine, (parts.get("period") or path.stem) + at, place + at))
+    return in_order(named)
+
+
+def in_order(named: Iterable[Named]) -> tuple[Named, ...]:
+    """Machine after machine, period after period; numbers within names count as numbers.
+
+    Raises:
+        DataError: two logs of one machine and period.
+    """
+    ordered = sorted(named, key=lambda log: (natural(log.machine), natural(log.period)))
+    for one, other in itertools.pairwise(ordered):
+        if (one.machine, one.period) == (other.machine, other.period):
+            raise DataError(
+                f"{other.place}: machine {one.machine}, period {one.period}, which {one.place} is "
+                "too; expected one log each; rename one, or name the periods apart with --name or "
+                "--list"
+            )
+    return tuple(ordered)
+
+
+def natural(text: str) -> list[tuple[int, int, str]]:
+    """A key that sorts day2 before day10."""
+    return [
+        (0, int(part), part) if part.isdecimal() else (1, 0, part)
+        for part in re.split(r"(\d+)", text)
+        if part
+    ]
+
+
+def _expression(pattern: str) -> str:
+    """The regular expression of a pattern, for the end of a path."""
+    parts, seen = [], set()
+    for piece in _FIELD.split(pattern):
+        if piece in ("{machine}", "{period}") and piece not in seen:
+            seen.add(piece)
+            parts.append(f"(?P<{piece[1:-1]}>[^/]+)")
+        elif piece == "*":
+            parts.append("[^/]*")
+        elif "{" in piece or "}" in piece:
+            what = "twice" if piece in seen else "which says nothing"
+            raise DataError(
+                f"--name {pattern}: got {piece}, {what}; expected {{machine}} and {{period}}, each "
+                f"once at most, as in {PATTERN}"
+            )
+        else:
+            parts.append(re.escape(piece))
+    if not seen:
+        raise DataError(
+            f"--name {pattern}: neither {{machine}} nor {{period}} stands in it; expected a "
+            f"pattern such as {PATTERN}"
+        )
+    return f"(?:^|/){''.join(parts)}$" if not pattern.startswith("/") else f"^{''.join(parts)}$"
+
+
+def listed_logs(path: Path) -> tuple[Named, ...]:
+    """Logs of a list: CSV with the columns machine, period, log; or TOML with [[log]] tables.
+
+    Places are relative to the folder of the list.
+
+    Raises:
+        DataError: it cannot be read, or an entry is missing; says where.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise DataError(
+            f"{path}: cannot be read ({error.strerror}); expected a list of logs"
+        ) from None
+    except UnicodeDecodeError:
+        raise DataError(f"{path}: no text; expected a list of logs, .csv or .toml") from None
+    rows = _toml_rows(path, text) if path.suffix.lower() == ".toml" else _csv_rows(path, text)
+    if not rows:
+        raise DataError(f"{path}: no logs in it; expected rows of machine, period, log")
+    return in_order(Named(machine, period, str(path.parent / log)) for machine, period, log in rows)
+
+
+def _csv_rows(path: Path, text: str) -> list[tuple[str, ...]]:
+    reader = csv.DictReader(text.splitlines(), skipinitialspace=True)
+    missing = [name for name in _COLUMNS if name not in (reader.fieldnames or ())]
+    if missing:
+        raise DataError(
+            f"{path}: no column {missing[0]} in its first line; expected {', '.join(_COLUMNS)}"
+        )
+    return [_checked(path, f"line {reader.line_num}", row) for row in reader]
+
+
+def _toml_rows(path: Path, text: str) -> list[tuple[str, ...]]:
+    try:
+        entries = tomllib.loads(text).get("log", [])
+    except tomllib.TOMLDecodeError as error:
+        raise DataError(f"{path}: {error}; expected TOML with [[log]] tables") from None
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+        raise DataError(f"{path}: log is no list of tables; expected [[log]] before each log")
+    return [_checked(path, f"log {k}", entry) for k, entry in enumerate(entries, start=1)]
+
+
+def _checked(path: Path, where: str, row: dict) -> tuple[str, ...]:
+    values = tuple("" if row.get(name) is None else str(row[name]).strip() for name in _COLUMNS)
+    for name, value in zip(_COLUMNS, values, strict=True):
+        if not value:
+            raise DataError(f"{path}, {where}: no {name}; expected machine, period and log")
+    return values

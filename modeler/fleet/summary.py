@@ -1,0 +1,150 @@
+"""One log of a fleet, read once: triangles and what its residuals remember, no rows."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from modeler.compiled import CompiledModel
+from modeler.compiled.once import compiled_once
+from modeler.core.contract import Emitted
+from modeler.core.errors import DataError, LoopError
+from modeler.estimate.coloured import remembered, repeated_whole
+from modeler.estimate.compressed import Compressed, compress
+from modeler.estimate.least_squares import least_squares
+from modeler.fit.identify import dead_joints
+from modeler.fleet.naming import Named
+from modeler.logs import LogMap
+from modeler.observation import Observation, Processing, observe
+from modeler.observation.log import Log
+from modeler.observation.read import read_log
+from modeler.observation.window import window
+
+TEMPERATURE = "temperature"
+"""How the names of columns of temperatures begin; the rest is the joint, or nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class LogJob:
+    """What a worker needs to reduce a log; it can be sent to another process or machine.
+
+    Attributes:
+        named: machine, period and place.
+        path: the file.
+        span: seconds of it that count; None: all.
+        processing: None: chosen from this log.
+        mapping: which columns of the logs are ours.
+    """
+
+    named: Named
+    path: str
+    span: tuple[float | None, float | None] | None
+    processing: Processing | None = None
+    mapping: LogMap | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class LogSummary:
+    """A log, reduced; n joints, c base parameters.
+
+    Attributes:
+        named: machine, period and place.
+        content: fingerprint of the file's measurements.
+        span: first and last time, s.
+        samples: after decimation.
+        data: triangles of [W_j y_j], joint by joint; those of a dead joint are 0.
+        repeats: (n, c, c) sum_k r_j(k) sum_t w_j(t) w_j(t + k)^T + transpose, see `coloured`.
+        temperatures: mean of each column, by the joint that its name ends in; "" for all.
+        processing: with all choices filled in.
+        doubts: what is wrong with the measurements.
+    """
+
+    named: Named
+    content: str
+    span: tuple[float, float]
+    samples: int
+    data: Compressed
+    repeats: np.ndarray
+    temperatures: Mapping[str, float] = field(default_factory=dict)
+    processing: Processing | None = None
+    doubts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Left:
+    """A log that could not be used, and why."""
+
+    named: Named
+    why: str
+
+
+def reduce_log(emitted: Emitted, job: LogJob) -> LogSummary | Left:
+    """The summary of one log; pure, so that it can run anywhere and be run again.
+
+    Args:
+        emitted: the C of the robot, which is compiled here, or taken from the cache.
+        job: of the log.
+    """
+    model = compiled_once(emitted)
+    try:
+        log = read_log(job.path, model.spec, job.mapping)
+        if job.span is not None:
+            log = window(log, *job.span)
+        return summary(model, log, job.named, job.processing)
+    except (DataError, LoopError) as error:
+        return Left(job.named, str(error))
+
+
+def summary(
+    model: CompiledModel, log: Log, named: Named, processing: Processing | None = None
+) -> LogSummary:
+    """The summary of a log that was read.
+
+    Raises:
+        ModelerError: it has no usable rows.
+    """
+    observation = observe(model, [log], processing)
+    dead = dead_joints(observation)
+    alive = ~np.isin(observation.row_joint, dead)
+    W, y, joint = observation.W[alive], observation.y[alive], observation.row_joint[alive]
+    if len(y) < W.shape[1]:
+        raise DataError(f"{log.name}: {len(y)} rows for {W.shape[1]} parameters; record more")
+    free = [j for j, each in enumerate(observation.joints) if not each.actuated]
+    data = compress(W, y, joint, len(observation.joints), observation.names, free)
+    residual = y - W @ least_squares(data).beta
+    doubts = [f"joint {observation.joints[j].name}: its torque is 0 throughout" for j in dead]
+    return LogSummary(
+        named=named,
+        content=log.content,
+        span=(float(log.time[0]), float(log.time[-1])),
+        samples=len(observation.time),
+        data=data,
+        repeats=_repeats(observation, W, joint, observation.row_sample[alive], residual),
+        temperatures=_temperatures(log),
+        processing=observation.report.processing,
+        doubts=(*observation.report.doubts(), *doubts),
+    )
+
+
+def _repeats(
+    observation: Observation,
+    W: np.ndarray,
+    joint: np.ndarray,
+    sample: np.ndarray,
+    residual: np.ndarray,
+) -> np.ndarray:
+    found = np.zeros((len(observation.joints), W.shape[1], W.shape[1]))
+    for j in range(len(observation.joints)):
+        own = joint == j
+        if own.any():
+            r = remembered(observation, residual[own], sample[own])
+            found[j] = repeated_whole(W[own], r, sample[own], observation.segment)
+    return found
+
+
+def _temperatures(log: Log) -> dict[str, float]:
+    return {
+        name.removeprefix(TEMPERATURE): float(np.mean(values))
+        for name, values in log.extra.items()
+        if name.startswith(TEMPERATURE)
+    }

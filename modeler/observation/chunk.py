@@ -1,0 +1,129 @@
+"""Chunks of a long log: rows prepared together, and those beside them that filters need."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.observation.log import FINGER, Log
+from modeler.observation.processing import Processing
+from modeler.observation.row_filter import reach_of
+from modeler.observation.source import Source, cut, joined
+
+MEMORY = 12.0
+"""Periods of the position filter after which nothing of it is left: its slowest poles fade as
+exp(-2.4 t cutoff), to 3e-13."""
+
+_BESIDE = 64  # rows, at least: what looks for damage sees 30 to both sides, and judges not the ends
+
+
+@dataclass(frozen=True, eq=False)
+class Chunk:
+    """Consecutive rows of a log.
+
+    Attributes:
+        number: from 0.
+        start: row of the log, from 0, that is the first of its own.
+        own: which rows of `log` are its own; every row of the log is one chunk's own.
+        log: they, and a margin to both sides.
+        last: True if no row comes after it.
+    """
+
+    number: int
+    start: int
+    own: slice
+    log: Log
+    last: bool
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """s, between its own rows and those beside them; open at the log's ends.
+
+        In the middle of two rows, as samples of a uniform grid lie on rows but for rounding.
+        """
+        time, own = self.log.time, self.own
+        start = -np.inf if self.number == 0 else float(time[own.start - 1 : own.start + 1].mean())
+        return start, np.inf if self.last else float(time[own.stop - 1 : own.stop + 1].mean())
+
+    @property
+    def rows(self) -> int:
+        """Of its own."""
+        return self.own.stop - self.own.start
+
+
+def margin(processing: Processing, step: float) -> int:
+    """Rows beside a chunk that filters and searches of its own rows reach.
+
+    Zero-phase filtering of a chunk then differs from that of the whole log by what the position
+    filter remembers after `MEMORY` periods, exp(-12 x 2.4) = 3e-13 of the motion within them.
+
+    Args:
+        processing: with both cut-offs chosen.
+        step: of the log, s.
+    """
+    position, parallel = processing.position_cutoff or 0.0, processing.parallel_cutoff or 0.0
+    memory = MEMORY / (position * step) if position > 0.0 else 0.0
+    window = 1.0 / (parallel * step) if parallel > 0.0 else 0.0  # in which derivatives are checked
+    delay = abs(processing.delay) / step
+    edge = (processing.edge or 0.0) / step
+    reach = reach_of(step, parallel)
+    return _BESIDE + int(np.ceil(max(memory, edge) + reach + window + delay))
+
+
+def chunk_rows(beside: int, rows: int = FINGER) -> int:
+    """Rows of a chunk of its own: a multiple of those of a fingerprint, and most of what is read.
+
+    Args:
+        beside: rows of its margins.
+        rows: at least.
+    """
+    return rows * max(1, -(-4 * beside // rows))
+
+
+def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
+    """All rows of a log as chunks.
+
+    Args:
+        source: of the log.
+        own: rows of each, but for the last.
+        beside: rows of its margins.
+    """
+    held, first, number = list[Log](), 0, 0  # first: row of the log that held begins with
+    rows = 0
+    for block in source.blocks(own):
+        held.append(block)
+        rows += block.rows
+        while first + rows > (number + 1) * own + beside:
+            log = joined(held)
+            yield _chunk(log, first, number, own, beside, False)
+            number += 1
+            kept = max(0, number * own - beside) - first
+            held, first, rows = [cut(log, slice(kept, None))], first + kept, log.rows - kept
+    while first + rows > number * own:
+        log = joined(held)
+        held = [log]
+        yield _chunk(log, first, number, own, beside, first + rows <= (number + 1) * own)
+        number += 1
+
+
+def chunks_between(source: Source, numbers: range, own: int, beside: int) -> Iterator[Chunk]:
+    """Some of those chunks, of a log whose rows can be read from anywhere; the same to the bit.
+
+    Args:
+        source: whose windows begin at the very row that is asked for.
+        numbers: of the chunks, from 0, one after the other.
+        own: as of `chunks`.
+        beside: as of `chunks`.
+    """
+    start = max(0, numbers[0] * own - beside)
+    stop = min((numbers[-1] + 1) * own + beside, source.rows)
+    log = source.window((start + 0.5) / source.rows, stop - start)
+    for number in numbers:
+        yield _chunk(log, start, number, own, beside, source.rows <= (number + 1) * own)
+
+
+def _chunk(log: Log, first: int, number: int, own: int, beside: int, last: bool) -> Chunk:
+    start, stop = number * own, min((number + 1) * own, first + log.rows)
+    low, high = max(first, start - beside), min(stop + beside, first + log.rows)
+    part = cut(log, slice(low - first, high - first))
+    return Chunk(number, start, slice(start - low, stop - low), part, last)

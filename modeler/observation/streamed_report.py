@@ -1,0 +1,157 @@
+"""The report of logs that were read in chunks."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from typing import TYPE_CHECKING
+
+from modeler.core.contract import JointSpec
+from modeler.observation.damage import Whose, damages
+from modeler.observation.dry_friction import Shaft
+from modeler.observation.facts import Facts
+from modeler.observation.log import LONG, fingerprint, fingerprint_of
+from modeler.observation.motion import CAUSES
+from modeler.observation.report import DataReport, JointReport, LogReport
+from modeler.observation.source import Source, joined
+from modeler.observation.survey import Survey
+from modeler.observation.tally import Tally
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+
+@dataclass(frozen=True, eq=False)
+class Passes:
+    """What long logs were read for.
+
+    Attributes:
+        found: what the windows showed.
+        facts: of all rows, by log.
+        passes: over the logs.
+    """
+
+    found: Survey
+    facts: tuple[Facts, ...]
+    passes: int
+
+    def sentences(self) -> tuple[str, ...]:
+        """Which rows were read for what."""
+        told = self.to_json()
+        passes = "once" if self.passes == 1 else f"{self.passes} times"
+        return (
+            f"long logs: all {told['rows']} rows are read {passes}, in {told['chunks']} chunks "
+            "that overlap by what the filters remember, and reduced to triangles; "
+            f"{told['rows_in_windows']} of them, in {told['windows']} windows, are looked at for "
+            "the choices below, the memory of the residuals and doubts about channels",
+        )
+
+    def to_json(self) -> dict[str, int]:
+        """Plain data."""
+        tallies = [facts.tally for facts in self.facts]
+        return {
+            "passes": self.passes,
+            "chunks": sum(tally.count("chunks") for tally in tallies),
+            "rows": sum(tally.count("rows") for tally in tallies),
+            "windows": self.found.windows,
+            "rows_in_windows": self.found.rows,
+        }
+
+
+def streamed_report(
+    model: "CompiledModel", sources: Sequence[Source], passes: Passes
+) -> DataReport:
+    """What happened to all rows of long logs.
+
+    Args:
+        model: the compiled robot.
+        sources: of the logs.
+        passes: over them.
+    """
+    found, facts = passes.found, passes.facts
+    looked, chosen = found.observation.report, found.chosen[0]
+    floors = dict(chosen.processing.speed_floors or {})
+    return dataclasses.replace(
+        looked,
+        processing=dataclasses.replace(looked.processing, speed_floors=floors),
+        choices=(*passes.sentences(), *looked.choices),
+        logs=tuple(_log_report(model, source, k, passes) for k, source in enumerate(sources)),
+        joints=_joint_reports(model.spec.joints, chosen.shafts, facts, floors),
+    )
+
+
+def _log_report(model: "CompiledModel", source: Source, k: int, passes: Passes) -> LogReport:
+    facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
+    tally, at, first = facts.tally, found.places[k], source.window(0.0, 2)
+    check, names, rows = found.prepared.checks[at], first.joints, tally.count("rows")
+    clipped = zip(names, tally.by_joint("clipped"), strict=True)
+    return LogReport(
+        name=source.name,
+        rows=rows,
+        missing=_told(tally, "missing "),
+        saturated={name: int(count) for name, count in clipped if count},
+        rate=1.0 / chosen.step,
+        jitter=float(tally.most["jitter"]),
+        gaps=tally.count("gaps"),
+        longest_gap=float(tally.most["gap"]),
+        pieces=tally.count("pieces"),
+        resampled=tally.count("resampled"),
+        short=tally.count("short"),
+        derivatives=found.prepared.derivatives[at],
+        decimation=chosen.processing.decimation or 1,
+        samples=tally.count("samples"),
+        notes=(*first.notes, *facts.ranges.doubts(chosen.step, model.spec),
+               *found.prepared.rings[at], *(check.notes if check else ())),
+        contradictions=facts.contradictions,
+        contradicted=tally.count("contradicted"),
+        damages=damages(Whose(source.name, rows, first.torque_source), model.spec, facts.defects),
+        content=_content(source, facts),
+        span=facts.span,
+        torque_source=first.torque_source,
+        open_times=facts.open_times,
+    )  # fmt: skip
+
+
+def _told(tally: Tally, prefix: str) -> dict[str, int]:
+    """Counts whose names begin so, by the rest of their names; none of 0."""
+    return {
+        name.removeprefix(prefix): int(count)
+        for name, count in tally.sums.items()
+        if name.startswith(prefix) and count
+    }
+
+
+def _content(source: Source, facts: Facts) -> str:
+    """The fingerprint of the log, as that of one that is read whole."""
+    if source.content:
+        return source.content
+    if facts.tally.count("rows") > LONG:
+        return fingerprint_of(facts.fingers)
+    log = joined(list(source.blocks(LONG)))
+    return fingerprint(log.time, log.q, log.tau)
+
+
+def _joint_reports(
+    joints: Sequence[JointSpec],
+    parts: Sequence[Shaft],
+    facts: Sequence[Facts],
+    floors: Mapping[str, float],
+) -> tuple[JointReport, ...]:
+    tally = reduce(Tally.over, (own.tally for own in facts))
+    valid, usable, used = (tally.by_joint(name) for name in ("valid", "usable", "used"))
+    reports = []
+    for j, joint in enumerate(joints):
+        own = [floors[part.name] for part in parts if j in part.joints]
+        lost = {cause: int(tally.by_joint(cause)[j]) for cause in CAUSES}
+        reports.append(
+            JointReport(
+                name=joint.name,
+                used=int(used[j]),
+                slow=float(1.0 - usable[j] / max(1, valid[j])),
+                speed_floor=max(own) if own else None,
+                unit=f"{joint.unit}/s",
+                samples=tally.count("full"),
+                lost={cause: count for cause, count in lost.items() if count},
+            )
+        )
+    return tuple(reports)

@@ -1,0 +1,172 @@
+"""A look at windows of long logs, by which all is chosen that must be one choice for all rows."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.observation.chunk import chunk_rows, margin
+from modeler.observation.dry_friction import Shaft, shafts
+from modeler.observation.log import FINGER, Log
+from modeler.observation.observation import Observation
+from modeler.observation.prepare import Prepared, prepare, with_floors
+from modeler.observation.processing import Processing
+from modeler.observation.read import Ranges
+from modeler.observation.row_filter import spacing
+from modeler.observation.seen import Chosen
+from modeler.observation.source import Source, windows_joined
+from modeler.observation.stack import observed
+
+if TYPE_CHECKING:
+    from modeler.compiled import CompiledModel
+
+WINDOWS = 8
+"""Windows of all logs together, at least one of each log."""
+
+MOST_WINDOWS = 64
+"""Logs that are looked at; of more, every so many."""
+
+WINDOW = 16_384
+"""Rows of a window, at least ..."""
+
+SECONDS = 8.0
+"""... and seconds, so that a fast logger shows a motion too ..."""
+
+LONGEST = 65_536
+"""... but no more rows than these."""
+
+Extremes = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """What the windows show.
+
+    Attributes:
+        observation: of the windows, for all that needs rows side by side.
+        prepared: what else was seen in the windows; without their samples.
+        chosen: by log.
+        places: of each log among those that were prepared; that of another where none is.
+        windows: how many.
+        rows: of them.
+    """
+
+    observation: Observation
+    prepared: Prepared
+    chosen: tuple[Chosen, ...]
+    places: tuple[int, ...]
+    windows: int
+    rows: int
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What an earlier pass over the logs found, that the windows did not show.
+
+    Attributes:
+        floors: speed floors, by shaft that stood still in the windows.
+        extremes: (J,) smallest and largest torque by log; none before the first pass.
+    """
+
+    floors: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    extremes: Mapping[int, Extremes] = dataclasses.field(default_factory=dict)
+
+
+def survey(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    processing: Processing,
+    known: Known,
+    rows: int = FINGER,
+) -> Survey:
+    """Looks at windows of the logs and chooses.
+
+    Args:
+        model: the compiled robot.
+        sources: of the logs.
+        processing: what is given is kept.
+        known: of an earlier pass.
+        rows: of a chunk, at least.
+
+    Raises:
+        DataError: as `observe` does, of the windows.
+    """
+    windows = [_windows(source, _count(sources, k)) for k, source in enumerate(sources)]
+    looked = [k for k, own in enumerate(windows) if own]
+    logs = [windows_joined(own) if own else None for own in windows]
+    seen = [log for log in logs if log is not None]
+    prepared = prepare(model.spec, seen, processing)
+    observation = observed(model, seen, prepared)
+    chosen, parts = observation.report.processing, shafts(model)
+    chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
+    places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
+    every = []
+    for k, (source, at) in enumerate(zip(sources, places, strict=True)):
+        log = logs[k] if k in looked else source.window(0.5, WINDOW)
+        assert log is not None
+        every.append(_chosen((k, log), (prepared, at), chosen, parts, known.extremes.get(k), rows))
+    count = sum(len(own) for own in windows)
+    rows_seen = sum(log.rows for log in seen)
+    prepared = dataclasses.replace(prepared, segments=(), pieces=())  # memory for the chunks
+    return Survey(observation, prepared, tuple(every), places, count, rows_seen)
+
+
+def _count(sources: Sequence[Source], k: int) -> int:
+    """Windows of a log."""
+    if len(sources) > MOST_WINDOWS:
+        return int(k % -(-len(sources) // MOST_WINDOWS) == 0)
+    total = sum(source.rows for source in sources)
+    return max(1, round(WINDOWS * sources[k].rows / max(1, total)))
+
+
+def _windows(source: Source, count: int) -> list[Log]:
+    """Windows of a log, increasing in time."""
+    if not count:
+        return []
+    first = source.window(0.5 / count, WINDOW)
+    size = int(np.clip(SECONDS / first.step, WINDOW, LONGEST)) if first.rows > 1 else WINDOW
+    if count * size > 0.7 * source.rows:
+        return [source.window(0.0, max(size, min(source.rows, count * size)))]
+    found: list[Log] = []
+    for k in range(count):
+        log = source.window((k + 0.5) / count, size)
+        if not found or log.time[0] > found[-1].time[-1]:
+            found.append(log)
+    return found
+
+
+def _chosen(
+    place: tuple[int, Log],
+    prepared: tuple[Prepared, int],
+    processing: Processing,
+    parts: tuple[Shaft, ...],
+    extremes: Extremes | None,
+    rows: int,
+) -> Chosen:
+    """What is chosen for one log: its place and its windows; what was prepared, and where."""
+    run, log = place
+    whole, at = prepared
+    if log.rows < 2:
+        raise DataError(
+            f"{log.name}: {log.rows} rows where it was looked at; expected a motion; leave it out"
+        )
+    step, cutoff = log.step, processing.parallel_cutoff
+    assert cutoff is not None
+    decimation = spacing(step, cutoff, processing.decimation)
+    ranges = Ranges.of(log)
+    beside = margin(processing, step)
+    seen = tuple(zip(ranges.low[1].tolist(), ranges.high[1].tolist(), strict=True))
+    return Chosen(
+        run=run,
+        processing=dataclasses.replace(processing, decimation=decimation),
+        logged=whole.checks[at] is not None,
+        usual=whole.usual[at],
+        extremes=seen if extremes is None else extremes,
+        shafts=parts,
+        step=step,
+        own=chunk_rows(beside, rows),
+        beside=beside,
+    )

@@ -1,0 +1,288 @@
+"""Single precision: words of C, sine and cosine, whole modules against double precision."""
+
+import ctypes
+import dataclasses
+import re
+import subprocess
+from functools import cache
+
+import numpy as np
+import pytest
+
+from modeler.api import derive, generate
+from modeler.cli import main
+from modeler.codegen import emit
+from modeler.codegen.single import of_precision, single_text
+from modeler.compiled import CompiledModel, load, load_folder
+from modeler.core.contract import Emitted, module_from_json
+from modeler.core.errors import EmitError, ManifestError
+from modeler.core.resources import resource_dir
+from tests.codegen.fitted_library import fitted_of, robot_module
+from tests.modules import STRICT, compiled, compiler, module, states
+from tests.robots import ROBOTS, TREES
+
+FLOATS = ["-Wdouble-promotion", "-Wfloat-conversion"]
+
+
+@cache
+def emitted(name: str) -> Emitted:
+    made = robot_module(name)
+    return emit(made.model, made.base, fitted_of(made.emitted.spec), precision="single")
+
+
+@cache
+def single(name: str) -> CompiledModel:
+    made = emit(module(name).model, module(name).base, precision="single")
+    return load(made.spec, made.files)
+
+
+@pytest.mark.parametrize(
+    ("double", "float_"),
+    [
+        ("const double x = 1.5e-3;", "const float x = 1.5e-3f;"),
+        ("x = fabs(y) + .5*pow(z, 2.);", "x = fabsf(y) + .5f*powf(z, 2.f);"),
+        ("int round = 3, exp; a1[2] = 0x1e3;", "int round = 3, exp; a1[2] = 0x1e3;"),
+        ("modeler_close(&loops);", "modelerf_close(&loops);"),
+        ('#include "modeler_runtime.h"', '#include "modeler_runtime.h"'),
+        ("/* double 1.0, modeler_close */ double", "/* double 1.0, modeler_close */ float"),
+        ('scanf("%lf 1.0 double", x)', 'scanf("%f 1.0 double", x)'),
+        ('printf("%.17g", (DOUBLE)x)', 'printf("%.9g", (double)x)'),
+        ("y = atof(text);", "y = (float)atof(text);"),
+        ("#define CONVERGED 1e-8 /* so */", "#define CONVERGED 2e-4f /* so */"),
+        ("const float x = fabsf(1.5f);", "const float x = fabsf(1.5f);"),
+    ],
+)
+def test_words_of_c(double, float_):
+    assert single_text(double) == float_
+
+
+@pytest.mark.parametrize(("number", "what"), [("1e60", "large"), ("4e-50", "small")])
+def test_a_number_that_a_float_cannot_hold_is_refused(number, what):
+    with pytest.raises(EmitError, match=f"number {number} is too {what} for single precision"):
+        of_precision("single", {"a.c": f"double x = {number};"})
+
+
+def test_what_is_no_c_is_left_alone():
+    assert of_precision("single", {"README.md": "double 1.0"}) == {"README.md": "double 1.0"}
+
+
+def test_closing_loops_has_no_bound_below_the_rounding_of_floats():
+    text = (resource_dir("csrc") / "modeler_closure.c").read_text()
+    numbers = r"(?<![\w.])\d+\.?\d*e-\d+"
+    assert min(map(float, re.findall(numbers, text))) < 1e-10
+    assert min(map(float, re.findall(numbers, single_text(text)))) > 1e-5
+
+
+def sines(x: np.ndarray, folder, *flags: str) -> tuple[np.ndarray, np.ndarray]:
+    """Sine and cosine of the C in single precision."""
+    source, library = folder / "many.c", folder / "many.so"
+    source.write_text(
+        '#include "modeler_sincos.h"\nvoid many(int n, const float *x, float *s, float *c);\n'
+        "void many(int n, const float *x, float *s, float *c)\n"
+        "{\n    for (int i = 0; i < n; i++) modelerf_sincos(x[i], s + i, c + i);\n}\n"
+    )
+    include = resource_dir("csrc") / "single"
+    command = [compiler("gcc"), *STRICT, *FLOATS, *flags, "-shared", "-fPIC", "-I", include]
+    subprocess.run([*command, "-o", library, source], check=True)  # no -lm: it needs none
+    out = np.zeros((2, len(x)), np.float32)
+    float_p = ctypes.POINTER(ctypes.c_float)
+    arrays = (array.ctypes.data_as(float_p) for array in (x, out[0], out[1]))
+    ctypes.CDLL(str(library)).many(len(x), *arrays)
+    return out[0], out[1]
+
+
+@pytest.mark.parametrize("flags", [["-O0"], ["-O2", "-march=native", "-ffp-contract=fast"]])
+def test_sine_and_cosine(flags, tmp_path):
+    """Everywhere below 1e5, beside multiples of pi/2 too; beyond, and of no number, NaN."""
+    rng = np.random.default_rng(1)
+    near = rng.uniform(-100, 100, 200_000)
+    quarters = rng.integers(-60_000, 60_000, 100_000) * (np.pi / 2)
+    far = np.concatenate([rng.uniform(-1e5, 1e5, 200_000), quarters, [0.0, -0.0, 1e-30, 99999.99]])
+    for x, units in ((near, 2.0), (far, np.inf)):
+        given = x.astype(np.float32)
+        for got, function in zip(sines(given, tmp_path, *flags), (np.sin, np.cos), strict=True):
+            exact = function(given.astype(float))
+            apart = np.abs(got - exact)
+            assert apart.max() < 1e-7
+            large = np.abs(exact) > 1e-3  # where the angle's own rounding is not all there is
+            assert (apart / np.spacing(np.abs(exact).astype(np.float32)))[large].max() < units
+    beyond = np.array([1e5, -1e5, 3e38, np.inf, -np.inf, np.nan], np.float32)
+    assert np.isnan(sines(beyond, tmp_path, *flags)).all()
+
+
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+@pytest.mark.parametrize("name", ["slow-arm", "five-bar"])
+def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_path):
+    """The fitted unit and all programs included; of <math.h> only functions of floats."""
+    made = emitted(name)
+    for file, text in made.files.items():
+        (tmp_path / file).write_text(text)
+    flags = " ".join([*STRICT[1:4], "-Wshadow", "-Werror", *FLOATS])
+    make = ["make", "-s", "-C", str(tmp_path), f"CC={compiler(cc)}", f"CFLAGS={flags} -O1"]
+    said = subprocess.run([*make, "check", "examples"], capture_output=True, text=True, check=False)
+    assert said.returncode == 0, said.stdout + said.stderr
+    assert "three ways to the torques agree" in said.stdout
+    wanted = subprocess.run(
+        ["nm", "-u", *tmp_path.glob("*_model.a")], capture_output=True, text=True, check=True
+    )
+    asked = {line.split()[1] for line in wanted.stdout.splitlines() if line.startswith(" ")}
+    assert not asked & {"sin", "cos", "tan", "exp", "pow", "tanh", "fabs", "sqrt", "fmin", "fmax"}
+    lines = "0.1 0.2 0.1 0 0 0 0.1 0.2 0.1 0 0 0 0 0 0 20\n" if name == "slow-arm" else ""
+    example = [tmp_path / "example_computed_torque"]
+    torques = subprocess.run(example, input=lines, capture_output=True, text=True, check=True)
+    assert len(torques.stdout.split()) == (3 if lines else 0)
+
+
+def apart(name: str, bound: float, samples: int = 50, reach: float = 0.3) -> None:
+    """Both precisions agree to `bound` of what is added up, wherever the loops close."""
+    one, two = single(name), compiled(name)
+    spec = two.spec
+    q, qd, qdd = states(len(spec.joints), samples)
+    if spec.closure is not None:
+        size = [1.0 if joint.unit == "rad" else 0.3 for joint in spec.joints]
+        q = reach / 3 * q * size + [spec.closure.home[k] for k in spec.closure.given]
+    rng = np.random.default_rng(2)
+    signals = rng.uniform(0, 1, (samples, len(spec.signals)))
+    q, qd, qdd, signals = (a.astype(np.float32).astype(float) for a in (q, qd, qdd, signals))
+    closed = (one.closing_status(q) == 0) & (two.closing_status(q) == 0)
+    assert closed.mean() > 0.9
+    motion = [q[closed], qd[closed], qdd[closed]]
+    beta = rng.normal(size=len(spec.base)).astype(np.float32).astype(float)
+    s = {"s": signals[closed]} if spec.signals else {}
+    phi = two.base_regressor(*motion, **s)
+    worst = np.abs(one.base_regressor(*motion, **s) - phi).max(axis=(1, 2))
+    assert (worst <= bound * np.abs(phi).max(axis=(1, 2))).all()
+    W = one.observation(*motion, **s).reshape(phi.shape)
+    assert (np.abs(W - phi).max(axis=(1, 2)) <= bound * np.abs(phi).max(axis=(1, 2))).all()
+    parts = np.einsum("njc,c->nj", np.abs(phi), np.abs(beta)).max(axis=1)
+    torques = [model.inverse_dynamics(*motion, beta, **s) for model in (one, two)]
+    assert (np.abs(torques[0] - torques[1]).max(axis=1) <= bound * parts).all()
+    M = two.inertia_matrix(motion[0], beta)
+    worst = np.abs(one.inertia_matrix(motion[0], beta) - M).max(axis=(1, 2))
+    assert (worst <= 4 * bound * np.abs(M).max(axis=(1, 2))).all()
+
+
+@pytest.mark.parametrize(("name", "bound"), [("puma560", 1e-6), ("five-bar", 1e-5)])
+def test_it_computes_what_double_precision_computes(name, bound):
+    apart(name, bound)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ROBOTS)
+def test_every_robot_computes_what_it_does_in_double_precision(name):
+    """With loops as well as the posture tells: near a singular one less."""
+    apart(name, 1e-6 if name in TREES else 1e-4, samples=300)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["five-bar", "3rrr", "delta", "orthoglide-2003", "evra"])
+def test_loops_that_close_in_single_precision_close_on_the_branch_of_home(name):
+    """Far away, past singular postures: where floats close, short steps in double arrive there."""
+    one, two = single(name), compiled(name)
+    closure = two.spec.closure
+    assert closure is not None
+    home = np.array([closure.home[k] for k in closure.given])
+    size = np.array([1.0 if joint.unit == "rad" else 0.3 for joint in two.spec.joints])
+    shift = np.random.default_rng(3).uniform(-2, 2, (400, len(home))) * size
+    q = (home + shift).astype(np.float32).astype(float)
+    closed = one.closing_status(q) == 0
+    assert closed.any()
+    u = one.close(q[closed])
+    for way, found in zip(q[closed] - home, u, strict=True):
+        fine = walked(two, home, way)
+        np.testing.assert_allclose(found, fine, atol=2e-3)
+
+
+def walked(model: CompiledModel, home: np.ndarray, way: np.ndarray, steps: int = 400) -> np.ndarray:
+    """The posture at the end of a straight way, each step from the last."""
+    library = model._library
+    function = next(f for f in model.spec.functions if f.name.endswith("_close_from"))
+    u = np.array([model.spec.closure.home])
+    for k in range(1, steps + 1):
+        status, out = np.zeros(1, dtype=np.intc), np.empty_like(u)
+        library.batch(function, [(home + way * k / steps)[None], u], out, status)
+        assert status[0] == 0, f"closed in single precision, but the way ends at {k / steps}"
+        u = out
+    return u[0]
+
+
+def test_robots_of_both_precisions_live_in_one_program(tmp_path):
+    """The runtime of one kind of number is not that of the other."""
+    wrist = module("wrist").emitted
+    arm = emit(module("two-link").model, module("two-link").base, precision="single")
+    main_c = """
+    #include <stdio.h>
+    #include "wrist.h"
+    #include "two_link.h"
+    int main(void)
+    {
+        const double q[3] = {0.1, 0.2, 0.3}, qd[3] = {1.0, 1.0, 1.0}, qdd[3] = {2.0, 2.0, 2.0};
+        const float p[2] = {0.1f, 0.2f}, pd[2] = {1.0f, 1.0f}, pdd[2] = {2.0f, 2.0f};
+        double W[3 * WRIST_BASE_PARAMETERS];
+        float V[2 * TWO_LINK_BASE_PARAMETERS];
+        wrist_observation(1, q, qd, qdd, W);
+        two_link_observation(1, p, pd, pdd, V);
+        printf("%.3f %.3f\\n", W[0], (double)V[0]);
+        return 0;
+    }
+    """
+    libraries = []
+    for made in (wrist, arm):
+        folder = tmp_path / made.spec.prefix
+        folder.mkdir()
+        for name, text in made.files.items():
+            (folder / name).write_text(text)
+        subprocess.run(["make", "-s", "-C", folder, f"CC={compiler('gcc')}"], check=True)
+        libraries += [folder / f"lib{made.spec.prefix}_model.a", f"-I{folder}"]
+    (tmp_path / "main.c").write_text(main_c)
+    program = tmp_path / "main"
+    subprocess.run(["gcc", "-o", program, tmp_path / "main.c", *libraries, "-lm"], check=True)
+    said = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
+    assert said == ["2.000", "2.000"]
+
+
+def test_the_command(capsys, tmp_path):
+    out = tmp_path / "c"
+    assert main(["generate", "two-link", "--precision", "single", "--out", str(out)]) == 0
+    assert "10 base parameters, single precision, written to" in capsys.readouterr().out
+    assert "const float *q" in (out / "two_link.h").read_text()
+    assert "every number is `float`" in (out / "README.md").read_text()
+    model = load_folder(out)
+    assert model.spec.precision == "single"
+    np.testing.assert_allclose(
+        model.gravity([[0.1, 0.2]], np.ones(10)),
+        compiled("two-link").gravity([[0.1, 0.2]], np.ones(10)),
+        rtol=1e-6,
+    )
+
+
+def test_the_command_refuses_a_robot_that_floats_cannot_hold(capsys, tmp_path):
+    (tmp_path / "far.toml").write_text(FAR)
+    words = ["generate", str(tmp_path / "far.toml"), "--out", str(tmp_path / "c")]
+    assert main(words) == 0
+    assert main([*words, "--force", "--precision", "single"]) == 1
+    err = capsys.readouterr().err
+    assert "too small for single precision" in err and "generate in double precision" in err
+
+
+def test_a_manifest_says_its_precision():
+    made = generate(derive(module("two-link").model.robot), precision="single")
+    assert module_from_json(made.spec.to_json(), "m").precision == "single"
+    assert '"precision"' not in module("two-link").emitted.spec.to_json()
+    wrong = dataclasses.replace(made.spec, precision="half").to_json()
+    with pytest.raises(ManifestError, match="precision is 'half', expected double or single"):
+        module_from_json(wrong, "m")
+
+
+FAR = """
+name = "far"
+gravity = [0, 0, -9.81]
+[symbols]
+L = 1e-50
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1", "0", 0, 0, 0, "q1", 0],
+  ["2", "1", 0, "pi/2", "L", "q2", 0],
+]
+"""

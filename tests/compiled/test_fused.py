@@ -1,0 +1,223 @@
+"""Triangles without W: against numpy's QR, the law R^T R = W^T W, and rows that are left out."""
+
+import os
+
+import numpy as np
+import pytest
+
+from modeler.compiled import fused
+from modeler.compiled.bind_fused import fused_library
+from modeler.core.errors import ShapeError
+from tests.modules import compiled, states
+
+EPS = np.finfo(float).eps
+
+
+def levels() -> list[int]:
+    """Every set of instructions that this processor has."""
+    return list(range(1, fused_library().level() + 1))
+
+
+def stacked(model, q, qd, qdd, tau) -> np.ndarray:
+    """(joints, samples, c + 1) [W_j tau_j]."""
+    phi = model.base_regressor(q, qd, qdd)
+    return np.concatenate([phi, tau[:, :, None]], axis=2).transpose(1, 0, 2)
+
+
+def check(found: np.ndarray, rows: np.ndarray) -> None:
+    """R of every joint is upper and has the products of the rows, to rounding."""
+    for own, joint in zip(found, rows, strict=True):
+        assert not np.tril(own, -1).any()
+        size = np.linalg.norm(joint) ** 2
+        assert np.abs(own.T @ own - joint.T @ joint).max() <= 50 * EPS * max(size, 1e-300)
+
+
+@pytest.mark.parametrize("samples", [0, 1, 7, 8, 9, 255, 1000])
+def test_triangles_are_those_of_the_rows(samples):
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, samples)
+    tau = np.random.default_rng(1).normal(size=q.shape)
+    found = wrist.triangles(q, qd, qdd, tau)
+    assert found.rows.tolist() == [samples] * 3 and not found.left_out.any()
+    check(found.triangles, stacked(wrist, q, qd, qdd, tau))
+
+
+@pytest.mark.parametrize("name", ["five-bar", "emps"])
+def test_loops_and_single_joints_are_not_special(name):
+    model = compiled(name)
+    q, qd, qdd = states(len(model.spec.joints), 300)
+    q = 0.05 * q + (0.0 if model.spec.closure is None else home(model))
+    tau = np.random.default_rng(2).normal(size=q.shape)
+    check(model.triangles(q, qd, qdd, tau).triangles, stacked(model, q, qd, qdd, tau))
+
+
+def home(model) -> np.ndarray:
+    return np.array([model.spec.closure.home[i] for i in model.spec.closure.given])
+
+
+def test_samples_whose_loops_do_not_close_are_left_out():
+    model = compiled("five-bar")
+    q, qd, qdd = states(2, 40)
+    q = 0.05 * q + home(model)
+    tau = np.ones_like(q)
+    far = q.copy()
+    far[5] = [0.0, np.pi]
+    assert model.closing_status(far).nonzero()[0].tolist() == [5]
+    found = model.triangles(far, qd, qdd, tau)
+    assert found.left_out.nonzero()[0].tolist() == [5] and found.rows.tolist() == [39, 39]
+    kept = np.arange(40) != 5
+    expected = stacked(model, q[kept], qd[kept], qdd[kept], tau[kept])
+    check(found.triangles, expected)
+
+
+def ill_conditioned(spread: float, rows: int = 700, columns: int = 11) -> np.ndarray:
+    """Singular values from 1 down to `spread`, one place each."""
+    rng = np.random.default_rng(3)
+    left, _ = np.linalg.qr(rng.standard_normal((rows, columns)))
+    right, _ = np.linalg.qr(rng.standard_normal((columns, columns)))
+    return np.ascontiguousarray(left * np.geomspace(1.0, spread, columns) @ right.T)
+
+
+def test_small_singular_values_survive():
+    """Those of R are within roundings of the largest; W^T W would end at its square root."""
+    A = ill_conditioned(1e-14)
+    exact = np.linalg.svd(A, compute_uv=False)
+    pattern = fused.pattern_of([(0, c) for c in range(10)], 1, 10)
+    for level in levels():
+        found = fused.of_rows(pattern, A[:, None, :10].copy(), A[:, 10:], None, level=level)
+        values = np.linalg.svd(found.triangles[0], compute_uv=False)
+        assert np.abs(values - exact).max() < 30 * EPS
+    lost = np.sqrt(np.abs(np.linalg.eigvalsh(A.T @ A)[::-1]))
+    assert np.abs(lost - exact).max() > 1e5 * 30 * EPS
+
+
+def test_every_set_of_instructions_agrees_to_rounding():
+    model = compiled("puma560")
+    q, qd, qdd = states(6, 700)
+    tau = np.random.default_rng(4).normal(size=q.shape)
+    given = fused.Samples(q, qd, qdd, tau, None, None, None)
+    address = model._library.address(f"{model.spec.prefix}_base_regressor_nonzeros")
+    rows = stacked(model, q, qd, qdd, tau)
+    found = [
+        fused.of_samples(model.pattern, fused.Functions(address), given, level=level).triangles
+        for level in levels()
+    ]
+    for own in found:
+        check(own, rows)
+        assert np.allclose(np.abs(own), np.abs(found[0]), rtol=0, atol=1e-11 * np.abs(rows).max())
+
+
+def test_masked_rows_may_hold_anything_and_weights_multiply():
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, 501)
+    rng = np.random.default_rng(5)
+    tau, weight = rng.normal(size=q.shape), rng.uniform(0.1, 10.0, q.shape)
+    use = rng.random(q.shape) < 0.7
+    dirty = np.where(use, tau, np.nan)
+    found = wrist.triangles(q, qd, qdd, dirty, use=use, weight=np.where(use, weight, np.inf))
+    assert found.rows.tolist() == use.sum(axis=0).tolist() and not found.left_out.any()
+    rows = stacked(wrist, q, qd, qdd, tau) * weight.T[:, :, None]
+    check(found.triangles, rows * use.T[:, :, None])
+    q[~use.any(axis=1)] = np.nan  # no row of these samples is in use
+    assert not wrist.triangles(q, qd, qdd, dirty, use=use).left_out.any()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e200])
+def test_a_sample_that_is_not_finite_is_told_and_spoils_no_other(value):
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, 43)
+    tau = np.random.default_rng(6).normal(size=q.shape)
+    clean = stacked(wrist, q, qd, qdd, tau)
+    for sample, array in ((0, q), (11, qd), (30, qdd), (42, tau)):
+        kept = np.arange(43) != sample
+        before, array[sample, 2] = array[sample, 2], value
+        if not (array is q and value == 1e200):  # its sine is that of some angle
+            found = wrist.triangles(q, qd, qdd, tau)
+            assert found.left_out.nonzero()[0].tolist() == [sample]
+            assert found.rows.tolist() == [42, 42, 42]
+            check(found.triangles, clean[:, kept])
+        array[sample, 2] = before
+
+
+def test_threads_and_blocks_give_the_same_bits(monkeypatch):
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, 5 * 64 + 3)
+    tau = np.random.default_rng(7).normal(size=q.shape)
+    monkeypatch.setattr(fused, "BLOCK", 64)
+    found = []
+    for threads in (1, 2, 7):
+        monkeypatch.setattr(os, "cpu_count", lambda threads=threads: threads)
+        found.append(wrist.triangles(q, qd, qdd, tau))
+    for own in found[1:]:
+        np.testing.assert_array_equal(own.packed, found[0].packed)
+    check(found[0].triangles, stacked(wrist, q, qd, qdd, tau))
+
+
+def test_later_samples_are_added_to_a_state():
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, 333)
+    tau = np.random.default_rng(8).normal(size=q.shape)
+    state, before = None, None
+    for part in np.split(np.arange(333), [1, 8, 8, 200]):
+        before = None if state is None else (state, state.packed.copy())
+        state = wrist.triangles(q[part], qd[part], qdd[part], tau[part], state=state)
+        assert len(state.left_out) == len(part)
+        if before is not None:
+            np.testing.assert_array_equal(before[0].packed, before[1])
+    assert state.rows.tolist() == [333] * 3
+    check(state.triangles, stacked(wrist, q, qd, qdd, tau))
+
+
+def test_least_squares_of_a_triangle_is_that_of_the_rows():
+    model = compiled("puma560")
+    q, qd, qdd = states(6, 4000)
+    beta = np.random.default_rng(9).normal(size=len(model.spec.base))
+    tau = model.inverse_dynamics(q, qd, qdd, beta)
+    tau += 0.1 * np.random.default_rng(10).normal(size=tau.shape)
+    R = model.triangles(q, qd, qdd, tau).triangles.reshape(-1, len(beta) + 1)
+    W = model.observation(q, qd, qdd)
+    expected = np.linalg.lstsq(W, tau.reshape(-1), rcond=None)[0]
+    found = np.linalg.lstsq(R[:, :-1], R[:, -1], rcond=None)[0]
+    scale = np.abs(expected).max() * np.linalg.cond(W)
+    assert np.abs(found - expected).max() < 100 * EPS * scale
+
+
+@pytest.mark.parametrize("samples", [0, 5, 64, 333, 600])
+def test_products_are_those_of_rows_some_samples_apart(monkeypatch, samples):
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, samples)
+    rng = np.random.default_rng(11)
+    tau, use = rng.normal(size=q.shape), rng.random(q.shape) < 0.8
+    last = [0, 3, fused.PAST]
+    rows = stacked(wrist, q, qd, qdd, tau) * use.T[:, :, None]
+    dirty = np.where(use, tau, np.nan)
+    if samples > 20:
+        use[20, 0], dirty[20, 0] = True, np.inf
+        rows[:, 20] = 0.0  # the whole sample counts as zeros
+    for block in (fused.BLOCK, 128):
+        monkeypatch.setattr(fused, "BLOCK", block)
+        for first in (0, 1):
+            found = wrist.products(q, qd, qdd, dirty, last, use=use, first=first)
+            for j, own in enumerate(found):
+                kept = [c for c, base in enumerate(wrist.spec.base) if j in base.rows]
+                x = rows[j][:, [*kept, len(wrist.spec.base)]]
+                assert len(own) == max(last[j] + 1 - first, 0)
+                for k, product in zip(range(first, last[j] + 1), own, strict=True):
+                    expected = x[: max(samples - k, 0)].T @ x[k:]
+                    size = np.linalg.norm(x) ** 2
+                    assert np.abs(product - expected).max() <= 50 * EPS * max(size, 1e-300)
+
+
+def test_wrong_arrays_are_refused_by_name():
+    wrist = compiled("wrist")
+    q, qd, qdd = states(3, 5)
+    with pytest.raises(ShapeError, match=r"tau: got shape \(5, 2\), expected \(samples, 3\)"):
+        wrist.triangles(q, qd, qdd, np.ones((5, 2)))
+    with pytest.raises(
+        ShapeError, match=r"use: got shape \(5, 2\) of type bool, expected \(5, 3\)"
+    ):
+        wrist.triangles(q, qd, qdd, q, use=np.ones((5, 2), dtype=bool))
+    with pytest.raises(ShapeError, match=r"use: got shape \(5, 3\) of type int64"):
+        wrist.triangles(q, qd, qdd, q, use=np.ones((5, 3), dtype=np.int64))
+    with pytest.raises(ShapeError, match="different numbers of samples"):
+        wrist.triangles(q, qd, qdd, np.ones((4, 3)))

@@ -1,0 +1,141 @@
+"""Emitted C on a Cortex-M: compiled bare, looked into, run in qemu."""
+
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.core.contract import Emitted, FunctionSpec
+
+HERE = Path(__file__).resolve().parent
+
+CPUS = {
+    "cortex-m4": ("-mfpu=fpv4-sp-d16", "mps2-an386"),
+    "cortex-m7": ("-mfpu=fpv5-d16", "mps2-an500"),
+}
+"""Floating-point unit, and the machine of qemu that has it: that of the M4 knows no double."""
+
+STRICT = (
+    "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror",
+    "-Wdouble-promotion", "-Wfloat-conversion",
+)  # fmt: skip
+
+PACKAGES = {"qemu-system-arm": "qemu-system-arm"}
+
+
+def tool(name: str) -> str:
+    found = shutil.which(name)
+    if found is None:
+        package = PACKAGES.get(name, "gcc-arm-none-eabi")
+        pytest.skip(f"NOT CHECKED: {name} is not installed; on Debian: apt install {package}")
+    return found
+
+
+def command(cpu: str) -> list[str]:
+    """The compiler for that processor, with the flags of `make count`."""
+    flags = [f"-mcpu={cpu}", CPUS[cpu][0], "-mthumb", "-mfloat-abi=hard"]
+    return [tool("arm-none-eabi-gcc"), *flags, "-Os", "-ffp-contract=fast"]
+
+
+def library(emitted: Emitted, folder: Path, cpu: str, *more: str) -> list[Path]:
+    """Objects of the library, compiled without a warning."""
+    objects = []
+    for name in emitted.spec.sources:
+        (folder / name).write_text(emitted.files[name])
+    for name in emitted.spec.sources:
+        if name.endswith(".c"):
+            objects.append(folder / f"{name}.{cpu}.o")
+            flags = [*STRICT, *more, "-ffunction-sections", "-c", folder / name, "-o", objects[-1]]
+            subprocess.run([*command(cpu), *flags], check=True)
+    return objects
+
+
+def undefined(objects: Sequence[Path]) -> set[str]:
+    """What the objects want from other libraries."""
+    wanted, own = set(), set()
+    text = output([tool("arm-none-eabi-nm"), *map(str, objects)])
+    for line in text.splitlines():
+        words = line.split()
+        if len(words) == 2 and words[0] == "U":
+            wanted.add(words[1])
+        elif len(words) == 3:
+            own.add(words[2])
+    return wanted - own
+
+
+def section_bytes(path: Path, *parts: str) -> int:
+    """Bytes of the sections of an object whose names have one of these parts."""
+    text = output([tool("arm-none-eabi-size"), "-A", str(path)])
+    rows = [line.split() for line in text.splitlines()[2:] if line.startswith(".")]
+    return sum(int(row[1]) for row in rows if any(part in row[0] for part in parts))
+
+
+def run(
+    emitted: Emitted,
+    folder: Path,
+    cpu: str,
+    calls: Sequence[tuple[FunctionSpec, Mapping[str, np.ndarray]]],
+) -> list[np.ndarray]:
+    """Outputs, (n, ...), of functions on that processor; inputs are (n, length)."""
+    objects = library(emitted, folder, cpu)
+    number = "float" if emitted.spec.precision == "single" else "double"
+    lines = [f'#include "{emitted.spec.prefix}.h"', '#include "board.h"']
+    lines += ["int main(void)", "{"]
+    for function, inputs in calls:
+        lines += call_lines(function, inputs, number)
+    lines += ["    return 0;", "}"]
+    (folder / "main.c").write_text("\n".join(lines) + "\n")
+    board = ["-nostartfiles", "-Wl,-emain", "-Wl,--section-start=.vectors=0"]
+    board += ["-Wl,-Ttext=0x400", "-Wl,-Tdata=0x20000000", "-I", str(HERE)]
+    program = folder / "main.elf"
+    build = [*command(cpu), *board, "-o", program, folder / "main.c", *objects, "-lm"]
+    subprocess.run(build, check=True)
+    machine = [tool("qemu-system-arm"), "-M", CPUS[cpu][1], "-display", "none", "-serial", "none"]
+    machine += ["-monitor", "none", "-chardev", "stdio,id=out"]
+    machine += ["-semihosting-config", "enable=on,target=native,chardev=out"]
+    said = output([*machine, "-kernel", str(program)])
+    return arrays(said.split(), calls, np.dtype("<f4" if number == "float" else "<f8"))
+
+
+def call_lines(function: FunctionSpec, inputs: Mapping[str, np.ndarray], number: str) -> list[str]:
+    """C that calls a function for every sample and says the bytes of its output."""
+    suffix = "f" if number == "float" else ""
+    names = [argument.name for argument in function.inputs]
+    lines = ["    {"]
+    for name in names:
+        values = ", ".join(f"{float(x).hex()}{suffix}" for x in inputs[name].ravel())
+        lines.append(f"        static const {number} {name}[] = {{ {values} }};")
+    size = int(np.prod(function.outputs[0].shape))
+    samples = len(inputs[names[0]])
+    at = ", ".join(f"{name} + {inputs[name].shape[1]}*i" for name in names)
+    return [
+        *lines,
+        f"        static {number} out[{size}];",
+        f"        for (int i = 0; i < {samples}; i++) {{",
+        f"            {function.name}({at}, out);",
+        "            say_bytes(out, sizeof out);",
+        "        }",
+        "    }",
+    ]
+
+
+def arrays(
+    said: Sequence[str],
+    calls: Sequence[tuple[FunctionSpec, Mapping[str, np.ndarray]]],
+    kind: np.dtype,
+) -> list[np.ndarray]:
+    """What was said, as arrays in double precision."""
+    lines = iter(said)
+    found = []
+    for function, inputs in calls:
+        samples = len(next(iter(inputs.values())))
+        numbers = [np.frombuffer(bytes.fromhex(next(lines)), kind) for _ in range(samples)]
+        found.append(np.array(numbers, float).reshape(samples, *function.outputs[0].shape))
+    return found
+
+
+def output(words: Sequence[str]) -> str:
+    return subprocess.run(words, check=True, capture_output=True, text=True, timeout=120).stdout

@@ -1,0 +1,265 @@
+"""Logs read in chunks: the rows, the fit and the report are those of the whole log."""
+
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+from stand_in import planar_arm
+from test_observation_rows import exact_log, some_beta
+
+from modeler.core.errors import DataError
+from modeler.fit import identify, streamed
+from modeler.fit.long import identify_long
+from modeler.fit.partial import merge_all, reduce_chunk
+from modeler.fit.streamed import WholeNeeded, stream
+from modeler.observation import Processing, observe
+from modeler.observation.chunk import chunks, margin
+from modeler.observation.motion import low_pass
+from modeler.observation.source import MemorySource, cut
+from modeler.observation.survey import Known, survey
+
+ROWS = 1024  # of a chunk
+ARM = planar_arm()
+BETA = some_beta(ARM)
+
+
+def noisy_log(seconds=40.0, rate=200, logged=False, seed=0):
+    """A motion with noise on torque and position, so that every choice of rows leaves a trace."""
+    log = exact_log(ARM, BETA, seed=seed, seconds=seconds, rate=rate, logged=logged)
+    random = np.random.default_rng(100 + seed)
+    return dataclasses.replace(
+        log,
+        tau=log.tau + random.normal(scale=0.1, size=log.tau.shape),
+        q=log.q + random.normal(scale=1e-5, size=log.q.shape),
+    )
+
+
+def in_phase(log, processing=None):
+    """The log without some last rows, so that the rows of W lie as from its beginning on."""
+    every = observe(ARM, [log], processing).report.logs[0].decimation
+    for shorter in range(2 * every):
+        some = cut(log, slice(0, log.rows - shorter))
+        centres = observe(ARM, [some], processing).stretches[0].rows.centres
+        if centres[0] % every == (every - 1) // 2:
+            return some
+    raise AssertionError("no such length")
+
+
+def both(log, processing=None, rows=ROWS):
+    """The fit of the whole log, and that of its chunks, with their reports."""
+    seen = observe(ARM, [log], processing)
+    long = stream(ARM, [MemorySource(log)], processing, rows=rows)
+    return identify(seen), identify_long(long), seen.report, long.observation.report
+
+
+def same_counts(whole, chunked):
+    """What is told of the logs and of the joints."""
+    for one, other in zip(whole.logs, chunked.logs, strict=True):
+        for name in ("rows", "missing", "saturated", "gaps", "pieces", "short", "samples",
+                     "derivatives", "decimation", "contradicted", "span"):  # fmt: skip
+            assert getattr(one, name) == getattr(other, name), name
+        assert one.longest_gap == pytest.approx(other.longest_gap)
+        assert [(d.column, d.kind, d.times, d.samples, d.line) for d in one.damages] == [
+            (d.column, d.kind, d.times, d.samples, d.line) for d in other.damages
+        ]
+    assert [j.line() for j in whole.joints] == [j.line() for j in chunked.joints]
+    assert whole.processing == chunked.processing
+
+
+@pytest.mark.parametrize("logged", [False, True])
+@pytest.mark.parametrize("cutoff", [None, 0.0])
+def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
+    """To 1e-9 of sigma: what the position filter forgot beyond a margin is 3e-13 of the motion."""
+    processing = Processing(parallel_cutoff=cutoff)
+    log = in_phase(noisy_log(logged=logged), processing)
+    whole, chunked, told, told_chunked = both(log, processing)
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    np.testing.assert_allclose((chunked.beta - whole.beta) / sigma, 0.0, atol=1e-6)
+    np.testing.assert_allclose(chunked.covariance, whole.covariance, rtol=1e-6)
+    assert chunked.rows == whole.rows and chunked.samples == whole.samples
+    assert chunked.relative_error == pytest.approx(whole.relative_error, rel=1e-9)
+    assert chunked.reading["chunks"] == -(-log.rows // ROWS) and chunked.reading["passes"] == 1
+    same_counts(told, told_chunked)
+    assert "chunks" in told_chunked.lines()[1]
+
+
+def test_of_another_length_rows_lie_elsewhere_and_the_fit_stays_within_sigmas():
+    """Rows half a spacing apart correlate by exp(-(0.2 / 0.265)^2) = 0.57: 0.93 sigma apart."""
+    whole, chunked, _, _ = both(noisy_log(seconds=33.337))
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
+
+
+def test_a_chunk_is_filtered_as_the_whole_log_but_for_what_the_filter_forgot():
+    """exp(-2.4 x 12) = 3e-13 of the leap that the extension at the margin's end makes."""
+    random = np.random.default_rng(3)
+    values = np.cumsum(random.normal(size=(6000, 2)), axis=0)
+    for cutoff in (3.0, 30.0, 80.0):
+        beside = margin(Processing(position_cutoff=cutoff, parallel_cutoff=0.0), 5e-3)
+        whole = low_pass(values, 5e-3, cutoff)
+        part = low_pass(values[3000 - beside : 4000 + beside], 5e-3, cutoff)
+        left = np.abs(part[beside:-beside] - whole[3000:4000]).max()
+        assert left < 1e-11 * np.ptp(values[3000 - beside : 4000 + beside])
+        short = low_pass(values[3000 - beside // 8 : 4000 + beside // 8], 5e-3, cutoff)
+        assert np.abs(short[beside // 8 : -(beside // 8)] - whole[3000:4000]).max() > 1e3 * left
+
+
+def test_rows_are_one_chunks_own_each_and_in_order():
+    log = noisy_log(seconds=30.0)
+    found = list(chunks(MemorySource(log), ROWS, 200))
+    assert [chunk.start for chunk in found] == list(range(0, log.rows, ROWS))
+    own = np.concatenate([chunk.log.time[chunk.own] for chunk in found])
+    np.testing.assert_array_equal(own, log.time)
+    assert [chunk.last for chunk in found] == [False] * (len(found) - 1) + [True]
+    inner = found[2]
+    assert inner.own == slice(200, 200 + ROWS) and inner.log.rows == ROWS + 400
+
+
+def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whole_log():
+    log = noisy_log(seconds=40.0)
+    q, tau = log.q.copy(), log.tau.copy()
+    q[ROWS - 3 : ROWS + 2, 0] = np.nan  # bridged across a border
+    q[2 * ROWS - 40 : 2 * ROWS + 300, 1] = np.nan  # a gap over a border and beyond its margin
+    tau[3 * ROWS - 10 : 3 * ROWS + 10, 0] = np.nan
+    tau[:, 1] = np.clip(tau[:, 1], -np.inf, 0.7 * tau[:, 1].max())
+    tau[4 * ROWS + 5, 0] += 40.0 * np.ptp(log.tau[:, 0])
+    q[5 * ROWS - 1, 1] += 2.0
+    segment = np.zeros(log.rows)
+    segment[6 * ROWS + 100 :] = 1.0
+    time = log.time.copy()
+    time[4 * ROWS + 500 :] += 1.0
+    damaged = dataclasses.replace(log, q=q, tau=tau, time=time, segment=segment,
+                                  missing={"q1": 5, "q2": 340, "tau1": 20})  # fmt: skip
+    whole, chunked, told, told_chunked = both(damaged)
+    for one, other in zip(told.logs, told_chunked.logs, strict=True):
+        for name in ("rows", "missing", "saturated", "gaps", "pieces", "short"):
+            assert getattr(one, name) == getattr(other, name), name
+        assert [(d.column, d.kind, d.times) for d in one.damages] == [
+            (d.column, d.kind, d.times) for d in other.damages
+        ]
+    assert chunked.rows == pytest.approx(whole.rows, abs=10)
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
+
+
+@pytest.fixture
+def small_windows(monkeypatch):
+    """A survey that sees little of a short log."""
+    for name, value in (("WINDOW", 512), ("SECONDS", 1.0), ("WINDOWS", 4)):
+        monkeypatch.setattr(f"modeler.observation.survey.{name}", value)
+
+
+def test_windows_choose_for_all_rows(small_windows):
+    log = noisy_log(seconds=60.0)
+    long = stream(ARM, [MemorySource(log)], rows=ROWS)
+    assert long.reading == {
+        "passes": 1, "chunks": -(-log.rows // ROWS), "rows": log.rows, "windows": 4,
+        "rows_in_windows": 4 * 512,
+    }  # fmt: skip
+    assert 0.1 < long.share < 0.2
+    fit = identify_long(long)
+    sigma = np.array([parameter.sigma for parameter in fit.parameters])
+    assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
+
+
+def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
+    """A chunk alone takes its largest torque for the limit; the whole log knows better."""
+    log = noisy_log(seconds=60.0)
+    tau = log.tau.copy()
+    at = 3 * ROWS + 600  # a run of one value with leaps into and out of it, but below the largest
+    tau[at : at + 8, 0] = 1.5 * tau[3 * ROWS - 200 : 4 * ROWS + 200, 0].max()
+    tau[7 * ROWS + 10 : 7 * ROWS + 60, 0] = 3.0 * np.abs(tau[:, 0]).max()
+    limited = dataclasses.replace(log, tau=tau)
+    long = stream(ARM, [MemorySource(limited)], Processing(keep_damaged=True), rows=ROWS)
+    assert long.reading["passes"] == 2
+    seen = observe(ARM, [limited], Processing(keep_damaged=True))
+    assert long.observation.report.logs[0].saturated == seen.report.logs[0].saturated == {"1": 50}
+
+
+def test_a_joint_that_rests_where_windows_are_is_not_left_out(small_windows):
+    log = noisy_log(seconds=60.0)
+    moving = np.zeros(log.rows)
+    moving[200:1000] = np.hanning(800)
+    q = log.q.copy()
+    q[:, 1] = 0.3 + 0.5 * moving * np.sin(8.0 * log.time)
+    qd = np.gradient(q, log.step, axis=0)
+    tau = ARM.base_regressor(q, qd, np.gradient(qd, log.step, axis=0)) @ BETA
+    resting = dataclasses.replace(log, q=q, tau=tau + 0.01 * log.tau)
+    long = stream(ARM, [MemorySource(resting)], rows=ROWS)
+    assert long.reading["passes"] == 2
+    assert 0.0 < long.observation.report.joints[1].speed_floor < np.inf
+    assert long.data.rows[1] > 10
+
+
+def test_another_zero_of_an_encoder_needs_the_whole_log():
+    log = noisy_log()
+    q = log.q.copy()
+    q[3 * ROWS :, 0] += 0.7
+    with pytest.raises(WholeNeeded, match=r"q1 counts from another zero from 15\.36 s on.*@:15.36"):
+        stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
+
+
+def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
+    log = noisy_log()
+    one = stream(ARM, [MemorySource(log)], rows=ROWS)
+    monkeypatch.setattr("modeler.fit.streamed.cpu_count", lambda: 5)
+    many = stream(ARM, [MemorySource(log)], rows=ROWS)
+    np.testing.assert_array_equal(one.data.triangles, many.data.triangles)
+    source = MemorySource(log)
+    chosen = survey(ARM, [source], Processing(), Known(), ROWS).chosen[0]
+    parts = []
+    for chunk in chunks(source, chosen.own, chosen.beside):
+        sent = pickle.loads(pickle.dumps((chunk, chosen)))
+        parts.append(pickle.loads(pickle.dumps(reduce_chunk(ARM, *sent))))
+    np.testing.assert_array_equal(merge_all(parts).data.triangles, one.data.triangles)
+
+
+def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
+    log, begun = noisy_log(), []
+
+    def broken(model, chunk, chosen):
+        begun.append(chunk.number)
+        if chunk.number == 1:
+            raise KeyboardInterrupt
+        return reduce_chunk(model, chunk, chosen)
+
+    monkeypatch.setattr(streamed, "reduce_chunk", broken)
+    monkeypatch.setattr("modeler.fit.streamed.cpu_count", lambda: 1)
+    with pytest.raises(KeyboardInterrupt):
+        stream(ARM, [MemorySource(log)], rows=512)
+    assert len(begun) < 6 < log.rows / 512
+
+
+@pytest.mark.parametrize("method", ["weighted", "ordinary"])
+def test_sigmas_of_windows_are_those_of_all_rows(method, small_windows):
+    """Coloured residuals: the factor on the sigmas of all rows, from a sixth of them."""
+    log = noisy_log(seconds=120.0)
+    pole = np.exp(-log.step / 0.2)
+    white = np.random.default_rng(8).normal(size=log.tau.shape)
+    noise = np.sqrt(1.0 - pole**2) * lfilter([1.0], [1.0, -pole], white, axis=0)
+    log = dataclasses.replace(log, tau=log.tau + noise)
+    whole = identify(observe(ARM, [log]), method)
+    long = identify_long(stream(ARM, [MemorySource(log)], rows=ROWS), method)
+    ratio = np.sqrt(np.diag(long.covariance) / np.diag(whole.covariance))
+    assert np.all((ratio > 0.5) & (ratio < 2.0)) and np.median(ratio) == pytest.approx(1, abs=0.25)
+    assert long.essential is not None
+
+
+def test_methods_that_need_every_row_are_refused_in_a_line():
+    long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
+    with pytest.raises(DataError, match="method robust reads every row again"):
+        identify_long(long, "robust")
+
+
+def test_uneven_stamps_fit_as_well_in_chunks():
+    """Each chunk has a uniform grid of its own; whole or not, stamps that are true cost nothing."""
+    fine, random = noisy_log(rate=2000), np.random.default_rng(6)
+    rows = np.arange(10, fine.rows - 10, 10) + random.integers(-2, 3, (fine.rows - 20) // 10)
+    uneven = dataclasses.replace(fine, time=fine.time[rows], q=fine.q[rows], tau=fine.tau[rows])
+    whole, chunked, told, told_chunked = both(uneven)
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
+    assert told_chunked.logs[0].resampled == 1
+    assert told_chunked.logs[0].jitter == pytest.approx(told.logs[0].jitter, rel=0.05)

@@ -1,0 +1,158 @@
+"""Whole fleets with the truth known: quiet where nothing drifts, right where something does."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError
+from modeler.fleet import Fleet, Left, Named, fleet_of
+from modeler.fleet.result import Finding
+from modeler.fleet.text import fleet_lines, sentence
+from tests.fleet.machines import Planted, Scene, compiled, summaries
+
+
+def fleet(scene: Scene, seed: int, robot: str = "two-link") -> Fleet:
+    return fleet_of(compiled(robot).spec, summaries(scene, seed, robot))
+
+
+def told(found: Fleet) -> list[tuple[str, str, str]]:
+    return [(one.machine, one.quantity.parameter, one.shape) for one in found.findings]
+
+
+def test_fifty_fleets_without_drift_are_quiet() -> None:
+    """5 % of them may show anything at all: 6 and more of 50 have a chance of 4 %."""
+    scene = Scene(machines=2, periods=4, noise=0.05)
+    assert sum(bool(fleet(scene, seed).findings) for seed in range(300, 350)) <= 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("daily", [0.0, 0.03])
+@pytest.mark.parametrize(("machines", "periods"), [(1, 8), (4, 6), (8, 3), (12, 1)])
+def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily: float) -> None:
+    """Of all sizes, with friction that scatters from day to day: 5 % and two sigma of 60."""
+    scene = Scene(machines=machines, periods=periods, daily=daily, apart=0.2)
+    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 660)) <= 3 + 3
+
+
+DAYS = 10
+PLANTED = {
+    "viscous 30 % in 10 days": ("Fv2", tuple(0.3 * np.linspace(0.0, 1.0, DAYS)), "trend", 30.0),
+    "Coulomb 40 % at once": ("Fs2", (0.0,) * 4 + (0.4,) * 6, "jump", 40.0),
+    "gain 5 % at once": ("gain2", (0.0,) * 6 + (0.05,) * 4, "jump", 5.0),
+    "gain of the first joint": ("gain1", tuple(-0.1 * np.linspace(0.0, 1.0, DAYS)), "trend", -10.0),
+    "Coulomb on one day": ("Fs2", (0.0,) * 5 + (0.5,) + (0.0,) * 4, "one period", 50.0),
+}
+
+
+@pytest.mark.parametrize("case", PLANTED)
+@pytest.mark.parametrize("seed", [901, 902])
+def test_what_is_planted_is_found_and_nothing_else(case: str, seed: int) -> None:
+    name, plan, shape, percent = PLANTED[case]
+    found = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), seed)
+    parameter = name.replace("gain", "gain ")
+    assert told(found) == [("r2", parameter, shape)]
+    [one] = found.findings
+    assert one.percent == pytest.approx(percent, rel=0.35)
+    size = one.change if one.quantity.unit == "%" else one.percent / 100.0 * abs(one.before)
+    assert abs(size - one.change) < 1e-9 and abs(one.score) > 4.0 and one.chance < 0.025
+    assert found.verdict == "drift" and found.as_dict()["findings"][0]["machine"] == "r2"
+
+
+def test_an_offset_that_leaps_is_found() -> None:
+    plan = (0.0,) * 3 + (4.0,) * 3
+    found = fleet(Scene(machines=2, planted=(Planted(0, "Off1", plan),)), 7, "demo-arm")
+    assert told(found) == [("r1", "Off1", "jump")]
+    assert found.findings[0].percent is None  # an offset has no size of its own
+    assert "joint 1: constant torque offset (Off1) leaps " in sentence(found.findings[0], "days")
+
+
+@pytest.mark.parametrize("robot", ["two-link", "demo-arm"])
+def test_a_load_is_no_gain(robot: str) -> None:
+    """0.8 kg on the last link weigh on several joints; a gain of one joint is not told."""
+    plan = (0.0,) * 2 + (0.8,) * 4
+    found = fleet(Scene(planted=(Planted(2, "load", plan),)), 31, robot)
+    assert told(found) == [("r3", "load", "jump")]
+    [one] = found.findings
+    assert one.change == pytest.approx(0.8, rel=0.2) and one.quantity.joint is None
+    assert "machine r3: load on the last link leaps up by 0." in sentence(one, "periods")
+
+
+def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
+    """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
+    plans = (Planted(4, "gain2", (0.0,) * 5 + (0.05,) * 5),
+             Planted(2, "load", (0.0,) * 4 + (2.0,) * 6))  # fmt: skip
+    scene = Scene(machines=6, periods=DAYS, daily=0.02, duration=20.0, planted=plans)
+    found = fleet(scene, 5, "ur10e")
+    assert set(told(found)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}
+
+
+def test_friction_in_units_of_a_drifting_gain_does_not_drift() -> None:
+    """A gain that falls by 40 % takes the logged friction with it: one cause, one finding."""
+    plan = (0.0,) * 3 + (-0.4,) * 3
+    found = fleet(Scene(planted=(Planted(0, "gain2", plan),)), 12)
+    assert told(found) == [("r1", "gain 2", "jump")]
+
+
+def test_an_odd_machine_is_found() -> None:
+    """One of eight rubs three times as much, another pulls 10 % more; all days alike."""
+    plans = (Planted(3, "Fv2", (2.0, 2.0)), Planted(5, "gain1", (0.1, 0.1)))
+    found = fleet(Scene(machines=8, periods=2, apart=0.05, planted=plans), 5)
+    assert set(told(found)) == {("r4", "Fv2", "odd machine"), ("r6", "gain 1", "odd machine")}
+    assert found.verdict == "odd machine"
+    assert any("above that of the other machines" in sentence(f, "days") for f in found.findings)
+
+
+def warm(scene: Scene, seed: int, others: bool) -> Finding:
+    """The finding in a machine that warms; the others too, or not."""
+    reduced = summaries(dataclasses.replace(scene, warm=True), seed)
+    if not others:
+        reduced = [
+            each if each.named.machine == "r1" else dataclasses.replace(each, temperatures={})
+            for each in reduced
+        ]
+    [one] = fleet_of(compiled().spec, reduced).findings
+    return one
+
+
+def test_a_temperature_that_moves_along_is_told() -> None:
+    plan = tuple(0.3 * np.linspace(0.0, 1.0, 6))
+    scene = Scene(machines=4, planted=(Planted(0, "Fv2", plan),))
+    alone, together = (warm(scene, 3, others) for others in (False, True))
+    assert alone.warmth is not None and alone.warmth.along and alone.warmth.shared is None
+    assert "may be the cause: compare periods of one temperature" in sentence(alone, "days")
+    assert together.warmth is not None and together.warmth.shared is False
+    assert "but machines that warm alike do not change so" in sentence(together, "days")
+    leap = Scene(machines=4, planted=(Planted(0, "Fv2", (0.0,) * 5 + (0.4,)),))
+    sudden = warm(leap, 3, False)
+    assert sudden.warmth is not None and not sudden.warmth.along  # a line is no leap
+    all_ = Scene(machines=4, planted=tuple(Planted(m, "Fv2", plan) for m in range(4)))
+    reduced = summaries(dataclasses.replace(all_, warm=True), 3)
+    findings = fleet_of(compiled().spec, reduced).findings
+    assert findings and all(f.warmth is not None and f.warmth.shared for f in findings)
+
+
+def test_what_cannot_be_compared_is_refused() -> None:
+    spec, one = compiled().spec, summaries(Scene(machines=2, periods=1), 1)
+    with pytest.raises(DataError, match="got one log each of r1, r2; expected two periods of a ma"):
+        fleet_of(spec, one)
+    gone = [Left(Named("r1", "a", "r1/a.csv"), "r1/a.csv: there is no such file")]
+    with pytest.raises(DataError, match=r"none of 1 logs can be used; the first: r1/a.csv: t"):
+        fleet_of(spec, gone)
+    scene = Scene(machines=1, periods=2)
+    twice = [dataclasses.replace(each, content="x") for each in summaries(scene, 1)]
+    with pytest.raises(DataError, match=r"r1/day2.csv: got rows of r1/day1.csv again; expected ea"):
+        fleet_of(spec, twice)
+
+
+def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
+    given = [*summaries(Scene(machines=2, periods=3), 1)]
+    late = dataclasses.replace(given[0], named=Named("r9", "day1", "r9/day1.csv"))
+    left = Left(Named("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
+    found = fleet_of(compiled().spec, [*given, late, left])
+    lines = "\n".join(fleet_lines(found))
+    assert found.left == (("r1/day9.csv", "r1/day9.csv: damaged"),) and "left out: r1/day9" in lines
+    assert "r9: one period, so a drift of its own cannot be seen" in lines
+    assert "3 machines: an odd one among fewer than 5 is not told" in lines
+    assert found.verdict == "nothing drifts" and found.logs == 7
+    assert found.as_dict()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]

@@ -1,0 +1,202 @@
+"""Parquet and CSV files read block by block: the same rows, and one line for what is wrong."""
+
+import dataclasses
+import os
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+import pytest
+
+from modeler.core.errors import DataError
+from modeler.logs import map_from_table
+from modeler.logs.blocks import blocks_of
+from modeler.observation.log import finger, fingerprint, fingerprint_of
+from modeler.observation.read import read_log
+from modeler.observation.source import joined, source_of
+
+SIZE = 150
+
+
+def written(path, columns, group=400):
+    table = pa.table(columns)
+    if path.suffix == ".csv":
+        pa.csv.write_csv(table, path)
+    else:
+        pa.parquet.write_table(table, path, row_group_size=group)
+    return path
+
+
+def values(columns, name):
+    (found,) = [column for own, column in columns.columns if own == name]
+    return found.numbers()
+
+
+@pytest.mark.parametrize("ending", [".parquet", ".csv"])
+def test_blocks_are_the_rows_of_the_file(ending, tmp_path):
+    x = np.arange(1730.0)
+    path = written(tmp_path / f"run{ending}", {"time": x, "q1": np.sin(x), "text": ["a"] * 1730})
+    blocks = blocks_of(path)
+    assert blocks.rows == pytest.approx(1730, rel=0.2)
+    found = list(blocks.blocks(SIZE, ["q1"]))
+    assert [name for name, _ in found[0].columns] == ["q1"] and len(found) > 8
+    np.testing.assert_array_equal(np.concatenate([values(b, "q1") for b in found]), np.sin(x))
+    window = blocks.window(0.5, 100)
+    time = values(window, "time")
+    np.testing.assert_array_equal(np.diff(time), 1.0)
+    assert len(time) == pytest.approx(100, abs=12) and 0.4 * 1730 < time[0] < 0.6 * 1730
+    assert len(values(blocks.window(0.99, 100), "time")) == pytest.approx(100, abs=12)
+    assert blocks_of(tmp_path / "run.mat") is None
+
+
+def log_columns(compiled, rows=3000, seed=1):
+    random = np.random.default_rng(seed)
+    names = [joint.name for joint in compiled.spec.joints]
+    time = np.arange(rows) * 0.01
+    return {
+        "time": time,
+        **{f"q{n}": np.sin(time + k) for k, n in enumerate(names)},
+        **{f"tau{n}": random.normal(size=rows) for n in names},
+        "temperature": np.where(np.arange(rows) % 700 == 0, 20.0 + time, np.nan),
+        "note": random.normal(size=rows),
+    }
+
+
+@pytest.mark.parametrize("ending", [".parquet", ".csv"])
+def test_a_source_gives_the_log_that_is_read_whole(ending, tmp_path, case):
+    spec = case.compiled.spec
+    columns = log_columns(case.compiled)
+    columns["tau1"][5:9] = np.nan
+    path = written(tmp_path / f"run{ending}", columns)
+    whole = read_log(path, spec)
+    source = source_of(path, spec)
+    parts = list(source.blocks(SIZE))
+    log = joined(parts)
+    assert len(parts) > 10 and source.name == whole.name
+    for name in ("time", "q", "tau"):
+        np.testing.assert_array_equal(getattr(log, name), getattr(whole, name))
+    assert log.torque_source == whole.torque_source and set(log.extra) == {"temperature"}
+    assert log.missing["tau1"] == 4
+    slow, true = log.extra["temperature"], whole.extra["temperature"]
+    assert np.abs(slow - true).max() < 7.1  # a block without a value keeps the last
+
+
+def test_the_fingerprint_of_a_long_log_is_that_of_its_blocks(monkeypatch):
+    random = np.random.default_rng(2)
+    time, q = np.arange(900.0), random.normal(size=(900, 2))
+    assert fingerprint(time, q) != fingerprint(time + 1.0, q)
+    short = fingerprint(time, q)
+    monkeypatch.setattr("modeler.observation.log.LONG", 500)
+    monkeypatch.setattr("modeler.observation.log.FINGER", 256)
+    parts = [finger(time[k : k + 256], q[k : k + 256]) for k in range(0, 900, 256)]
+    assert fingerprint(time, q) == fingerprint_of(parts) != short
+
+
+@pytest.mark.parametrize("ending", [".parquet", ".csv"])
+def test_units_rates_and_names_are_mapped_in_blocks(ending, tmp_path, case):
+    spec = case.compiled.spec
+    columns = log_columns(case.compiled)
+    columns = {k: v for k, v in columns.items() if k not in ("time", "temperature", "note")}
+    path = written(
+        tmp_path / f"run{ending}",
+        {f"pos{k[1:]}" if k[0] == "q" else k: np.degrees(v) if k[0] == "q" else v
+         for k, v in columns.items()},
+    )  # fmt: skip
+    mapping = map_from_table({"q<j>": "pos{j} [deg]", "rate": 100.0}, "here")
+    whole, log = (
+        read_log(path, spec, mapping),
+        joined(list(source_of(path, spec, mapping).blocks(200))),
+    )
+    np.testing.assert_array_equal(log.time, whole.time)
+    np.testing.assert_array_equal(log.q, whole.q)
+    np.testing.assert_allclose(log.q[:, 0], columns["q1"], atol=1e-12)
+
+
+def broken(kind, path, columns):
+    """A log with something wrong far behind its beginning."""
+    if kind == "time":
+        columns["time"][1200] = columns["time"][1199]
+    if kind == "border":
+        columns["time"][SIZE * 8 :] -= 1.0
+    if kind == "no time":
+        columns["time"][1500] = np.nan
+    path = written(path, columns)
+    if kind == "group":
+        content = bytearray(path.read_bytes())
+        place = len(content) // 2
+        content[place : place + 4000] = bytes(range(250)) * 16
+        path.write_bytes(content)
+    if kind == "entries":
+        lines = path.read_text().splitlines()
+        lines[2000] = lines[2000].rsplit(",", 2)[0]
+        path.write_text("\n".join(lines) + "\n")
+    if kind == "word":
+        lines = path.read_text().splitlines()
+        lines[2000] = ",".join(["oops", *lines[2000].split(",")[1:]])
+        path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+WRONG = [
+    (".parquet", "time", r"run\.parquet: column time, row 1201: 11\.99 s after 11\.99 s; expected"),
+    (".csv", "time", r"run\.csv: column time, row 1201: 11\.99 s after 11\.99 s; expected"),
+    (".parquet", "border", r"column time, row 1201: 11 s after 11\.99 s; expected increasing"),
+    (".parquet", "no time", r"column time, row 1501: no value"),
+    (".parquet", "group", r"run\.parquet: cannot be read as PARQUET beyond row \d+ \(.*; copy it"),
+    (".csv", "entries", r"run\.csv: cannot be read as CSV \(.*Row #2001.*Expected"),
+    (".csv", "word", r'run\.csv: column time, row 2000: got "oops"; expected a number'),
+]
+
+
+@pytest.mark.parametrize(("ending", "kind", "line"), WRONG)
+def test_what_is_wrong_in_the_middle_is_one_line_that_names_the_row(
+    ending, kind, line, tmp_path, case
+):
+    path = broken(kind, tmp_path / f"run{ending}", log_columns(case.compiled))
+    source = source_of(path, case.compiled.spec)
+    with pytest.raises(DataError, match=line) as told:
+        list(source.blocks(SIZE))
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize("ending", [".parquet", ".csv"])
+@pytest.mark.parametrize("what", ["shrinks", "grows", "goes"])
+def test_a_file_that_changes_while_it_is_read_is_refused(ending, what, tmp_path, case):
+    path = written(tmp_path / f"run{ending}", log_columns(case.compiled))
+    blocks = source_of(path, case.compiled.spec).blocks(SIZE)
+    next(blocks)
+    size = path.stat().st_size
+    if what == "goes":
+        path.unlink()
+    else:
+        with path.open("r+b") as file:
+            os.ftruncate(file.fileno(), size // 2 if what == "shrinks" else size)
+            file.seek(0, 2)
+            file.write(b"\n" if what == "grows" else b"")
+    expected = "went away while it was read" if what == "goes" else "was written to while it was"
+    with pytest.raises(DataError, match=expected):
+        list(blocks)
+
+
+def test_a_temperature_that_never_came_is_told(tmp_path, case):
+    columns = log_columns(case.compiled)
+    columns["temperature"][:] = np.nan
+    columns["temperature"][2500] = 20.0
+    source = source_of(written(tmp_path / "run.parquet", columns), case.compiled.spec)
+    with pytest.raises(DataError, match=r"temperature has no values from 0 to 1\.49 s; record"):
+        list(source.blocks(SIZE))
+
+
+def test_joined_parts_keep_every_column(case, tmp_path):
+    columns = log_columns(case.compiled)
+    columns["segment"] = np.repeat(np.arange(30.0), 100)
+    for name in [joint.name for joint in case.compiled.spec.joints]:
+        columns[f"qd{name}"] = columns[f"qdd{name}"] = columns[f"qc{name}"] = columns[f"q{name}"]
+    path = written(tmp_path / "run.parquet", columns)
+    whole = read_log(path, case.compiled.spec)
+    log = joined(list(source_of(path, case.compiled.spec).blocks(SIZE)))
+    for field in dataclasses.fields(whole):
+        one, other = getattr(whole, field.name), getattr(log, field.name)
+        if isinstance(one, np.ndarray):
+            np.testing.assert_array_equal(one, other)

@@ -1,0 +1,116 @@
+"""Samples with which loops cannot be closed: told, and left out of what is fitted and judged."""
+
+import json
+
+import numpy as np
+import pytest
+from test_observation_rows import some_beta
+
+from modeler.cli import main
+from modeler.core.errors import LoopError
+from modeler.observation import Log, Processing, observe
+from modeler.observation.closable import nearest_closed
+from modeler.observation.masks import MASKS, masks_of
+from tests.modules import compiled
+
+OUTWARD = np.array(
+    [-1.0, 1.0]
+)  # the arms of the five-bar part until both distal ones are stretched
+
+
+def motion(reach, seconds=12.0):
+    """(t, q, qd, qdd) of the five-bar; beyond about 0.945 rad it comes to where it cannot go."""
+    closure = compiled("five-bar").spec.closure
+    home = np.asarray(closure.home)[list(closure.given)]
+    t = np.arange(0.0, seconds, 0.005)
+    waves = ((reach, 4.4, 0.0, OUTWARD), (0.12, 8.2, 0.3, np.ones(2)))
+    q, qd, qdd = (
+        sum(np.outer(a * w**k * np.sin(w * t + p + 0.5 * k * np.pi), d) for a, w, p, d in waves)
+        for k in range(3)
+    )
+    return t, home + q, qd, qdd
+
+
+def log_of(reach, noise=0.0):
+    """A log, noise in N m, and (n,) True where the loops cannot be closed."""
+    model = compiled("five-bar")
+    t, q, qd, qdd = motion(reach)
+    there = model.closing_status(q) == 0
+    tau = np.zeros_like(q)
+    phi = model.base_regressor(q[there], qd[there], qdd[there])
+    tau[there] = phi @ some_beta(model)
+    tau += np.random.default_rng(1).normal(scale=noise, size=tau.shape)
+    return Log("run", ("11", "12"), t, q, tau, qd, qdd), ~there
+
+
+def written(path, log):
+    """The log as a file."""
+    columns = [log.time, *log.q.T, *log.qd.T, *log.qdd.T, *log.tau.T]
+    names = [
+        "time",
+        *(f"{name}{joint}" for name in ("q", "qd", "qdd", "tau") for joint in (11, 12)),
+    ]
+    np.savetxt(path, np.column_stack(columns), delimiter=",", header=",".join(names), comments="")
+    return path
+
+
+def test_the_fit_does_without_the_samples_that_cannot_close():
+    model = compiled("five-bar")
+    log, open_ = log_of(0.95)
+    assert 5 < open_.sum() < 40
+    as_logged = Processing(
+        parallel_cutoff=0.0, decimation=1, low_speed=0.0,
+        keep_saturated=True, keep_contradicted=True, keep_damaged=True,
+    )  # fmt: skip
+    seen = observe(model, [log], as_logged)
+    assert not seen.used[open_].any()
+    assert seen.used[~open_].all()
+    assert (masks_of(seen)[open_] == MASKS.index("loops open")).all()
+    assert np.isfinite(seen.columns).all()
+    found = np.linalg.lstsq(seen.W, seen.y, rcond=None)[0]
+    np.testing.assert_allclose(found, some_beta(model), rtol=1e-7)
+    (line,) = (line for line in seen.report.doubts() if "closed" in line)
+    assert f"at {open_.sum()} of {len(log.time)} samples" in line
+    assert f"first at {log.time[open_][0]:.6g} s" in line
+
+
+def test_the_nearest_posture_that_closes_stands_in():
+    model = compiled("five-bar")
+    log, open_ = log_of(0.95)
+    places = nearest_closed(model, log.q)
+    all_places, good = np.arange(len(open_)), np.flatnonzero(~open_)
+    assert (places[good] == good).all() and not open_[places].any()
+    gaps = np.abs(all_places[:, None] - good).min(axis=1)
+    np.testing.assert_array_equal(np.abs(places - all_places), gaps)
+    assert nearest_closed(model, log.q[open_]) is None
+
+
+def test_hardly_a_sample_that_closes_is_an_error():
+    model = compiled("five-bar")
+    log, _ = log_of(0.95)
+    beyond = Log(log.name, log.joints, log.time, log.q + 2.0 * OUTWARD, log.tau, log.qd, log.qdd)
+    with pytest.raises(LoopError, match=r"run: the loops of five-bar cannot be closed at \d+ of"):
+        observe(model, [beyond])
+
+
+def test_fit_compare_diagnose_and_free_run_go_through(tmp_path, capsys):
+    log, open_ = log_of(0.955, noise=0.3)
+    data, model = str(written(tmp_path / "run.csv", log)), str(tmp_path / "model.json")
+    told = f"cannot be closed at {open_.sum()} of {len(log.time)} samples"
+    assert main(["fit", "five-bar", data, "--out", model]) == 0
+    assert told in capsys.readouterr().out
+    report = tmp_path / "report.json"
+    assert main(["compare", model, data, "--json", str(report)]) == 0
+    assert main(["diagnose", model, data, "--json", str(report)]) == 0
+    assert json.loads(report.read_text())["verdict"] == "nothing significant"
+    assert main(["free-run", model, data]) == 0
+
+
+def test_all_samples_open_is_one_line(tmp_path, capsys):
+    log, _ = log_of(0.95)
+    beyond = Log(log.name, log.joints, log.time, log.q + 2.0 * OUTWARD, log.tau, log.qd, log.qdd)
+    data = str(written(tmp_path / "run.csv", beyond))
+    assert main(["fit", "five-bar", data, "--out", str(tmp_path / "model.json")]) == 1
+    said = capsys.readouterr().err.strip()
+    assert ": run.csv: the loops of five-bar cannot be closed at" in said
+    assert len(said.splitlines()) == 1 and "check units" in said
