@@ -43,8 +43,11 @@ def best(call, repeats: int = 3) -> float:
     return min(times)
 
 
-def measure(name: str) -> None:
-    """One line of the table."""
+def loop_times(name: str) -> dict[str, float]:
+    """Base parameters; seconds to derive, emit and compile; microseconds per base regressor.
+
+    `home_us` closes the loops from home for every sample, `last_us` from the sample before.
+    """
     start = time.perf_counter()
     derivation = derive(robot(name))
     derived = time.perf_counter()
@@ -54,11 +57,22 @@ def measure(name: str) -> None:
     built = time.perf_counter()
     q, qd, qdd = motion(derivation, SAMPLES)
     W = compiled.observation(q, qd, qdd)
-    cold = best(lambda: compiled.base_regressor(q, qd, qdd)) / SAMPLES
-    warm = best(lambda: compiled.observation(q, qd, qdd, W)) / SAMPLES
+    return {
+        "base": derivation.base.rank,
+        "derive_s": derived - start,
+        "emit_s": written - derived,
+        "compile_s": built - written,
+        "home_us": 1e6 * best(lambda: compiled.base_regressor(q, qd, qdd)) / SAMPLES,
+        "last_us": 1e6 * best(lambda: compiled.observation(q, qd, qdd, W)) / SAMPLES,
+    }
+
+
+def measure(name: str) -> None:
+    """One line of the table."""
+    t = loop_times(name)
     print(
-        f"{name:<16} {derivation.base.rank:>4} {derived - start:>9.2f} {written - derived:>8.2f} "
-        f"{built - written:>10.2f} {1e6 * cold:>10.2f} {1e6 * warm:>14.2f}"
+        f"{name:<16} {t['base']:>4} {t['derive_s']:>9.2f} {t['emit_s']:>8.2f} "
+        f"{t['compile_s']:>10.2f} {t['home_us']:>10.2f} {t['last_us']:>14.2f}"
     )
 
 

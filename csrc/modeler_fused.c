@@ -227,7 +227,8 @@ static group divided(const modeler_source *source, size_t past, double *state, v
         joint->stride = stride;
         joint->tile = tile + past;
         joint->R = state;
-        state += state == NULL ? 0 : joint->p * joint->p;
+        if (state != NULL)
+            state += joint->p * joint->p;
         tile += joint->p * stride;
     }
     return own;

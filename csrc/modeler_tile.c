@@ -81,7 +81,7 @@ size_t modeler_tile_work(const modeler_tiled *robot)
     const size_t doubles = values_length(robot) + whole_lines(FEW * widest(robot) + 3 * LINE)
         + inputs_length(robot);
 
-    return doubles * sizeof(double) + (2 + FEW) * (size_t)robot->nonzeros * sizeof(int);
+    return (doubles + LINE) * sizeof(double) + (2 + FEW) * (size_t)robot->nonzeros * sizeof(int);
 }
 
 /* Blocks that hold every entry. */
@@ -161,9 +161,11 @@ static double *padded(double *to, const double **input, size_t samples, size_t l
 }
 
 static void evaluate(const modeler_tiled *robot, size_t samples, const double *q, const double *qd,
-                     const double *qdd, const double *s, double *out, double *work, int dense)
+                     const double *qdd, const double *s, double *out, void *room, int dense)
 {
     const size_t joints = (size_t)robot->joints, signals = (size_t)robot->signals;
+    const size_t past = (uintptr_t)room % (LINE * sizeof(double));
+    double *const work = (double *)(void *)((char *)room + (LINE * sizeof(double) - past));
     const int version = MODELER_BEST_VERSION;
     const plan p = planned(robot, out, work, dense);
     const size_t phase = (size_t)(p.rows - work) % LINE;
@@ -217,10 +219,11 @@ typedef double MODELER_VERSION(four) __attribute__((vector_size(32), aligned(8),
 typedef long long MODELER_VERSION(places) __attribute__((vector_size(32)));
 
 /* A square of FEW entries and FEW samples is turned in the registers. */
+#undef SHUFFLE
+#define SHUFFLE(...) MODELER_SHUFFLE(MODELER_VERSION(places), __VA_ARGS__)
 MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const double *values)
 {
     typedef MODELER_VERSION(four) four;
-    typedef MODELER_VERSION(places) places;
     const size_t width = p->width;
 
     if (p->blocks == 0)
@@ -232,13 +235,13 @@ MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const double *va
         const four a1 = *(const four *)(values + source[1] * MODELER_LANES);
         const four a2 = *(const four *)(values + source[2] * MODELER_LANES);
         const four a3 = *(const four *)(values + source[3] * MODELER_LANES);
-        const four b0 = MODELER_SHUFFLE(places, a0, a1, 0, 4, 2, 6), b1 = MODELER_SHUFFLE(places, a0, a1, 1, 5, 3, 7);
-        const four b2 = MODELER_SHUFFLE(places, a2, a3, 0, 4, 2, 6), b3 = MODELER_SHUFFLE(places, a2, a3, 1, 5, 3, 7);
+        const four b0 = SHUFFLE(a0, a1, 0, 4, 2, 6), b1 = SHUFFLE(a0, a1, 1, 5, 3, 7);
+        const four b2 = SHUFFLE(a2, a3, 0, 4, 2, 6), b3 = SHUFFLE(a2, a3, 1, 5, 3, 7);
 
-        *(four *)to = MODELER_SHUFFLE(places, b0, b2, 0, 1, 4, 5);
-        *(four *)(to + width) = MODELER_SHUFFLE(places, b1, b3, 0, 1, 4, 5);
-        *(four *)(to + 2 * width) = MODELER_SHUFFLE(places, b0, b2, 2, 3, 6, 7);
-        *(four *)(to + 3 * width) = MODELER_SHUFFLE(places, b1, b3, 2, 3, 6, 7);
+        *(four *)to = SHUFFLE(b0, b2, 0, 1, 4, 5);
+        *(four *)(to + width) = SHUFFLE(b1, b3, 0, 1, 4, 5);
+        *(four *)(to + 2 * width) = SHUFFLE(b0, b2, 2, 3, 6, 7);
+        *(four *)(to + 3 * width) = SHUFFLE(b1, b3, 2, 3, 6, 7);
     }
 }
 

@@ -81,6 +81,7 @@ def generate(
     force: bool = False,
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The C module; written to `folder` if one is given.
 
@@ -90,6 +91,7 @@ def generate(
         force: write also over files that no earlier run wrote, or that were edited since.
         fitted: values of its base parameters; functions that have them are added.
         precision: `double`, or `single`: then all numbers of the C are `float`.
+        cuda: add the base regressor in CUDA, of a robot without loops.
 
     Raises:
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
@@ -97,7 +99,7 @@ def generate(
     """
     from modeler.codegen import emit, write_emitted  # who derives need not wait for it
 
-    emitted = emit(derivation.model, derivation.base, fitted, precision)
+    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda)
     emitted = dataclasses.replace(emitted, log=derivation.robot.log)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)

@@ -72,7 +72,7 @@ PACKAGES: dict[str, set[str]] = {
     "papers": {"sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "pictures": {"numpy", "matplotlib"},
-    "compiled": {"numpy", "cffi"},
+    "compiled": {"numpy", "cffi", "cupy"},
     "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
     "observation": {"numpy", "scipy"},
     "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
@@ -101,7 +101,8 @@ PACKAGES: dict[str, set[str]] = {
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
     "jinja2": ("codegen/render.py", "pages/render.py"),
-    "cffi": ("compiled/bind.py", "compiled/bind_fused.py"),
+    "cupy": ("compiled/gpu.py",),
+    "cffi": ("compiled/bind.py", "compiled/bind_fused.py", "compiled/bind_tile.py"),
     "casadi": ("symbolic/lagrange.py", "simulate/"),
     "clarabel": ("estimate/possible.py",),
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),

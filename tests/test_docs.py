@@ -39,6 +39,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/python.md",
        "docs/controller.md",
        "docs/microcontrollers.md",
+       "docs/gpu.md",
        )  # fmt: skip
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]

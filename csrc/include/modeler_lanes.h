@@ -11,7 +11,6 @@
 
 #include "modeler_sincos.h"
 #include "modeler_tile.h"
-#include "modeler_versions.h"
 
 #define modeler_lanes MODELER_VERSION(modeler_lanes)
 #define modeler_bits MODELER_VERSION(modeler_bits)
@@ -70,7 +69,7 @@
 #define MODELER_ALL_LESS_4(x, bound) \
     (__builtin_ia32_movmskpd256((modeler_lanes)((x) < (bound))) == 15)
 #define MODELER_ALL_LESS_8(x, bound) /* 21: not less, quiet; 4: the rounding that is set */ \
-    (__builtin_ia32_cmppd512_mask(x, modeler_lanes_spread(bound), 21, -1, 4) == 0)
+    (__builtin_ia32_cmppd512_mask(x, modeler_lanes_spread(bound), 21, (unsigned char)255, 4) == 0)
 
 #ifdef __GNUC__
 #define MODELER_INLINE static inline __attribute__((always_inline, unused)) MODELER_TARGET

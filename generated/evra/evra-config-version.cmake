@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.19435.17151.44796) only what has the signature 4beb42ffaefc2b4c.
-set(PACKAGE_VERSION 1.19435.17151.44796)
+# find_package(evra 1.50202.53472.49429) only what has the signature c41ad0e0c115a854.
+set(PACKAGE_VERSION 1.50202.53472.49429)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

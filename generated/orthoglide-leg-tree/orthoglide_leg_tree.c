@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "aae79df9c0af9c00";
+    return "c859d9743802c6cb";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
@@ -464,8 +464,7 @@ void orthoglide_leg_tree_base_parameters(const double *chi, double *MODELER_REST
  * 12 additions, 33 multiplications. */
 void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
-    for (int i = 0; i < 72; i++)
-        T[i] = 0.0;
+    MODELER_ALL_ZEROS(T, 72);
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -485,6 +484,7 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     T[12] = c1;
     T[13] = -s1;
     T[18] = 1.0;
+    MODELER_ZEROS(T + 1, 4);
     T[20] = -s1;
     T[21] = -c1;
     T[23] = q[0];
@@ -492,12 +492,14 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     T[24] = t1;
     const double t2 = c1*s2;
     T[25] = -t2;
+    MODELER_ZEROS(T + 6, 4);
     T[26] = -s1;
     T[28] = -s2;
     T[29] = -c2;
     T[31] = orthoglide_leg_tree_geo_b3;
     const double t3 = s1*c2;
     T[32] = -t3;
+    MODELER_ZEROS(T + 14, 4);
     const double t4 = s1*s2;
     T[33] = t4;
     T[34] = -c1;
@@ -505,12 +507,14 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     const double t5 = c3*t1 - s3*t2;
     T[36] = t5;
     const double t6 = c3*t2 + s3*t1;
+    MODELER_ZEROS(T + 19, 1);
     T[37] = -t6;
     T[38] = -s1;
     const double t7 = orthoglide_leg_tree_geo_D4*t1;
     T[39] = t7;
     const double t8 = s2*c3 + c2*s3;
     T[40] = -t8;
+    MODELER_ZEROS(T + 22, 1);
     const double t9 = c2*c3 - s2*s3;
     T[41] = -t9;
     const double t10 = orthoglide_leg_tree_geo_b3 - orthoglide_leg_tree_geo_D4*s2;
@@ -518,6 +522,7 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     const double t11 = c3*t3 - s3*t4;
     T[44] = -t11;
     const double t12 = c3*t4 + s3*t3;
+    MODELER_ZEROS(T + 27, 1);
     T[45] = t12;
     T[46] = -c1;
     const double t13 = q[0] - orthoglide_leg_tree_geo_D4*t3;
@@ -525,12 +530,14 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     T[48] = c4*t5 - s1*s4;
     T[49] = -(s1*c4 + s4*t5);
     T[50] = t6;
+    MODELER_ZEROS(T + 30, 1);
     T[51] = t7;
     T[52] = -c4*t8;
     T[53] = s4*t8;
     T[54] = t9;
     T[55] = t10;
     T[56] = -(c4*t11 + c1*s4);
+    MODELER_ZEROS(T + 42, 1);
     T[57] = s4*t11 - c1*c4;
     T[58] = -t12;
     T[59] = t13;
@@ -538,10 +545,12 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     T[61] = -c1*s5;
     T[62] = -s1;
     T[64] = -s5;
+    MODELER_ZEROS(T + 63, 1);
     T[65] = -c5;
     T[67] = orthoglide_leg_tree_geo_b7;
     T[68] = -s1*c5;
     T[69] = s1*s5;
     T[70] = -c1;
     T[71] = q[0];
+    MODELER_ZEROS(T + 66, 1);
 }

@@ -33,8 +33,7 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const double *qdd,
                                         double *MODELER_RESTRICT phi)
 {
-    for (int i = 0; i < 192; i++)
-        phi[i] = 0.0;
+    MODELER_ALL_ZEROS(phi, 192);
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -57,6 +56,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t3 = s1*qdd[0];
     phi[35] = t3;
     const double t4 = s2*qdd[1];
+    MODELER_ZEROS(phi + 1, 1);
     const double t5 = c2*qd[1];
     const double t6 = qd[2]*t5;
     const double t7 = t4 + t6;
@@ -66,6 +66,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t10 = t8*t5;
     phi[68] = -t10;
     const double t11 = c2*qdd[1];
+    MODELER_ZEROS(phi + 4, 5);
     const double t12 = t11 - t9;
     const double t13 = t9 - t12;
     const double t14 = t6 + t7;
@@ -76,6 +77,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[69] = t17 - t16;
     const double t18 = qdd[2] + t10;
     phi[38] = c2*(t1 - t16) - s2*t18;
+    MODELER_ZEROS(phi + 11, 5);
     phi[70] = -t4;
     const double t19 = qdd[2] - t10;
     phi[39] = -(s2*(t1 - t17) + c2*t19);
@@ -85,6 +87,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t21 = s1*s2;
     phi[9] = t16*t20 + t18*t21 + c1*t13;
     phi[41] = -c2*t2;
+    MODELER_ZEROS(phi + 18, 5);
     const double t22 = orthoglide_leg_tree_geo_g*c2 + s2*t3;
     phi[73] = t22;
     phi[10] = t19*t20 - t17*t21 + c1*t14;
@@ -95,6 +98,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t25 = c3*t7 + s3*t12 + qd[3]*t24;
     const double t26 = s2*c3 + c2*s3;
     const double t27 = c3*t8 + s3*t5;
+    MODELER_ZEROS(phi + 25, 5);
     const double t28 = qd[2] + qd[3];
     const double t29 = t27*t28;
     const double t30 = c2*c3 - s2*s3;
@@ -104,6 +108,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[107] = -t31;
     const double t32 = c3*t12 - s3*t7 - qd[3]*t27;
     const double t33 = t32 - t29;
+    MODELER_ZEROS(phi + 32, 1);
     const double t34 = t24*t28;
     const double t35 = t25 + t34;
     phi[44] = t33*t26 + t35*t30;
@@ -114,6 +119,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[76] = -t39;
     phi[108] = -t39;
     const double t40 = qdd[2] + qdd[3];
+    MODELER_ZEROS(phi + 40, 1);
     const double t41 = t40 + t31;
     phi[45] = t30*(t1 - t37) - t41*t26;
     const double t42 = t25 - t34;
@@ -123,6 +129,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[46] = -(t26*(t1 - t38) + t43*t30);
     const double t44 = t32 + t29;
     phi[78] = -t44;
+    MODELER_ZEROS(phi + 47, 1);
     phi[110] = -t44;
     phi[79] = t40;
     phi[111] = t40;
@@ -133,6 +140,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t48 = orthoglide_leg_tree_geo_D4*c2;
     phi[48] = t33*t48 - t47*t30;
     const double t49 = t22 + orthoglide_leg_tree_geo_D4*t18;
+    MODELER_ZEROS(phi + 61, 1);
     const double t50 = t23 + orthoglide_leg_tree_geo_D4*t16;
     const double t51 = c3*t49 + s3*t50;
     const double t52 = orthoglide_leg_tree_geo_D4*s3;
@@ -142,6 +150,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[17] = t43*t45 - t38*t46 + c1*t35;
     phi[49] = t47*t26 - t35*t48;
     const double t54 = c3*t50 - s3*t49;
+    MODELER_ZEROS(phi + 64, 4);
     phi[81] = t54 - (t43*t52 + t38*t53);
     phi[113] = t54;
     const double t55 = c4*t28 + s4*t27;
@@ -152,6 +161,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t60 = t58*t59;
     const double t61 = s4*t26;
     const double t62 = t60*t61;
+    MODELER_ZEROS(phi + 89, 8);
     const double t63 = t58*t55;
     phi[50] = t56*t57 - t62 + t63*t30;
     const double t64 = c4*t60;
@@ -161,6 +171,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[146] = t63;
     const double t66 = c4*t40 + s4*t25 + qd[4]*t58;
     const double t67 = t66 + t60;
+    MODELER_ZEROS(phi + 97, 8);
     const double t68 = t55*t59;
     const double t69 = t56 - t68;
     const double t70 = t59*t59;
@@ -171,6 +182,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t74 = s4*t67 - c4*t69;
     phi[83] = t74;
     phi[115] = t74;
+    MODELER_ZEROS(phi + 105, 2);
     phi[147] = -t73;
     const double t75 = qdd[4] + t32;
     const double t76 = t75 - t63;
@@ -180,6 +192,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t79 = s4*t76 - c4*t77;
     phi[84] = t79;
     phi[116] = t79;
+    MODELER_ZEROS(phi + 121, 8);
     phi[148] = -t78;
     const double t80 = t38 - t72;
     const double t81 = t75 + t63;
@@ -190,6 +203,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[117] = t83;
     phi[149] = t82;
     phi[54] = t62 - t68*t57 + t75*t30;
+    MODELER_ZEROS(phi + 129, 8);
     const double t84 = t64 + s4*t68;
     phi[86] = t84;
     phi[118] = t84;
@@ -199,6 +213,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[23] = t71*t85 - t76*t86 + t67*t46;
     const double t87 = c4*t47 - s4*t54;
     const double t88 = s4*t48;
+    MODELER_ZEROS(phi + 137, 8);
     const double t89 = c4*t48;
     phi[55] = t51*t61 - t87*t30 + (t76*t89 - t71*t88);
     const double t90 = c4*t51;
@@ -209,6 +224,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[151] = -t87;
     phi[24] = t81*t85 + t72*t86 + t69*t46;
     const double t93 = c4*t54 + s4*t47;
+    MODELER_ZEROS(phi + 145, 1);
     phi[56] = t51*t57 + t93*t30 - (t81*t88 + t72*t89);
     const double t94 = s4*t51;
     phi[88] = -(t81*t91 - t72*t92 - t69*t53 + t94);
@@ -218,6 +234,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t96 = c5*qd[1];
     const double t97 = qd[5]*t96;
     const double t98 = t95 + t97;
+    MODELER_ZEROS(phi + 153, 8);
     const double t99 = s5*qd[1];
     const double t100 = qd[5]*t99;
     phi[57] = s5*t98 + c5*t100;
@@ -228,6 +245,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t104 = t97 + t98;
     phi[58] = c5*t104 - s5*t103;
     const double t105 = qd[5]*qd[5];
+    MODELER_ZEROS(phi + 161, 8);
     const double t106 = t96*t96 + t105;
     const double t107 = t99*t99 + t105;
     phi[186] = t107 - t106;
@@ -237,6 +255,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     const double t109 = qdd[5] - t101;
     phi[60] = -(s5*(t1 - t107) + c5*t109);
     phi[188] = -t102;
+    MODELER_ZEROS(phi + 169, 8);
     phi[189] = qdd[5];
     const double t110 = s1*c5;
     const double t111 = s1*s5;
@@ -246,6 +265,7 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
     phi[31] = t109*t110 - t107*t111 + c1*t104;
     phi[63] = s5*t2;
     phi[191] = c5*t3 - orthoglide_leg_tree_geo_g*s5;
+    MODELER_ZEROS(phi + 177, 8);
 }
 
 /* The entries of the base regressor that are not always 0.

@@ -59,7 +59,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "65f4114b0cd85d7d";
+    return "e419ca378d352141";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
@@ -267,8 +267,7 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
  * 157 additions, 190 multiplications. */
 void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
-    for (int i = 0; i < 64; i++)
-        M[i] = 0.0;
+    MODELER_ALL_ZEROS(M, 64);
 
     const double k1 = sr400_tree_geo_D8*2.0;
     const double k2 = sr400_tree_geo_D2*2.0;
@@ -313,6 +312,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     const double t20 = c6*(s6*t18 + c6*(t17 + s7*(s7*beta[43] + t16) - t19));
     const double t21 = s6*(s6*(c7*t15 - t17 + beta[36]) + c6*t18) + t20 + beta[0];
     const double t22 = c5*beta[29] - s5*beta[30];
+    MODELER_ZEROS(M + 14, 2);
     const double t23 = c5*beta[30];
     const double t24 = s5*t23;
     const double t25 = c5*t22 - t24 + beta[22];
@@ -335,6 +335,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     const double t42 = s3*t41;
     const double t43 = c3*t38;
     const double t44 = t42 - t43;
+    MODELER_ZEROS(M + 22, 2);
     const double t45 = k4*t3;
     const double t46 = c3*t40 + s3*t44 + beta[8] + t45;
     const double t47 = s4*t29 - c4*t32 + beta[17];
@@ -357,6 +358,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     const double t64 = k2*(s6*(beta[42] + t13) - c6*(beta[41] - t14)) - t21;
     const double t65 = t64 - (s1*(s1*(c2*t54 - s2*t60 + beta[1]) + c1*t61) + t63);
     M[0] = -(k2*(s1*(beta[7] + t11) - c1*(beta[6] - t12)) + t65);
+    MODELER_ZEROS(M + 30, 2);
     const double t66 = c3*t6 + s3*t8;
     const double t67 = c3*t44 - s3*t40 + beta[10] + sr400_tree_geo_D4*t66;
     const double t68 = sr400_tree_geo_RL4*t66;
@@ -378,6 +380,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     const double t81 = t48 - sr400_tree_geo_D4*t79;
     const double t82 = s1*(c2*t80 - s2*t81) + c1*(s2*t80 + c2*t81 - sr400_tree_geo_D3*t79);
     const double t83 = t82 - sr400_tree_geo_D2*t79;
+    MODELER_ZEROS(M + 38, 2);
     M[4] = -t83;
     const double t84 = c4*t26 - t30;
     const double t85 = c4*t5;
@@ -400,6 +403,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     M[9] = beta[5] + t97 - t62;
     const double t98 = t97 - sr400_tree_geo_D3*t12;
     M[10] = t98;
+    MODELER_ZEROS(M + 46, 2);
     const double t99 = t69 - t68;
     const double t100 = t99 + s2*t66*sr400_tree_geo_D3;
     M[11] = -t100;
@@ -422,6 +426,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     M[25] = -t100;
     M[26] = -t99;
     M[27] = t57;
+    MODELER_ZEROS(M + 49, 5);
     M[28] = t48;
     M[29] = t88;
     M[32] = -t83;
@@ -443,6 +448,7 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     M[56] = -t95;
     M[62] = t108;
     M[63] = beta[47];
+    MODELER_ZEROS(M + 57, 5);
 }
 
 /* Torques that hold the robot still, without friction.

@@ -43,8 +43,7 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 void sr400_tree_base_regressor(const double *q, const double *qd, const double *qdd,
                                double *MODELER_RESTRICT phi)
 {
-    for (int i = 0; i < 400; i++)
-        phi[i] = 0.0;
+    MODELER_ALL_ZEROS(phi, 400);
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -73,6 +72,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[51] = -t7;
     const double t8 = c1*qdd[0];
     const double t9 = t8 - t6;
+    MODELER_ZEROS(phi + 5, 1);
     const double t10 = t6 - t9;
     const double t11 = t3 + t4;
     phi[2] = c1*t11 - s1*t10;
@@ -84,6 +84,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t16 = qd[0]*qd[0];
     phi[3] = c1*(t16 - t13) - s1*t15;
     phi[53] = -t1;
+    MODELER_ZEROS(phi + 12, 1);
     phi[4] = -(s1*(t16 - t14) + c1*(qdd[1] - t7));
     phi[54] = -t8;
     phi[55] = qdd[1];
@@ -95,6 +96,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[7] = -(s1*t17 + sr400_tree_geo_D2*t11);
     const double t20 = c1*t18 + sr400_tree_geo_g*s1;
     phi[57] = t20;
+    MODELER_ZEROS(phi + 40, 1);
     const double t21 = c2*t2 - s2*t5;
     const double t22 = c2*t4 + s2*t9 + qd[2]*t21;
     const double t23 = s1*c2 + c1*s2;
@@ -106,6 +108,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t28 = t24*t21;
     phi[58] = -t28;
     phi[108] = -t28;
+    MODELER_ZEROS(phi + 47, 1);
     const double t29 = c2*t9 - s2*t4 - qd[2]*t24;
     const double t30 = t29 - t26;
     const double t31 = t21*t25;
@@ -117,6 +120,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t36 = t34 - t35;
     phi[59] = -t36;
     phi[109] = -t36;
+    MODELER_ZEROS(phi + 50, 1);
     const double t37 = qdd[1] + qdd[2];
     const double t38 = t37 + t28;
     phi[10] = t27*(t16 - t34) - t38*t23;
@@ -128,6 +132,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t41 = t29 + t26;
     phi[61] = -t41;
     phi[111] = -t41;
+    MODELER_ZEROS(phi + 86, 8);
     phi[62] = t37;
     phi[112] = t37;
     const double t42 = t17 - sr400_tree_geo_D3*t10;
@@ -140,6 +145,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t48 = sr400_tree_geo_D3*c2;
     phi[63] = -(t34*t47 - t38*t48 + t46);
     phi[113] = -t46;
+    MODELER_ZEROS(phi + 94, 8);
     phi[14] = -(t42*t23 + t32*t43);
     const double t49 = c2*t45 + s2*t44;
     phi[64] = t49 - (t40*t47 + t35*t48);
@@ -151,6 +157,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t54 = qd[3] - t21;
     const double t55 = t53*t54;
     const double t56 = s3*t23;
+    MODELER_ZEROS(phi + 102, 6);
     const double t57 = t55*t56;
     const double t58 = t53*t50;
     phi[15] = t51*t52 - t57 + t58*t27;
@@ -162,6 +169,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t61 = c3*t37 - s3*t22 - qd[3]*t53;
     const double t62 = t61 - t55;
     const double t63 = t50*t54;
+    MODELER_ZEROS(phi + 136, 8);
     const double t64 = t51 + t63;
     const double t65 = t54*t54;
     const double t66 = t50*t50 + t65;
@@ -173,6 +181,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[116] = t69;
     phi[166] = -t68;
     const double t70 = qdd[3] - t29;
+    MODELER_ZEROS(phi + 144, 8);
     const double t71 = t70 + t58;
     const double t72 = t35 - t66;
     const double t73 = t51 - t63;
@@ -184,6 +193,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t75 = t35 - t67;
     const double t76 = t70 - t58;
     const double t77 = t61 + t55;
+    MODELER_ZEROS(phi + 152, 8);
     phi[18] = t77*t27 - (t52*t75 - t76*t56);
     const double t78 = s3*t75 + c3*t76;
     phi[68] = -t78;
@@ -195,6 +205,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[119] = -t79;
     phi[169] = t70;
     const double t80 = sr400_tree_geo_RL4*t35 - sr400_tree_geo_D4*t38 + t46;
+    MODELER_ZEROS(phi + 160, 5);
     const double t81 = sr400_tree_geo_D4*t30 - sr400_tree_geo_RL4*t32 + t42;
     const double t82 = sr400_tree_geo_D4*t34 + sr400_tree_geo_RL4*t40 + t49;
     const double t83 = c3*t81 - s3*t82;
@@ -207,6 +218,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t89 = c3*t88;
     const double t90 = s3*t88;
     const double t91 = sr400_tree_geo_D4 + t48;
+    MODELER_ZEROS(phi + 186, 8);
     phi[70] = t66*t89 + t71*t90 + t62*t91 - t87;
     const double t92 = sr400_tree_geo_RL4*c3;
     const double t93 = sr400_tree_geo_RL4*s3;
@@ -218,6 +230,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[71] = t76*t89 - t67*t90 - t64*t91 + t95;
     phi[121] = t76*t92 - t67*t93 - sr400_tree_geo_D4*t64 + t95;
     phi[171] = t94;
+    MODELER_ZEROS(phi + 194, 8);
     const double t96 = c4*t54 + s4*t53;
     const double t97 = c4*t51 - s4*t70 - qd[4]*t96;
     const double t98 = c4*t52 + s4*t27;
@@ -229,6 +242,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t104 = t99*t96;
     phi[22] = t97*t98 + t103 - t104*t56;
     const double t105 = s3*c4;
+    MODELER_ZEROS(phi + 202, 8);
     const double t106 = s3*s4;
     const double t107 = t101*t106;
     const double t108 = t97*t105 - t107 + c3*t104;
@@ -240,6 +254,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t110 = c4*t70 + s4*t51 + qd[4]*t99;
     const double t111 = t110 + t101;
     const double t112 = t96*t100;
+    MODELER_ZEROS(phi + 210, 8);
     const double t113 = t97 - t112;
     const double t114 = t100*t100;
     const double t115 = t96*t96 + t114;
@@ -251,6 +266,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[123] = -t118;
     phi[173] = s4*t111 - c4*t113;
     phi[223] = -t117;
+    MODELER_ZEROS(phi + 218, 4);
     const double t119 = qdd[4] + t61;
     const double t120 = t119 - t104;
     const double t121 = t67 - t115;
@@ -262,6 +278,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[174] = s4*t120 - c4*t121;
     phi[224] = -t122;
     const double t124 = t67 - t116;
+    MODELER_ZEROS(phi + 236, 8);
     const double t125 = t119 + t104;
     const double t126 = t110 - t101;
     phi[25] = -(t98*t124 + t125*t102 + t126*t56);
@@ -274,6 +291,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t128 = t107 - t112*t105 + c3*t119;
     phi[76] = t128;
     phi[126] = t128;
+    MODELER_ZEROS(phi + 244, 8);
     phi[176] = t109 + s4*t112;
     phi[226] = t119;
     const double t129 = c4*t80 - s4*t94;
@@ -285,6 +303,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t134 = c4*t91 + s4*t89;
     phi[77] = t115*t133 + t120*t134 + t111*t90 - t132;
     const double t135 = c4*t92 - sr400_tree_geo_D4*s4;
+    MODELER_ZEROS(phi + 252, 8);
     const double t136 = sr400_tree_geo_D4*c4 + s4*t92;
     phi[127] = t115*t135 + t120*t136 + t111*t93 - t132;
     phi[177] = -c4*t83;
@@ -296,6 +315,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[128] = t125*t135 - t116*t136 + t113*t93 - t138;
     phi[178] = s4*t83;
     phi[228] = t137;
+    MODELER_ZEROS(phi + 260, 8);
     const double t139 = c5*t100 - s5*t99;
     const double t140 = c5*t97 + s5*t119 + qd[5]*t139;
     const double t141 = c5*t98 - s5*t56;
@@ -307,6 +327,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t147 = t142*t139;
     phi[29] = t140*t141 - t146 + t147*t102;
     const double t148 = c5*t105 + c3*s5;
+    MODELER_ZEROS(phi + 268, 8);
     const double t149 = c3*c5 - s5*t105;
     const double t150 = t144*t149;
     const double t151 = t140*t148 + t150 - t147*t106;
@@ -318,6 +339,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[179] = -(t140*t152 - t154 + c4*t147);
     const double t155 = c5*t144;
     phi[229] = s5*t140 + t155;
+    MODELER_ZEROS(phi + 276, 3);
     phi[279] = -t147;
     const double t156 = c5*t119 - s5*t97 - qd[5]*t142;
     const double t157 = t156 - t144;
@@ -329,6 +351,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t163 = t161 - t162;
     phi[30] = t157*t141 - t159*t145 + t102*t163;
     const double t164 = t157*t148 + t159*t149 - t106*t163;
+    MODELER_ZEROS(phi + 286, 8);
     phi[80] = t164;
     phi[130] = t164;
     phi[180] = -(t157*t152 - t159*t153 + c4*t163);
@@ -341,6 +364,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[31] = t168*t102 - (t166*t141 + t145*t167);
     const double t169 = t166*t148 - t149*t167 + t168*t106;
     phi[81] = -t169;
+    MODELER_ZEROS(phi + 294, 8);
     phi[131] = -t169;
     phi[181] = t166*t152 + t153*t167 - c4*t168;
     phi[231] = c5*t167 - s5*t166;
@@ -352,6 +376,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t173 = t148*t170 + t171*t149 + t172*t106;
     phi[82] = -t173;
     phi[132] = -t173;
+    MODELER_ZEROS(phi + 302, 8);
     phi[182] = t152*t170 - t171*t153 - c4*t172;
     phi[232] = -(s5*t170 + c5*t171);
     phi[282] = -t172;
@@ -363,6 +388,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[233] = s5*t158 - t155;
     phi[283] = t165;
     const double t175 = c5*t83 - s5*t137;
+    MODELER_ZEROS(phi + 310, 8);
     const double t176 = c5*t130 + s5*t86;
     const double t177 = c5*t86 - s5*t130;
     phi[34] = t129*t145 + t175*t102 + (t161*t176 - t166*t177 + t157*t131);
@@ -374,6 +400,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t182 = c5*t93 + s5*t135;
     phi[134] = t161*t181 + t166*t182 + t157*t136 - t178;
     phi[184] = -(t129*t153 + c4*t175);
+    MODELER_ZEROS(phi + 318, 8);
     phi[234] = -c5*t129;
     phi[284] = -t175;
     const double t183 = c5*t137 + s5*t83;
@@ -385,6 +412,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[235] = s5*t129;
     phi[285] = t183;
     const double t185 = s6*qdd[0];
+    MODELER_ZEROS(phi + 326, 8);
     const double t186 = c6*qd[0];
     const double t187 = qd[6]*t186;
     const double t188 = t185 + t187;
@@ -396,6 +424,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t192 = c6*qdd[0];
     const double t193 = t192 - t190;
     const double t194 = t190 - t193;
+    MODELER_ZEROS(phi + 334, 2);
     const double t195 = t187 + t188;
     phi[37] = c6*t195 - s6*t194;
     const double t196 = qd[6]*qd[6];
@@ -408,6 +437,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[39] = -(s6*(t16 - t198) + c6*(qdd[6] - t191));
     phi[339] = -t192;
     phi[340] = qdd[6];
+    MODELER_ZEROS(phi + 350, 8);
     phi[41] = c6*t17 - sr400_tree_geo_D2*t194;
     const double t200 = sr400_tree_geo_g*c6 - s6*t18;
     phi[341] = -t200;
@@ -419,6 +449,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t204 = s6*c7 + c6*s7;
     const double t205 = c7*t189 + s7*t186;
     const double t206 = qd[6] + qd[7];
+    MODELER_ZEROS(phi + 358, 8);
     const double t207 = t205*t206;
     const double t208 = c6*c7 - s6*s7;
     phi[43] = t203*t204 + t207*t208;
@@ -430,6 +461,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t212 = t202*t206;
     const double t213 = t203 + t212;
     phi[44] = t211*t204 + t213*t208;
+    MODELER_ZEROS(phi + 366, 8);
     const double t214 = t206*t206;
     const double t215 = t202*t202 + t214;
     const double t216 = t205*t205 + t214;
@@ -441,6 +473,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     phi[45] = t208*(t16 - t215) - t219*t204;
     const double t220 = t203 - t212;
     phi[345] = -t220;
+    MODELER_ZEROS(phi + 374, 8);
     phi[395] = -t220;
     const double t221 = t218 - t209;
     phi[46] = -(t204*(t16 - t216) + t221*t208);
@@ -452,6 +485,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t223 = t17 - sr400_tree_geo_D8*t194;
     const double t224 = sr400_tree_geo_D2 + sr400_tree_geo_D8*c6;
     phi[48] = t223*t208 + t211*t224;
+    MODELER_ZEROS(phi + 382, 8);
     const double t225 = t200 - sr400_tree_geo_D8*t199;
     const double t226 = t201 + sr400_tree_geo_D8*t197;
     const double t227 = c7*t225 - s7*t226;
@@ -463,6 +497,7 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
     const double t230 = c7*t226 + s7*t225;
     phi[349] = t230 - (t221*t228 + t216*t229);
     phi[399] = t230;
+    MODELER_ZEROS(phi + 390, 3);
 }
 
 /* The entries of the base regressor that are not always 0.

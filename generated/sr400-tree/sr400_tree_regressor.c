@@ -43,8 +43,7 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
                           double *MODELER_RESTRICT phi)
 {
-    for (int i = 0; i < 640; i++)
-        phi[i] = 0.0;
+    MODELER_ALL_ZEROS(phi, 640);
 
     const double k1 = sr400_tree_geo_D2*sr400_tree_geo_D2;
 
@@ -71,6 +70,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t5 = s1*qd[0];
     const double t6 = qd[1]*t5;
     const double t7 = c1*t6;
+    MODELER_ZEROS(phi + 0, 5);
     phi[10] = s1*t4 + t7;
     const double t8 = t5*t2;
     phi[90] = -t8;
@@ -78,6 +78,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t10 = t9 - t6;
     const double t11 = t6 - t10;
     const double t12 = t3 + t4;
+    MODELER_ZEROS(phi + 6, 4);
     phi[11] = c1*t12 - s1*t11;
     const double t13 = qd[1]*qd[1];
     const double t14 = t2*t2 + t13;
@@ -86,6 +87,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t16 = qdd[1] + t8;
     const double t17 = qd[0]*qd[0];
     phi[12] = c1*(t17 - t14) - s1*t16;
+    MODELER_ZEROS(phi + 15, 1);
     phi[92] = -t1;
     phi[13] = c1*t10 - t7;
     phi[93] = t8;
@@ -93,6 +95,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[94] = -t9;
     phi[95] = qdd[1];
     const double t18 = sr400_tree_geo_D2*qdd[0];
+    MODELER_ZEROS(phi + 18, 1);
     phi[16] = c1*t18 - sr400_tree_geo_D2*t11;
     const double t19 = sr400_tree_geo_D2*t17;
     const double t20 = sr400_tree_geo_g*c1 - s1*t19;
@@ -101,6 +104,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t21 = c1*t19 + sr400_tree_geo_g*s1;
     phi[97] = t21;
     const double t22 = k1*qdd[0];
+    MODELER_ZEROS(phi + 25, 1);
     phi[19] = t22;
     const double t23 = c2*t2 - s2*t5;
     const double t24 = c2*t4 + s2*t10 + qd[2]*t23;
@@ -108,6 +112,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t26 = c2*t5 + s2*t2;
     const double t27 = qd[1] + qd[2];
     const double t28 = t26*t27;
+    MODELER_ZEROS(phi + 65, 1);
     const double t29 = c1*c2 - s1*s2;
     const double t30 = t28*t29;
     phi[20] = t24*t25 + t30;
@@ -116,6 +121,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[180] = -t31;
     const double t32 = c2*t10 - s2*t4 - qd[2]*t26;
     const double t33 = t32 - t28;
+    MODELER_ZEROS(phi + 68, 1);
     const double t34 = t23*t27;
     const double t35 = t24 + t34;
     phi[21] = t33*t25 + t35*t29;
@@ -123,6 +129,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t37 = t23*t23 + t36;
     const double t38 = t26*t26 + t36;
     const double t39 = t37 - t38;
+    MODELER_ZEROS(phi + 75, 1);
     phi[101] = -t39;
     phi[181] = -t39;
     const double t40 = qdd[1] + qdd[2];
@@ -131,6 +138,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t42 = t24 - t34;
     phi[102] = -t42;
     phi[182] = -t42;
+    MODELER_ZEROS(phi + 80, 8);
     phi[23] = t32*t29 - t30;
     phi[103] = t31;
     phi[183] = t31;
@@ -138,6 +146,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[24] = -(t25*(t17 - t38) + t43*t29);
     const double t44 = t32 + t28;
     phi[104] = -t44;
+    MODELER_ZEROS(phi + 88, 2);
     phi[184] = -t44;
     phi[105] = t40;
     phi[185] = t40;
@@ -145,6 +154,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t46 = sr400_tree_geo_D2 + sr400_tree_geo_D3*c1;
     phi[26] = t45*t29 + t33*t46;
     const double t47 = t20 - sr400_tree_geo_D3*t16;
+    MODELER_ZEROS(phi + 98, 2);
     const double t48 = t21 + sr400_tree_geo_D3*t14;
     const double t49 = c2*t47 - s2*t48;
     const double t50 = sr400_tree_geo_D3*s2;
@@ -153,6 +163,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[186] = -t49;
     phi[27] = -(t45*t25 + t35*t46);
     const double t52 = c2*t48 + s2*t47;
+    MODELER_ZEROS(phi + 140, 8);
     phi[107] = t52 - (t43*t50 + t38*t51);
     phi[187] = t52;
     phi[28] = -(t49*t25 - t52*t29 + t17*t46);
@@ -160,6 +171,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[29] = t45*t46;
     phi[109] = -(t52*t50 + t49*t51);
     const double t53 = c3*t27 - s3*t26;
+    MODELER_ZEROS(phi + 148, 8);
     const double t54 = c3*t24 + s3*t40 + qd[3]*t53;
     const double t55 = c3*t25;
     const double t56 = c3*t26 + s3*t27;
@@ -168,6 +180,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t59 = s3*t25;
     const double t60 = t58*t59;
     const double t61 = t56*t53;
+    MODELER_ZEROS(phi + 156, 8);
     const double t62 = t61*t29;
     phi[30] = t54*t55 - t60 + t62;
     const double t63 = c3*t58;
@@ -175,6 +188,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[110] = t64;
     phi[190] = t64;
     phi[270] = -t61;
+    MODELER_ZEROS(phi + 164, 8);
     const double t65 = c3*t40 - s3*t24 - qd[3]*t56;
     const double t66 = t65 - t58;
     const double t67 = t53*t57;
@@ -183,6 +197,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t70 = t53*t53 + t69;
     const double t71 = t56*t56 + t69;
     const double t72 = t70 - t71;
+    MODELER_ZEROS(phi + 172, 8);
     phi[31] = t66*t55 - t68*t59 + t29*t72;
     const double t73 = s3*t66 + c3*t68;
     phi[111] = t73;
@@ -190,6 +205,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[271] = -t72;
     const double t74 = qdd[3] - t32;
     const double t75 = t74 + t61;
+    MODELER_ZEROS(phi + 188, 2);
     const double t76 = t38 - t70;
     const double t77 = t54 - t67;
     phi[32] = t77*t29 - (t75*t55 + t59*t76);
@@ -198,6 +214,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[192] = -t78;
     phi[272] = -t77;
     const double t79 = t67*t55;
+    MODELER_ZEROS(phi + 220, 8);
     phi[33] = -(t79 + t65*t59 + t62);
     const double t80 = s3*t67;
     const double t81 = t80 - c3*t65;
@@ -205,6 +222,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[193] = -t81;
     phi[273] = t61;
     const double t82 = t38 - t71;
+    MODELER_ZEROS(phi + 228, 8);
     const double t83 = t74 - t61;
     const double t84 = t65 + t58;
     phi[34] = t84*t29 - (t55*t82 - t83*t59);
@@ -213,6 +231,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[194] = -t85;
     phi[274] = -t84;
     phi[35] = t60 + t79 - t74*t29;
+    MODELER_ZEROS(phi + 236, 8);
     const double t86 = t63 - t80;
     phi[115] = -t86;
     phi[195] = -t86;
@@ -220,6 +239,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t87 = sr400_tree_geo_RL4*t38 - sr400_tree_geo_D4*t41 + t49;
     const double t88 = sr400_tree_geo_D4*t33 - sr400_tree_geo_RL4*t35 + t45;
     const double t89 = sr400_tree_geo_RL4*t43;
+    MODELER_ZEROS(phi + 244, 8);
     const double t90 = sr400_tree_geo_D4*t37 + t89 + t52;
     const double t91 = c3*t88 - s3*t90;
     const double t92 = sr400_tree_geo_D4*t29 - sr400_tree_geo_RL4*t25 + t46;
@@ -227,6 +247,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t94 = c3*t92;
     phi[36] = t87*t59 + t91*t29 + (t70*t93 - t75*t94);
     const double t95 = c3*t87;
+    MODELER_ZEROS(phi + 252, 8);
     const double t96 = sr400_tree_geo_RL4 - t50;
     const double t97 = c3*t96;
     const double t98 = s3*t96;
@@ -235,6 +256,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t100 = sr400_tree_geo_RL4*c3;
     const double t101 = sr400_tree_geo_RL4*s3;
     phi[196] = t70*t100 + t75*t101 + sr400_tree_geo_D4*t66 - t95;
+    MODELER_ZEROS(phi + 260, 8);
     phi[276] = -t91;
     const double t102 = c3*t90 + s3*t88;
     const double t103 = t87*t55 - t102*t29 + (t83*t93 + t71*t94);
@@ -242,6 +264,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t104 = s3*t87;
     const double t105 = t83*t97 - t71*t98 - t68*t99 + t104;
     phi[117] = t105;
+    MODELER_ZEROS(phi + 268, 2);
     const double t106 = t83*t100 - t71*t101 - sr400_tree_geo_D4*t68 + t104;
     phi[197] = t106;
     phi[277] = t102;
@@ -250,6 +273,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[198] = t89 - sr400_tree_geo_D4*t38 + t90;
     const double t107 = t102*t93 + t91*t94;
     phi[39] = t107;
+    MODELER_ZEROS(phi + 278, 2);
     const double t108 = t102*t97 - t91*t98 - t87*t99;
     phi[119] = t108;
     const double t109 = t102*t100 - t91*t101 - sr400_tree_geo_D4*t87;
@@ -257,6 +281,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t110 = c4*t57 + s4*t56;
     const double t111 = c4*t54 - s4*t74 - qd[4]*t110;
     const double t112 = c4*t55 + s4*t29;
+    MODELER_ZEROS(phi + 289, 1);
     const double t113 = c4*t56 - s4*t57;
     const double t114 = qd[4] + t53;
     const double t115 = t113*t114;
@@ -265,6 +290,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t118 = t113*t110;
     const double t119 = t118*t59;
     phi[40] = t111*t112 + t117 - t119;
+    MODELER_ZEROS(phi + 299, 8);
     const double t120 = s3*c4;
     const double t121 = s3*s4;
     const double t122 = t115*t121;
@@ -272,6 +298,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t124 = t111*t120 - t122 + t123;
     phi[120] = t124;
     phi[200] = t124;
+    MODELER_ZEROS(phi + 307, 8);
     const double t125 = c4*t115;
     phi[280] = -(s4*t111 + t125);
     phi[360] = t118;
@@ -280,6 +307,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t128 = t110*t114;
     const double t129 = t111 - t128;
     const double t130 = t114*t114;
+    MODELER_ZEROS(phi + 315, 8);
     const double t131 = t110*t110 + t130;
     const double t132 = t113*t113 + t130;
     const double t133 = t131 - t132;
@@ -287,6 +315,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t134 = t127*t120 + t129*t121 + c3*t133;
     phi[121] = -t134;
     phi[201] = -t134;
+    MODELER_ZEROS(phi + 323, 8);
     phi[281] = s4*t127 - c4*t129;
     phi[361] = -t133;
     const double t135 = qdd[4] + t65;
@@ -295,6 +324,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t138 = t111 + t128;
     phi[42] = t138*t59 - (t136*t112 - t116*t137);
     const double t139 = t136*t120 + t121*t137 + c3*t138;
+    MODELER_ZEROS(phi + 331, 8);
     phi[122] = -t139;
     phi[202] = -t139;
     phi[282] = s4*t136 - c4*t137;
@@ -302,6 +332,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t140 = t128*t112;
     phi[43] = t140 - t126*t116 + t119;
     const double t141 = t128*t120;
+    MODELER_ZEROS(phi + 339, 8);
     const double t142 = t123 - (t141 + t126*t121);
     phi[123] = -t142;
     phi[203] = -t142;
@@ -309,6 +340,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[283] = c4*t126 - t143;
     phi[363] = -t118;
     const double t144 = t71 - t132;
+    MODELER_ZEROS(phi + 347, 8);
     const double t145 = t135 + t118;
     const double t146 = t126 - t115;
     phi[44] = -(t112*t144 + t145*t116 + t146*t59);
@@ -317,6 +349,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[204] = -t147;
     phi[284] = s4*t144 + c4*t145;
     phi[364] = t146;
+    MODELER_ZEROS(phi + 355, 5);
     phi[45] = -(t117 + t140 + t135*t59);
     const double t148 = t122 - t141 + c3*t135;
     phi[125] = t148;
@@ -324,6 +357,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[285] = t125 + t143;
     phi[365] = t135;
     const double t149 = c4*t87 - s4*t102;
+    MODELER_ZEROS(phi + 368, 2);
     const double t150 = c4*t93;
     const double t151 = s4*t93;
     phi[46] = t91*t116 + t149*t59 + (t131*t150 + t136*t151 - t127*t94);
@@ -332,6 +366,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t154 = c4*t99 + s4*t97;
     phi[126] = t131*t153 + t136*t154 + t127*t98 - t152;
     const double t155 = c4*t100 - sr400_tree_geo_D4*s4;
+    MODELER_ZEROS(phi + 379, 8);
     const double t156 = sr400_tree_geo_D4*c4 + s4*t100;
     phi[206] = t131*t155 + t136*t156 + t127*t101 - t152;
     phi[286] = -c4*t91;
@@ -339,6 +374,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t157 = c4*t102 + s4*t87;
     const double t158 = t91*t112 + t157*t59 + (t129*t94 - (t145*t150 - t132*t151));
     phi[47] = -t158;
+    MODELER_ZEROS(phi + 387, 8);
     const double t159 = t91*t120 - c3*t157;
     const double t160 = t159 - (t145*t153 - t132*t154 + t129*t98);
     phi[127] = -t160;
@@ -347,6 +383,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t162 = s4*t91;
     phi[287] = t162;
     phi[367] = t157;
+    MODELER_ZEROS(phi + 395, 8);
     phi[48] = -t103;
     phi[128] = -t105;
     phi[208] = -t106;
@@ -354,6 +391,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[49] = t107;
     phi[129] = t108;
     phi[209] = t109;
+    MODELER_ZEROS(phi + 403, 8);
     const double t163 = c5*t114 - s5*t113;
     const double t164 = c5*t111 + s5*t135 + qd[5]*t163;
     const double t165 = c5*t112 - s5*t59;
@@ -362,6 +400,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t168 = t166*t167;
     const double t169 = c5*t59 + s5*t112;
     const double t170 = t168*t169;
+    MODELER_ZEROS(phi + 411, 8);
     const double t171 = t166*t163;
     const double t172 = t171*t116;
     phi[50] = t164*t165 - t170 + t172;
@@ -369,6 +408,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t174 = c3*c5 - s5*t120;
     const double t175 = t168*t174;
     const double t176 = t171*t121;
+    MODELER_ZEROS(phi + 419, 8);
     const double t177 = t164*t173 + t175 - t176;
     phi[130] = t177;
     phi[210] = t177;
@@ -377,6 +417,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t180 = t168*t179;
     const double t181 = c4*t171;
     phi[290] = -(t164*t178 - t180 + t181);
+    MODELER_ZEROS(phi + 427, 8);
     const double t182 = c5*t168;
     phi[370] = s5*t164 + t182;
     phi[450] = -t171;
@@ -384,6 +425,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t184 = t183 - t168;
     const double t185 = t163*t167;
     const double t186 = t164 + t185;
+    MODELER_ZEROS(phi + 435, 8);
     const double t187 = t167*t167;
     const double t188 = t163*t163 + t187;
     const double t189 = t166*t166 + t187;
@@ -391,6 +433,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[51] = t184*t165 - t186*t169 + t116*t190;
     const double t191 = t184*t173 + t186*t174 - t121*t190;
     phi[131] = t191;
+    MODELER_ZEROS(phi + 443, 7);
     phi[211] = t191;
     phi[291] = -(t184*t178 - t186*t179 + c4*t190);
     phi[371] = s5*t184 + c5*t186;
@@ -399,6 +442,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t193 = t192 + t171;
     const double t194 = t132 - t188;
     const double t195 = t164 - t185;
+    MODELER_ZEROS(phi + 458, 8);
     phi[52] = t195*t116 - (t193*t165 + t169*t194);
     const double t196 = t193*t173 - t174*t194 + t195*t121;
     phi[132] = -t196;
@@ -406,6 +450,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[292] = t193*t178 + t179*t194 - c4*t195;
     phi[372] = c5*t194 - s5*t193;
     phi[452] = -t195;
+    MODELER_ZEROS(phi + 466, 8);
     const double t197 = t185*t165;
     phi[53] = -(t197 + t183*t169 + t172);
     const double t198 = t185*t173;
@@ -414,6 +459,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[213] = t199;
     const double t200 = t185*t178;
     phi[293] = t200 + t183*t179 + t181;
+    MODELER_ZEROS(phi + 474, 8);
     const double t201 = s5*t185;
     phi[373] = c5*t183 - t201;
     phi[453] = t171;
@@ -421,6 +467,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t203 = t192 - t171;
     const double t204 = t183 + t168;
     phi[54] = t204*t116 - (t165*t202 - t203*t169);
+    MODELER_ZEROS(phi + 482, 8);
     const double t205 = t173*t202 + t203*t174 + t204*t121;
     phi[134] = -t205;
     phi[214] = -t205;
@@ -429,6 +476,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[454] = -t204;
     phi[55] = t170 + t197 - t192*t116;
     const double t206 = t175 - t198 - t192*t121;
+    MODELER_ZEROS(phi + 490, 8);
     phi[135] = -t206;
     phi[215] = -t206;
     phi[295] = c4*t192 - (t180 + t200);
@@ -436,6 +484,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[455] = t192;
     const double t207 = c5*t91 - s5*t157;
     const double t208 = c5*t150 + s5*t94;
+    MODELER_ZEROS(phi + 498, 8);
     const double t209 = c5*t94 - s5*t150;
     phi[56] = t149*t169 + t207*t116 + (t188*t208 - t193*t209 + t184*t151);
     const double t210 = t149*t174 + t207*t121;
@@ -444,6 +493,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[136] = t188*t211 + t193*t212 + t184*t154 - t210;
     const double t213 = c5*t155 - s5*t101;
     const double t214 = c5*t101 + s5*t155;
+    MODELER_ZEROS(phi + 506, 8);
     phi[216] = t188*t213 + t193*t214 + t184*t156 - t210;
     phi[296] = -(t149*t179 + c4*t207);
     phi[376] = -c5*t149;
@@ -451,6 +501,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t215 = c5*t157 + s5*t91;
     phi[57] = t149*t165 - t215*t116 + (t203*t208 + t189*t209 - t186*t151);
     const double t216 = t149*t173 + t215*t121;
+    MODELER_ZEROS(phi + 514, 8);
     phi[137] = t203*t211 - t189*t212 - t186*t154 + t216;
     phi[217] = t203*t213 - t189*t214 - t186*t156 + t216;
     phi[297] = c4*t215 - t149*t178;
@@ -459,6 +510,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[58] = -t158;
     phi[138] = -t160;
     phi[218] = -t161;
+    MODELER_ZEROS(phi + 522, 8);
     phi[298] = t162;
     phi[378] = t157;
     phi[59] = t107;
@@ -466,6 +518,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[219] = t109;
     const double t217 = s6*qdd[0];
     const double t218 = c6*qd[0];
+    MODELER_ZEROS(phi + 530, 8);
     const double t219 = qd[6]*t218;
     const double t220 = t217 + t219;
     const double t221 = s6*qd[0];
@@ -473,6 +526,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t223 = c6*t222;
     phi[60] = s6*t220 + t223;
     const double t224 = t221*t218;
+    MODELER_ZEROS(phi + 538, 2);
     phi[540] = -t224;
     const double t225 = c6*qdd[0];
     const double t226 = t225 - t222;
@@ -481,6 +535,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[61] = c6*t228 - s6*t227;
     const double t229 = qd[6]*qd[6];
     const double t230 = t218*t218 + t229;
+    MODELER_ZEROS(phi + 548, 2);
     const double t231 = t221*t221 + t229;
     phi[541] = t231 - t230;
     const double t232 = qdd[6] + t224;
@@ -488,6 +543,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[542] = -t217;
     phi[63] = c6*t226 - t223;
     phi[543] = t224;
+    MODELER_ZEROS(phi + 560, 8);
     phi[64] = -(s6*(t17 - t231) + c6*(qdd[6] - t224));
     phi[544] = -t225;
     phi[545] = qdd[6];
@@ -496,6 +552,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[546] = -t233;
     phi[67] = -(s6*t18 + sr400_tree_geo_D2*t228);
     const double t234 = c6*t19 + sr400_tree_geo_g*s6;
+    MODELER_ZEROS(phi + 568, 8);
     phi[547] = t234;
     phi[69] = t22;
     const double t235 = c7*t218 - s7*t221;
@@ -503,6 +560,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t237 = s6*c7 + c6*s7;
     const double t238 = c7*t221 + s7*t218;
     const double t239 = qd[6] + qd[7];
+    MODELER_ZEROS(phi + 576, 8);
     const double t240 = t238*t239;
     const double t241 = c6*c7 - s6*s7;
     const double t242 = t240*t241;
@@ -511,6 +569,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[550] = -t243;
     phi[630] = -t243;
     const double t244 = c7*t226 - s7*t220 - qd[7]*t238;
+    MODELER_ZEROS(phi + 584, 8);
     const double t245 = t244 - t240;
     const double t246 = t235*t239;
     const double t247 = t236 + t246;
@@ -518,6 +577,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t248 = t239*t239;
     const double t249 = t235*t235 + t248;
     const double t250 = t238*t238 + t248;
+    MODELER_ZEROS(phi + 592, 8);
     const double t251 = t249 - t250;
     phi[551] = -t251;
     phi[631] = -t251;
@@ -526,6 +586,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[72] = t241*(t17 - t249) - t253*t237;
     const double t254 = t236 - t246;
     phi[552] = -t254;
+    MODELER_ZEROS(phi + 600, 8);
     phi[632] = -t254;
     phi[73] = t244*t241 - t242;
     phi[553] = t243;
@@ -533,6 +594,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t255 = t252 - t243;
     phi[74] = -(t237*(t17 - t250) + t255*t241);
     const double t256 = t244 + t240;
+    MODELER_ZEROS(phi + 608, 8);
     phi[554] = -t256;
     phi[634] = -t256;
     phi[555] = t252;
@@ -541,6 +603,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     const double t258 = sr400_tree_geo_D2 + sr400_tree_geo_D8*c6;
     phi[76] = t257*t241 + t245*t258;
     const double t259 = t233 - sr400_tree_geo_D8*t232;
+    MODELER_ZEROS(phi + 616, 8);
     const double t260 = t234 + sr400_tree_geo_D8*t230;
     const double t261 = c7*t259 - s7*t260;
     const double t262 = sr400_tree_geo_D8*s7;
@@ -548,6 +611,7 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[556] = -(t249*t262 - t253*t263 + t261);
     phi[636] = -t261;
     phi[77] = -(t257*t237 + t247*t258);
+    MODELER_ZEROS(phi + 624, 6);
     const double t264 = c7*t260 + s7*t259;
     phi[557] = t264 - (t255*t262 + t250*t263);
     phi[637] = t264;
@@ -555,4 +619,5 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd,
     phi[558] = t254*t263 - t256*t262;
     phi[79] = t257*t258;
     phi[559] = -(t264*t262 + t261*t263);
+    MODELER_ZEROS(phi + 638, 2);
 }

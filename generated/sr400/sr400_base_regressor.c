@@ -43,8 +43,7 @@ static const double sr400_geo_D8 = SR400_GEO_D8;
 void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
                           double *MODELER_RESTRICT phi)
 {
-    for (int i = 0; i < 234; i++)
-        phi[i] = 0.0;
+    MODELER_ALL_ZEROS(phi, 234);
 
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -75,6 +74,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t11 = t7 - t10;
     const double t12 = t4 + t5;
     phi[2] = c1*t12 - s1*t11;
+    MODELER_ZEROS(phi + 5, 1);
     const double t13 = qd[1]*qd[1];
     const double t14 = t3*t3 + t13;
     const double t15 = t6*t6 + t13;
@@ -89,6 +89,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[44] = qdd[1];
     const double t19 = sr400_geo_D2*qdd[0];
     phi[6] = c1*t19 - sr400_geo_D2*t11;
+    MODELER_ZEROS(phi + 12, 1);
     const double t20 = sr400_geo_D2*t17;
     const double t21 = sr400_geo_g*c1 - s1*t20;
     phi[45] = -t21;
@@ -104,6 +105,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t28 = t26*t24;
     phi[203] = -t28;
     const double t29 = sa2*t10 - ca2*t5 + t23*t26;
+    MODELER_ZEROS(phi + 39, 1);
     const double t30 = t29 - t27;
     const double t31 = qd[5]*t24;
     const double t32 = t25 + t31;
@@ -118,6 +120,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t37 = qdd[5] - t28;
     phi[11] = s5*t37 - c5*(t17 - t35);
     phi[206] = -(t29 + t27);
+    MODELER_ZEROS(phi + 47, 5);
     phi[207] = qdd[5];
     const double t38 = t19 - sr400_geo_D3*t11;
     const double t39 = sr400_geo_D2 + sr400_geo_D3*c1;
@@ -133,6 +136,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[53] = -(t37*t40 + t35*t41);
     const double t45 = sa2*t43 + ca2*t42;
     phi[209] = t45;
+    MODELER_ZEROS(phi + 54, 5);
     const double t46 = c2*qd[5] - s2*t26;
     const double t47 = c2*t25 + s2*qdd[5] + qd[2]*t46;
     const double t48 = c2*c5;
@@ -147,6 +151,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t55 = c2*t51;
     phi[210] = s2*t47 + t55;
     const double t56 = c2*qdd[5] - s2*t25 - qd[2]*t49;
+    MODELER_ZEROS(phi + 61, 5);
     const double t57 = t56 - t51;
     const double t58 = t46*t50;
     const double t59 = t47 + t58;
@@ -162,6 +167,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t66 = t35 - t61;
     const double t67 = t47 - t58;
     phi[17] = -(t65*t48 + t52*t66 + s5*t67);
+    MODELER_ZEROS(phi + 68, 5);
     phi[95] = -t67;
     phi[212] = c2*t66 - s2*t65;
     const double t68 = t35 - t62;
@@ -176,6 +182,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t71 = sr400_geo_RL4*t35 - sr400_geo_D4*t36 + t44;
     const double t72 = sr400_geo_D4*t30 - sr400_geo_RL4*t32 + t38;
     const double t73 = sr400_geo_D4*t34 + sr400_geo_RL4*t37 + t45;
+    MODELER_ZEROS(phi + 75, 2);
     const double t74 = c2*t72 - s2*t73;
     const double t75 = t39 - (sr400_geo_RL4*c5 + sr400_geo_D4*s5);
     const double t76 = s2*t75;
@@ -191,6 +198,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[59] = t61*t81 + t65*t84 + t57*t41;
     phi[98] = -t74;
     phi[215] = t61*t80 + t65*t83 + sr400_geo_D4*t57 - c2*t71;
+    MODELER_ZEROS(phi + 78, 8);
     const double t85 = c2*t73 + s2*t72;
     phi[21] = t71*t48 + s5*t85 + (t69*t76 + t62*t77);
     phi[60] = t69*t81 - t62*t84 - t59*t41;
@@ -205,6 +213,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t92 = c3*s5 + s3*t48;
     const double t93 = t91*t92;
     const double t94 = t89*t86;
+    MODELER_ZEROS(phi + 86, 7);
     phi[22] = t87*t88 - t93 - t94*t52;
     const double t95 = c3*t91;
     phi[100] = -(s3*t87 + t95);
@@ -219,6 +228,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t102 = t87 - t101;
     const double t103 = t90*t90;
     const double t104 = t86*t86 + t103;
+    MODELER_ZEROS(phi + 114, 8);
     const double t105 = t89*t89 + t103;
     const double t106 = t104 - t105;
     phi[23] = t52*t106 - (t100*t88 + t102*t92);
@@ -234,6 +244,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[141] = -t110;
     phi[219] = -(t108*t96 + t97*t109 + c2*t110);
     const double t111 = t62 - t105;
+    MODELER_ZEROS(phi + 122, 8);
     const double t112 = t107 + t94;
     const double t113 = t99 - t91;
     phi[25] = -(t88*t111 - t112*t92 + t113*t52);
@@ -248,6 +259,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t115 = c3*t76;
     const double t116 = s3*t76;
     phi[27] = t104*t115 + t108*t116 - t100*t77 - (t74*t92 - t114*t52);
+    MODELER_ZEROS(phi + 130, 8);
     const double t117 = sr400_geo_D4 + t41;
     const double t118 = c3*t79 - s3*t117;
     const double t119 = c3*t80 - sr400_geo_D4*s3;
@@ -263,6 +275,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[67] = t112*t120 - t105*t122 + t102*t84;
     phi[106] = s3*t74;
     phi[145] = t123;
+    MODELER_ZEROS(phi + 138, 1);
     phi[223] = t112*t119 - t105*t121 + t102*t83 - (t74*t96 - c2*t123);
     const double t124 = c4*t90 - s4*t89;
     const double t125 = c4*t87 + s4*t107 + qd[4]*t124;
@@ -277,6 +290,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t133 = s3*c4;
     const double t134 = s3*s4;
     const double t135 = t129*t134;
+    MODELER_ZEROS(phi + 153, 8);
     phi[107] = -(t125*t133 - t135 + c3*t132);
     const double t136 = c4*t129;
     phi[146] = s4*t125 + t136;
@@ -292,6 +306,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     const double t144 = t128*t128;
     const double t145 = t124*t124 + t144;
     const double t146 = t127*t127 + t144;
+    MODELER_ZEROS(phi + 161, 8);
     const double t147 = t145 - t146;
     phi[30] = t141*t126 - t143*t130 - t92*t147;
     phi[108] = -(t141*t133 - t143*t134 + c3*t147);
@@ -306,6 +321,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[109] = t149*t133 + t134*t150 - c3*t151;
     phi[148] = c4*t150 - s4*t149;
     phi[187] = -t151;
+    MODELER_ZEROS(phi + 169, 8);
     phi[226] = -(t149*t137 - t138*t150 + t151*t97);
     const double t152 = t105 - t146;
     const double t153 = t148 - t132;
@@ -321,6 +337,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[189] = t148;
     phi[228] = t148*t97 - (t139 - t142*t137);
     const double t155 = c4*t74 - s4*t123;
+    MODELER_ZEROS(phi + 177, 8);
     const double t156 = c4*t115 + s4*t77;
     const double t157 = c4*t77 - s4*t115;
     phi[34] = t114*t130 - t155*t92 + (t145*t156 - t149*t157 + t141*t116);
@@ -335,6 +352,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[229] = t145*t158 + t149*t160 + t141*t121 - (t114*t138 + t155*t97);
     const double t162 = c4*t123 + s4*t74;
     phi[35] = t114*t126 + t162*t92 + (t153*t156 + t146*t157 - t143*t116);
+    MODELER_ZEROS(phi + 192, 8);
     phi[74] = t153*t159 - t146*t161 - t143*t122;
     phi[113] = c3*t162 - t114*t133;
     phi[152] = s4*t114;
@@ -349,6 +367,7 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
     phi[38] = -(s1*(t19 + sr400_geo_D8*t32) + (sr400_geo_D2 + sr400_geo_D8*c5)*t12);
     phi[77] = ca2*(t164 + sr400_geo_D8*t35) + sa2*(t163 - sr400_geo_D8*t37);
     phi[233] = -(sr400_geo_D8*sa2*t18 + sr400_geo_D8*ca2*t15);
+    MODELER_ZEROS(phi + 200, 3);
 }
 
 /* The entries of the base regressor that are not always 0.

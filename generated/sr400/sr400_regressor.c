@@ -43,8 +43,7 @@ static const double sr400_geo_D8 = SR400_GEO_D8;
 void sr400_regressor(const double *q, const double *qd, const double *qdd,
                      double *MODELER_RESTRICT phi)
 {
-    for (int i = 0; i < 480; i++)
-        phi[i] = 0.0;
+    MODELER_ALL_ZEROS(phi, 480);
 
     const double k1 = sr400_geo_D2*sr400_geo_D2;
 
@@ -71,6 +70,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t7 = qd[1]*t6;
     const double t8 = c1*t7;
     const double t9 = s1*t5 + t8;
+    MODELER_ZEROS(phi + 0, 5);
     phi[10] = t9;
     const double t10 = t6*t3;
     phi[90] = -t10;
@@ -80,6 +80,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t14 = t4 + t5;
     const double t15 = s1*t13 - c1*t14;
     phi[11] = -t15;
+    MODELER_ZEROS(phi + 6, 4);
     const double t16 = qd[1]*qd[1];
     const double t17 = t3*t3 + t16;
     const double t18 = t6*t6 + t16;
@@ -88,6 +89,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t20 = qdd[1] + t10;
     const double t21 = qd[0]*qd[0];
     const double t22 = s1*t20 - c1*(t21 - t17);
+    MODELER_ZEROS(phi + 15, 1);
     phi[12] = -t22;
     phi[92] = -t2;
     const double t23 = t8 - c1*t12;
@@ -97,6 +99,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t25 = s1*(t21 - t18) + c1*t24;
     phi[14] = -t25;
     phi[94] = -t11;
+    MODELER_ZEROS(phi + 18, 1);
     phi[95] = qdd[1];
     const double t26 = sr400_geo_D2*qdd[0];
     phi[16] = c1*t26 - sr400_geo_D2*t13;
@@ -106,6 +109,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[17] = -(s1*t26 + sr400_geo_D2*t14);
     const double t29 = c1*t27 + sr400_geo_g*s1;
     phi[97] = t29;
+    MODELER_ZEROS(phi + 25, 1);
     const double t30 = k1*qdd[0];
     phi[19] = t30;
     const double t31 = qd[1] - qd[5];
@@ -114,6 +118,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t34 = sa2*t6 + ca2*t3;
     const double t35 = qd[5]*t34;
     const double t36 = s5*t35;
+    MODELER_ZEROS(phi + 65, 1);
     const double t37 = c5*t33 - t36;
     phi[20] = t37;
     const double t38 = t34*t32;
@@ -123,6 +128,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t41 = qd[5]*t32;
     const double t42 = t33 + t41;
     const double t43 = c5*t40 - s5*t42;
+    MODELER_ZEROS(phi + 68, 1);
     phi[21] = t43;
     const double t44 = qd[5]*qd[5];
     const double t45 = t32*t32 + t44;
@@ -131,6 +137,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[421] = -t47;
     const double t48 = qdd[5] + t38;
     const double t49 = c5*t48 + s5*(t21 - t45);
+    MODELER_ZEROS(phi + 75, 1);
     phi[22] = -t49;
     const double t50 = t33 - t41;
     phi[422] = -t50;
@@ -140,6 +147,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t52 = qdd[5] - t38;
     const double t53 = c5*(t21 - t46) - s5*t52;
     phi[24] = -t53;
+    MODELER_ZEROS(phi + 80, 8);
     const double t54 = t39 + t35;
     phi[424] = -t54;
     phi[425] = qdd[5];
@@ -149,6 +157,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t57 = sr400_geo_D3*ca2;
     const double t58 = sr400_geo_D3*sa2;
     phi[106] = t48*t58 - t45*t57;
+    MODELER_ZEROS(phi + 88, 2);
     const double t59 = t28 - sr400_geo_D3*t20;
     const double t60 = t29 + sr400_geo_D3*t17;
     const double t61 = sa2*t59 - ca2*t60;
@@ -157,6 +166,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t62 = t52*t57 + t46*t58;
     phi[107] = -t62;
     const double t63 = sa2*t60 + ca2*t59;
+    MODELER_ZEROS(phi + 98, 8);
     phi[427] = t63;
     phi[28] = -(c5*t61 + s5*t63 + t56*t21);
     phi[108] = t50*t58 - t54*t57;
@@ -166,6 +176,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t65 = c2*t33 + s2*qdd[5] + qd[2]*t64;
     const double t66 = c2*c5;
     const double t67 = c2*t34 + s2*qd[5];
+    MODELER_ZEROS(phi + 110, 6);
     const double t68 = qd[2] - t32;
     const double t69 = t67*t68;
     const double t70 = s2*c5;
@@ -174,6 +185,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t73 = s5*t72;
     phi[30] = t65*t66 - t71 - t73;
     phi[190] = -t72;
+    MODELER_ZEROS(phi + 120, 6);
     const double t74 = c2*t69;
     phi[430] = s2*t65 + t74;
     const double t75 = c2*qdd[5] - s2*t33 - qd[2]*t67;
@@ -183,6 +195,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t79 = t68*t68;
     const double t80 = t64*t64 + t79;
     const double t81 = t67*t67 + t79;
+    MODELER_ZEROS(phi + 130, 6);
     const double t82 = t80 - t81;
     phi[31] = t76*t66 - t78*t70 - s5*t82;
     phi[191] = -t82;
@@ -192,6 +205,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t85 = t46 - t80;
     const double t86 = t65 - t77;
     phi[32] = -(t84*t66 + t70*t85 + s5*t86);
+    MODELER_ZEROS(phi + 140, 8);
     phi[192] = -t86;
     phi[432] = c2*t85 - s2*t84;
     const double t87 = t77*t66;
@@ -200,6 +214,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t88 = s2*t77;
     phi[433] = c2*t75 - t88;
     const double t89 = t46 - t81;
+    MODELER_ZEROS(phi + 148, 2);
     const double t90 = t83 - t72;
     const double t91 = t75 + t69;
     phi[34] = -(t66*t89 - t90*t70 + s5*t91);
@@ -209,6 +224,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[195] = t83;
     phi[435] = t88 - t74;
     const double t92 = sr400_geo_RL4*t46 - sr400_geo_D4*t48 + t61;
+    MODELER_ZEROS(phi + 158, 8);
     const double t93 = sr400_geo_D4*t40 - sr400_geo_RL4*t42 + t55;
     const double t94 = sr400_geo_RL4*t52;
     const double t95 = sr400_geo_D4*t45 + t94 + t63;
@@ -217,6 +233,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t98 = s2*t97;
     const double t99 = c2*t97;
     phi[36] = t92*t70 - s5*t96 + (t80*t98 - t84*t99);
+    MODELER_ZEROS(phi + 166, 8);
     const double t100 = sr400_geo_RL4 - t57;
     const double t101 = c2*t100;
     const double t102 = sr400_geo_RL4*c2;
@@ -226,6 +243,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t106 = t104 - t105;
     phi[116] = t80*t103 + t84*t106 + t76*t58;
     phi[196] = -t96;
+    MODELER_ZEROS(phi + 174, 8);
     phi[436] = t80*t102 + t84*t105 + sr400_geo_D4*t76 - c2*t92;
     const double t107 = c2*t95 + s2*t93;
     const double t108 = t92*t66 + s5*t107 + (t90*t98 + t81*t99);
@@ -235,6 +253,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[197] = t107;
     const double t110 = t90*t102 - t81*t105 - sr400_geo_D4*t78 + s2*t92;
     phi[437] = t110;
+    MODELER_ZEROS(phi + 182, 8);
     phi[38] = t91*t98 - t86*t99 - (t96*t66 + t107*t70);
     phi[118] = -t62;
     phi[438] = t94 - sr400_geo_D4*t46 + t95;
@@ -243,6 +262,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t112 = t107*t103 - t96*t106 - t92*t58;
     phi[119] = t112;
     const double t113 = t107*t102 - t96*t105 - sr400_geo_D4*t92;
+    MODELER_ZEROS(phi + 198, 2);
     phi[439] = t113;
     const double t114 = c3*t68 + s3*t67;
     const double t115 = c3*t65 - s3*t83 - qd[3]*t114;
@@ -252,6 +272,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t119 = t117*t118;
     const double t120 = c3*s5 + s3*t66;
     const double t121 = t119*t120;
+    MODELER_ZEROS(phi + 209, 1);
     const double t122 = t117*t114;
     const double t123 = t122*t70;
     phi[40] = t115*t116 - t121 - t123;
@@ -260,6 +281,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[280] = t122;
     const double t125 = s2*c3;
     const double t126 = s2*s3;
+    MODELER_ZEROS(phi + 219, 8);
     const double t127 = t119*t126;
     const double t128 = c2*t122;
     phi[440] = t115*t125 - t127 + t128;
@@ -269,6 +291,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t132 = t115 - t131;
     const double t133 = t118*t118;
     const double t134 = t114*t114 + t133;
+    MODELER_ZEROS(phi + 227, 8);
     const double t135 = t117*t117 + t133;
     const double t136 = t134 - t135;
     phi[41] = t70*t136 - (t130*t116 + t132*t120);
@@ -278,6 +301,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t137 = qdd[3] + t75;
     const double t138 = t137 - t122;
     const double t139 = t81 - t134;
+    MODELER_ZEROS(phi + 235, 8);
     const double t140 = t115 + t131;
     phi[42] = t140*t70 - (t138*t116 + t120*t139);
     phi[202] = s3*t138 - c3*t139;
@@ -286,6 +310,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t141 = t131*t116;
     phi[43] = t141 + t129*t120 + t123;
     const double t142 = s3*t131;
+    MODELER_ZEROS(phi + 243, 8);
     phi[203] = c3*t129 - t142;
     phi[283] = -t122;
     const double t143 = t131*t125;
@@ -295,6 +320,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t146 = t129 - t119;
     phi[44] = -(t116*t144 - t145*t120 + t146*t70);
     phi[204] = s3*t144 + c3*t145;
+    MODELER_ZEROS(phi + 251, 8);
     phi[284] = t146;
     phi[444] = c2*t146 - (t125*t144 - t145*t126);
     phi[45] = t121 - t141 - t137*t70;
@@ -303,6 +329,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[445] = t127 - t143 + c2*t137;
     const double t147 = c3*t92 - s3*t107;
     const double t148 = c3*t98;
+    MODELER_ZEROS(phi + 259, 8);
     const double t149 = s3*t98;
     phi[46] = t134*t148 + t138*t149 - t130*t99 - (t96*t120 - t147*t70);
     const double t150 = sr400_geo_D4 + t58;
@@ -312,6 +339,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t154 = sr400_geo_D4*c3 + s3*t102;
     const double t155 = c3*t150 + s3*t101 - t154;
     phi[126] = t134*t153 + t138*t155 + t130*t106;
+    MODELER_ZEROS(phi + 267, 8);
     phi[206] = -c3*t96;
     phi[286] = -t147;
     phi[446] = t134*t152 + t138*t154 + t130*t105 - (t96*t126 + c2*t147);
@@ -321,6 +349,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t158 = t145*t153 - t135*t155 + t132*t106;
     phi[127] = t158;
     const double t159 = s3*t96;
+    MODELER_ZEROS(phi + 275, 5);
     phi[207] = t159;
     phi[287] = t156;
     const double t160 = t96*t125 - c2*t156 - (t145*t152 - t135*t154 + t132*t105);
@@ -329,6 +358,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[128] = -t109;
     phi[208] = -t107;
     phi[448] = -t110;
+    MODELER_ZEROS(phi + 288, 2);
     phi[49] = t111;
     phi[129] = t112;
     phi[449] = t113;
@@ -338,6 +368,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t164 = c4*t117 + s4*t118;
     const double t165 = qd[4] + t114;
     const double t166 = t164*t165;
+    MODELER_ZEROS(phi + 299, 8);
     const double t167 = c4*t70 + s4*t116;
     const double t168 = t166*t167;
     const double t169 = t164*t161;
@@ -346,6 +377,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t171 = s3*c4;
     const double t172 = s3*s4;
     const double t173 = t166*t172;
+    MODELER_ZEROS(phi + 307, 8);
     const double t174 = c3*t169;
     phi[210] = -(t162*t171 - t173 + t174);
     const double t175 = c4*t166;
@@ -355,6 +387,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t177 = c2*c4 - s4*t125;
     const double t178 = t166*t177;
     const double t179 = t169*t126;
+    MODELER_ZEROS(phi + 315, 8);
     phi[450] = t162*t176 + t178 - t179;
     const double t180 = c4*t137 - s4*t115 - qd[4]*t164;
     const double t181 = t180 - t166;
@@ -364,6 +397,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t185 = t161*t161 + t184;
     const double t186 = t164*t164 + t184;
     const double t187 = t185 - t186;
+    MODELER_ZEROS(phi + 323, 8);
     phi[51] = t181*t163 - t183*t167 - t120*t187;
     phi[211] = -(t181*t171 - t183*t172 + c3*t187);
     phi[291] = s4*t181 + c4*t183;
@@ -372,6 +406,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t188 = qdd[4] + t129;
     const double t189 = t188 + t169;
     const double t190 = t135 - t185;
+    MODELER_ZEROS(phi + 331, 8);
     const double t191 = t162 - t182;
     phi[52] = -(t189*t163 + t167*t190 + t191*t120);
     phi[212] = t189*t171 + t172*t190 - c3*t191;
@@ -381,6 +416,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t192 = t182*t163;
     phi[53] = t170 - (t192 + t180*t167);
     const double t193 = t182*t171;
+    MODELER_ZEROS(phi + 339, 8);
     phi[213] = t193 + t180*t172 + t174;
     const double t194 = s4*t182;
     phi[293] = c4*t180 - t194;
@@ -389,6 +425,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[453] = t180*t177 - t195 + t179;
     const double t196 = t135 - t186;
     const double t197 = t188 - t169;
+    MODELER_ZEROS(phi + 347, 8);
     const double t198 = t180 + t166;
     phi[54] = -(t163*t196 - t197*t167 + t198*t120);
     phi[214] = t171*t196 - t197*t172 - c3*t198;
@@ -398,6 +435,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[55] = t168 + t192 + t188*t120;
     phi[215] = c3*t188 - (t173 + t193);
     phi[295] = t194 - t175;
+    MODELER_ZEROS(phi + 355, 8);
     phi[375] = t188;
     phi[455] = t188*t126 - (t178 - t195);
     const double t199 = c4*t96 - s4*t156;
@@ -407,6 +445,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t202 = c4*t152 - s4*t105;
     const double t203 = c4*t151 - s4*t104 - t202;
     const double t204 = c4*t105 + s4*t152;
+    MODELER_ZEROS(phi + 363, 7);
     const double t205 = c4*t104 + s4*t151 - t204;
     phi[136] = t185*t203 + t189*t205 + t181*t155;
     phi[216] = -(t147*t172 + c3*t199);
@@ -415,6 +454,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[456] = t185*t202 + t189*t204 + t181*t154 - (t147*t177 + t199*t126);
     const double t206 = c4*t156 + s4*t96;
     phi[57] = t147*t163 + t206*t120 + (t197*t200 + t186*t201 - t183*t149);
+    MODELER_ZEROS(phi + 378, 8);
     phi[137] = t197*t203 - t186*t205 - t183*t155;
     phi[217] = c3*t206 - t147*t171;
     phi[297] = s4*t147;
@@ -424,6 +464,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[138] = t158;
     phi[218] = t159;
     phi[298] = t156;
+    MODELER_ZEROS(phi + 386, 8);
     phi[458] = -t160;
     phi[59] = t111;
     phi[139] = t112;
@@ -432,6 +473,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[460] = t38;
     phi[61] = -t43;
     phi[461] = t47;
+    MODELER_ZEROS(phi + 394, 8);
     phi[62] = t53;
     phi[462] = t54;
     phi[63] = t37;
@@ -441,6 +483,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[465] = qdd[5];
     phi[66] = c5*t26 + sr400_geo_D2*t42;
     const double t207 = sr400_geo_g*c5 - s5*t27;
+    MODELER_ZEROS(phi + 402, 8);
     phi[466] = -t207;
     phi[67] = sr400_geo_D2*t40 - s5*t26;
     const double t208 = c5*t27 + sr400_geo_g*s5;
@@ -450,6 +493,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[150] = -t10;
     phi[71] = -t15;
     phi[151] = -t19;
+    MODELER_ZEROS(phi + 410, 8);
     phi[72] = -t22;
     phi[152] = -t2;
     phi[73] = -t23;
@@ -458,6 +502,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[154] = -t11;
     phi[155] = qdd[1];
     const double t209 = t26 + sr400_geo_D8*t42;
+    MODELER_ZEROS(phi + 418, 2);
     const double t210 = sr400_geo_D2 + sr400_geo_D8*c5;
     phi[76] = c1*t209 - t210*t13;
     const double t211 = t207 - sr400_geo_D8*t52;
@@ -467,6 +512,7 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     const double t214 = sr400_geo_D8*sa2;
     const double t215 = sr400_geo_D8*ca2;
     phi[476] = t20*t215 - t17*t214;
+    MODELER_ZEROS(phi + 428, 2);
     phi[77] = -(s1*t209 + t210*t14);
     const double t216 = ca2*t212 + sa2*t211;
     phi[157] = t216;
@@ -475,4 +521,5 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd,
     phi[478] = t2*t215 - t11*t214;
     phi[79] = t210*t209;
     phi[479] = -(t216*t214 + t213*t215);
+    MODELER_ZEROS(phi + 468, 8);
 }

@@ -71,6 +71,7 @@ def generate(
     folder: str | Path | None = None,
     force: bool = False,
     precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -79,6 +80,7 @@ def generate(
         folder: the module is written there if it is given.
         force: write also over files that no earlier run wrote, or that were edited since.
         precision: `double`, or `single`: then all numbers of the C are `float`.
+        cuda: add the base regressor in CUDA, of a robot without loops.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -86,9 +88,9 @@ def generate(
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
     """
     if isinstance(source, Derivation):
-        return generate_robot(source, folder, force, precision=precision)
+        return generate_robot(source, folder, force, precision=precision, cuda=cuda)
     derivation, _ = _emitted_anew(source)
-    return generate_robot(derivation, folder, force, fitted_spec(source), precision)
+    return generate_robot(derivation, folder, force, fitted_spec(source), precision, cuda)
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

@@ -29,6 +29,7 @@ from modeler.api.fleets import fleet as fleet
 from modeler.api.freeruns import free_run as free_run
 from modeler.api.gains import Load as Load
 from modeler.api.gains import fit_gains as fit_gains
+from modeler.api.graphics import on_gpu as on_gpu
 from modeler.api.improving import add as add
 from modeler.api.improving import auto as auto
 from modeler.api.improving import undo as undo
@@ -43,6 +44,7 @@ from modeler.api.simulating import simulate as simulate
 from modeler.api.trials import side_by_side as side_by_side
 from modeler.compare import Comparison as Comparison
 from modeler.compiled import CompiledModel as CompiledModel
+from modeler.compiled.gpu import GpuModel as GpuModel
 from modeler.core.contract import Emitted as Emitted
 from modeler.derivation import Derivation as Derivation
 from modeler.diagnose import Diagnosis as Diagnosis

@@ -45,17 +45,21 @@ def are_long(places: Sequence[AnyLog]) -> bool:
     return rows_of(places) > LONG
 
 
+def too_long(places: Sequence[AnyLog]) -> bool:
+    """True of logs that are not read at once, whatever for."""
+    return rows_of(places) > MOST_WHOLE
+
+
 def check_whole(places: Sequence[AnyLog], method: str) -> None:
     """Refuse logs that are too long to be read at once.
 
     Raises:
         DataError: they have more rows than that.
     """
-    rows = rows_of(places)
-    if rows > MOST_WHOLE:
+    if too_long(places):
         raise DataError(
-            f"fit: method {method} keeps all rows in memory; got {rows} rows, expected at most "
-            f"{MOST_WHOLE}; give a part of the log, FILE@START:END, or take --method "
+            f"fit: method {method} keeps all rows in memory; got {rows_of(places)} rows, expected "
+            f"at most {MOST_WHOLE}; give a part of the log, FILE@START:END, or take --method "
             f"{' or '.join(OF_TRIANGLES)}, which read logs of any length"
         )
 

@@ -1,7 +1,7 @@
 """`modeler generate ROBOT|MODEL --out DIR`."""
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from modeler.cli.console import Json, complain, say, working
 from modeler.cli.robots import robot_of
@@ -55,10 +55,14 @@ def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitt
         from modeler.api.chain import generate as generate_of_model
 
         with working(f"deriving {model.spec.robot}"):
-            return generate_of_model(model, args.out, args.force, precision=args.precision)
+            return generate_of_model(model, args.out, args.force, **_kinds(args))
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
-        return generate(derive(robot), args.out, args.force, precision=args.precision)
+        return generate(derive(robot), args.out, args.force, **_kinds(args))
+
+
+def _kinds(args: argparse.Namespace) -> dict[str, Any]:
+    return {"precision": args.precision, "cuda": args.cuda}
 
 
 def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:

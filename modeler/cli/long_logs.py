@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from modeler.api.long_logs import MOST_WHOLE, are_long, check_whole, fit_long, rows_of, sources_of
+from modeler.api.long_logs import are_long, check_whole, fit_long, sources_of, too_long
 from modeler.api.spread import by_workers
 from modeler.cli.console import note, progress
 from modeler.compiled import CompiledModel
@@ -44,7 +44,7 @@ def fit_if_long(
                 derivation, emitted, compiled, sources, args.method, processing, bar, reducer
             )
     except WholeNeeded as error:
-        if rows_of(places) > MOST_WHOLE:
+        if too_long(places):
             raise
         note(f"{error}; read as a whole instead")
         return None

@@ -213,7 +213,7 @@ class _Writer:
         """The number of the joint, s0 = sin(q[0]), or one that no joint has."""
         node = self.graph.nodes[angle]
         place = self.places[node.args[0]] if node.op == "sym" else ""
-        joint = re.fullmatch(r"q\[(\d+)\]", place)
+        joint = re.fullmatch(r"q(?:\[|_)(\d+)\]?", place)
         return joint[1] if joint else f"a{len(self.pairs) + 1}"
 
     def _text(self, index: int) -> Text:

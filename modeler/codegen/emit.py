@@ -1,7 +1,7 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,8 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.closure_functions import closure_tables, solving_of
+from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import (
     UNIT,
     check_values,
@@ -31,11 +33,14 @@ from modeler.codegen.render import render
 from modeler.codegen.single import WIDE, of_precision
 from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.codegen.target import OF_PRECISION
+from modeler.codegen.tile import UNIT as TILE_UNIT
+from modeler.codegen.tile import Tile, tile_of
 from modeler.core.choices import Precision
 from modeler.core.contract import (
     CLOSURE_RUNTIME,
     MANIFEST,
     RUNTIME,
+    TILE_RUNTIME,
     ArgumentSpec,
     Emitted,
     FittedSpec,
@@ -79,6 +84,7 @@ def emit(
     base: BaseParameters,
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
+    cuda: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -87,6 +93,7 @@ def emit(
         base: the base parameters of the same model.
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
+        cuda: add the kernels of `codegen.cuda`, of a robot without loops.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -97,12 +104,14 @@ def emit(
     module = _module(model, base, precision)
     spec, values = module.spec, module.values
     code = _code(spec, values)
+    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
         values |= {"spec": spec}
         code |= unit
     files = {
         **code,
+        **kernels,
         **package_files(spec, code, values),
         "base_parameters.md": render("base_parameters.md", **values),
         MANIFEST: spec.to_json(),
@@ -132,18 +141,25 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
+    solving = solving_of(model, base) if model.closure is not None else None
+    parameters += solving.symbols if solving is not None else []
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
     constants = symbol_constants(prefix, model.geometry.values)
     places = graph_places(model.geometry.coordinates, constants, parameters)
-    closed = model.closure is not None
-    functions = closed_functions(model, base) if closed else tree_functions(model, base)
+    functions = (
+        closed_functions(model, base, solving) if solving is not None
+        else tree_functions(model, base)
+    )  # fmt: skip
     blocks = [(f, _block(f, places, precision)) for f in functions]
     spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
     values = _values(spec, symbols, written, relations)
-    values |= {"loops": _loops(model, precision), "names": constants, "signature": ""}
+    closed = _CLOSED[precision]
+    values |= {"loops": closure_tables(model, solving, closed) if solving is not None else None}
+    values |= {"names": constants, "signature": ""}
+    values |= {"tile": tile_of(functions, places, spec.nonzeros) if precision == "double" else None}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
     return _Module(spec, blocks, places, values)
@@ -201,6 +217,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
             for unit in ("", "_regressor", "_base_regressor")
         },
         **(_loop_files(prefix, values) if spec.closure is not None else {}),
+        **(_tile_files(prefix, values) if spec.tile_sources else {}),
         **_runtime(spec),
     }
     return of_precision(spec.precision, files)
@@ -217,32 +234,11 @@ def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def _loops(model: SymbolicModel, precision: Precision) -> dict[str, Any] | None:
-    """Numbers of the closures, as C initialisers."""
-    closure = model.closure
-    if closure is None:
-        return None
-    scales = [closure.size if long else 1.0 for long in closure.lengths]
-    sets = [("", closure.given)]
-    if closure.platform is not None:
-        sets.append(("platform_", closure.platform))
-    every = range(len(closure.home))
-    return {
-        "home": ", ".join(repr(x) for x in closure.home),
-        "scale": ", ".join(repr(x) for x in scales),
-        "unknowns": len(closure.home),
-        "solved": len(closure.solved),
-        "given": len(closure.given),
-        "residuals": len(closure.every),
-        "alignments": len(closure.alignments),
-        # Where the robot is small, its directions are as exact as its lengths.
-        "tolerance": repr(_CLOSED[precision] * min(1.0, closure.size)),
-        "variables": ", ".join(joint.name for joint in model.robot.free),
-        "sets": [
-            (head, ", ".join(map(str, given)), ", ".join(str(k) for k in every if k not in given))
-            for head, given in sets
-        ],
-    }
+def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
+    """Header and source of the unit of tiles."""
+    constants = _constants([values["tile"]], values, values["symbols"].initial)
+    given = {**values, "constants": constants}
+    return {f"{prefix}{TILE_UNIT}.{kind}": render(f"tile.{kind}", **given) for kind in ("h", "c")}
 
 
 def _block(
@@ -323,7 +319,7 @@ def _unit(unit: str, values: dict[str, Any]) -> str:
 
 
 def _constants(
-    functions: list[_Written], values: dict[str, Any], initial: Mapping[str, str]
+    functions: Sequence[_Written | Tile], values: dict[str, Any], initial: Mapping[str, str]
 ) -> list[tuple[str, str]]:
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))
@@ -332,6 +328,7 @@ def _constants(
 
 def _runtime(spec: ModuleSpec) -> dict[str, str]:
     names = (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
+    names += TILE_RUNTIME if spec.tile_sources else ()
     return {name: _source(name, spec.precision).read_text("utf-8") for name in names}
 
 

@@ -11,6 +11,7 @@ from modeler.core.contract import ArgumentSpec, ModuleSpec
 
 _WIDTH = 100
 _FEW = 16  # outputs that are always 0, up to which each is written in its own line
+_RUN = 8  # of more, as many as one statement writes: a line of the cache
 
 
 def relation(parameter: BaseParameter) -> str:
@@ -123,16 +124,40 @@ def body_lines(function: Function, block: Block | None) -> list[str]:
     size = output_size(function.output)
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
-    lines = [f"(void){name};" for name in _unread(function, block)]
+    lines = [f"(void){name};" for name in unread(function, block)]
+    body = block.body if block is not None else ()
     if len(zeros) > _FEW:
-        lines.append(f"for (int i = 0; i < {size}; i++)")
-        lines.append(f"    {function.output.name}[i] = 0.0;")
+        name = function.output.name
+        lines.append(f"MODELER_ALL_ZEROS({name}, {size});")
+        body = _mixed(body, [f"MODELER_ZEROS({name} + {a}, {n});" for a, n in _runs(zeros)])
     else:
         lines += [f"{function.output.name}[{index}] = 0.0;" for index in zeros]
-    if block is not None:
-        for part in (block.constants, block.calls, block.body):
-            lines += ["", *part] if lines and part else part
+    for part in (block.constants, block.calls, body) if block is not None else (body,):
+        lines += ["", *part] if lines and part else part
     return lines
+
+
+def _runs(places: Sequence[int]) -> list[tuple[int, int]]:
+    """(first, length) of neighbouring places."""
+    runs: list[tuple[int, int]] = []
+    for place in places:
+        first, length = runs[-1] if runs else (place, 0)
+        if place == first + length and 0 < length < _RUN:
+            runs[-1] = (first, length + 1)
+        else:
+            runs.append((place, 1))
+    return runs
+
+
+def _mixed(statements: Sequence[str], more: Sequence[str]) -> tuple[str, ...]:
+    """The statements with `more` evenly between them: stores that wait for no arithmetic."""
+    mixed: list[str] = []
+    done = 0
+    for k, statement in enumerate(statements):
+        due = k * len(more) // len(statements)
+        mixed += [*more[done:due], statement]
+        done = due
+    return (*mixed, *more[done:])
 
 
 def output_size(argument: ArgumentSpec) -> int:
@@ -143,7 +168,7 @@ def output_size(argument: ArgumentSpec) -> int:
     return size
 
 
-def _unread(function: Function, block: Block | None) -> Iterable[str]:
+def unread(function: Function, block: Block | None) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     read = block.symbols if block else frozenset()
     for argument in function.inputs:

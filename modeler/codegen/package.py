@@ -1,7 +1,7 @@
 """What makes an emitted folder a package: its version, what is installed, texts of the build."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,6 +78,7 @@ def package_files(
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
+        "solving": _solving(values["functions"], prefix),
     }
     names = {
         "Makefile": "Makefile",
@@ -99,7 +100,9 @@ def package_files(
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
     prefix = spec.prefix
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
-    public = [name for name in (f"{prefix}.h", f"{prefix}_fitted.h") if name in code]
+    public = [
+        name for name in (f"{prefix}.h", f"{prefix}_fitted.h", f"{prefix}_tile.h") if name in code
+    ]
     for name in public:  # grows while it is read
         public += [h for h in _included(code[name]) if h in code and h not in public]
     return Package(
@@ -117,6 +120,15 @@ def _included(text: str) -> list[str]:
 
 def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
     return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+
+
+def _solving(functions: Sequence[Any], prefix: str) -> dict[str, int]:
+    """Operations of the factors of the loops' equations, and of a solution with them."""
+    own = [f for f in functions if f.name in (f"{prefix}_tree_factor", f"{prefix}_tree_solve")]
+    return {
+        "additions": sum(f.additions for f in own),
+        "multiplications": sum(f.multiplications for f in own),
+    }
 
 
 def _home(spec: ModuleSpec) -> str:

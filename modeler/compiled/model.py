@@ -9,6 +9,7 @@ import numpy as np
 from modeler.compiled.bind import Library, check_names
 from modeler.compiled.build import build_library
 from modeler.compiled.reducing import Reducing
+from modeler.compiled.tiling import Tiling, checked_out
 from modeler.core.checks import as_samples, as_vector, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import LoopError, ManifestError, ShapeError
@@ -22,7 +23,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Reducing, Presented):
+class CompiledModel(Tiling, Reducing, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
@@ -35,9 +36,14 @@ class CompiledModel(Reducing, Presented):
     """
 
     def __init__(
-        self, spec: ModuleSpec, library: Library, log: Mapping[str, object] | None = None
+        self,
+        spec: ModuleSpec,
+        library: Library,
+        log: Mapping[str, object] | None = None,
+        tile_files: Mapping[str, str] | None = None,
     ) -> None:
         self.spec = spec
+        self._tile_files = tile_files or {}
         self.log: Mapping[str, object] = log or {}
         self._library = library
         self._functions = {
@@ -46,7 +52,10 @@ class CompiledModel(Reducing, Presented):
         self._joints = len(spec.joints)
 
     def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
-        """Phi of the base parameters, (n, joints, c): tau = phi beta."""
+        """Phi of the base parameters, (n, joints, c): tau = phi beta.
+
+        Large batches are evaluated as those of `observation` and `nonzeros`, see docs/emitted-c.md.
+        """
         return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
     def regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
@@ -66,13 +75,14 @@ class CompiledModel(Reducing, Presented):
                 into fresh memory pages.
             s: signals of effects, where there are any.
         """
-        states = self._states({"q": q, "qd": qd, "qdd": qdd})
-        shape = (len(states["q"]) * self._joints, len(self.spec.base))
-        W = np.empty(shape) if out is None else _checked_out(out, shape)
-        status = self._no_status(len(states["q"]))
-        signals = self._signals(s, len(states["q"]))
-        self._library.observation(states["q"], states["qd"], states["qdd"], W, status, signals)
-        self._check(status, states["q"])
+        inputs = self._motion(q, qd, qdd, s)
+        shape = (len(inputs[0]) * self._joints, len(self.spec.base))
+        W = np.empty(shape) if out is None else checked_out(out, shape)
+        if not self._fill(inputs, W, dense=True):
+            q, qd, qdd, *signals = inputs
+            status = self._no_status(len(q))
+            self._library.observation(q, qd, qdd, W, status, *signals)
+            self._check(status, q)
         return W
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
@@ -164,6 +174,12 @@ class CompiledModel(Reducing, Presented):
         self._library.base_parameters(function, given, beta)
         return beta
 
+    def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
+        """Checked q, qd, qdd and, where effects read any, signals."""
+        states = self._states({"q": q, "qd": qd, "qdd": qdd})
+        signals = self._signals(s, len(states["q"]))
+        return (*states.values(), *(() if signals is None else (signals,)))
+
     def _states(self, arrays: Mapping[str, Any]) -> dict[str, np.ndarray]:
         checked = {name: as_samples(a, name, self._joints) for name, a in arrays.items()}
         same_samples(checked)
@@ -217,9 +233,12 @@ class CompiledModel(Reducing, Presented):
             assert signals is not None
             given["s"] = signals
         out = np.empty((samples, *function.outputs[0].shape))
+        inputs = [given[argument.name] for argument in function.inputs]
+        if role == "base_regressor" and self._fill(inputs, out, dense=True):
+            return out
         status = self._no_status(samples) if function.status else None
-        self._library.batch(function, [given[a.name] for a in function.inputs], out, status)
-        self._check(status, given[function.inputs[0].name])
+        self._library.batch(function, inputs, out, status)
+        self._check(status, inputs[0])
         return out
 
     @property
@@ -250,7 +269,8 @@ def load(
 
     Args:
         spec: the manifest.
-        files: {file name: text} with at least `spec.sources`; others are not looked at.
+        files: {file name: text} with at least `spec.sources`; `spec.tile_sources` are compiled when
+            they are first needed, others are not looked at.
         log: the [log] of the robot file.
 
     Raises:
@@ -265,7 +285,7 @@ def load(
             f"{spec.robot}: the module lacks {', '.join(missing)}; generate it again"
         )
     path = build_library({name: files[name] for name in spec.sources})
-    return CompiledModel(spec, Library(spec, path), log)
+    return CompiledModel(spec, Library(spec, path), log, files)
 
 
 def load_folder(folder: Path | str) -> CompiledModel:
@@ -284,7 +304,7 @@ def load_folder(folder: Path | str) -> CompiledModel:
     spec = module_from_json(_content(manifest), str(manifest))
     check_names(spec)
     files = {}
-    for name in spec.sources:
+    for name in (*spec.sources, *spec.tile_sources):
         if (folder / name).is_file():
             try:
                 files[name] = _content(folder / name).decode()
@@ -298,15 +318,3 @@ def _content(path: Path) -> bytes:
         return path.read_bytes()
     except OSError as error:
         raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-
-
-def _checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-    if not isinstance(out, np.ndarray) or out.shape != shape:
-        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
-        raise ShapeError(f"out: got {got}, expected an array {shape}")
-    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
-        raise ShapeError(
-            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
-            f"make one with np.empty({shape})"
-        )
-    return out

@@ -54,7 +54,7 @@ class Reducing:
         given = self._measured((q, qd, qdd, tau, weight), use, s)
         if not self.emits_entries:
             return of_dense(self.pattern, partial(self._dense, given), given, state)
-        return of_samples(self.pattern, self._entries, given, state)
+        return of_samples(self.pattern, self._entries(len(given.q)), given, state)
 
     def products(
         self, q: Any, qd: Any, qdd: Any, tau: Any, last: Any, use: Any = None, s: Any = None,
@@ -86,7 +86,8 @@ class Reducing:
                 "double precision, which this C has not; use triangles"
             )
         given = self._measured((q, qd, qdd, tau, None), use, s)
-        return products_of_samples(self.pattern, self._entries, given, np.asarray(last), first)
+        entries = self._entries(len(given.q))
+        return products_of_samples(self.pattern, entries, given, np.asarray(last), first)
 
     def _measured(self, values: tuple[Any, Any, Any, Any, Any], use: Any, s: Any) -> Samples:
         """Checked arrays; values may be not finite, and the last of them None."""
@@ -102,10 +103,10 @@ class Reducing:
         q, qd, qdd, tau = (arrays[name] for name in names[:4])
         return Samples(q, qd, qdd, tau, read, rows, arrays.get("weight"))
 
-    @property
-    def _entries(self) -> Functions:
+    def _entries(self, samples: int) -> Functions:
         name = f"{self.spec.prefix}_base_regressor_nonzeros"
-        return Functions(self._library.address(name), len(self.spec.signals))
+        tile = self._tile(samples)
+        return Functions(self._library.address(name), len(self.spec.signals), tile)
 
     @cached_property
     def pattern(self) -> Pattern:
@@ -125,6 +126,9 @@ class Reducing:
         states = [array for array in (part.q, part.qd, part.qdd, part.s) if array is not None]
         self._library.batch(function, states, out, status if function.status else None)
         return out, status != 0
+
+    def _tile(self, samples: int) -> int:
+        raise NotImplementedError
 
     def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
         raise NotImplementedError

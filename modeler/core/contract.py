@@ -27,6 +27,14 @@ RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
 """Those that stand beside a robot with loops."""
 
+CUDA_THREADS = 128
+"""Threads of a block of the emitted kernels."""
+
+TILE_RUNTIME = (
+    "modeler_tile.h", "modeler_lanes.h", "modeler_versions.h", "modeler_tile.c",
+)  # fmt: skip
+"""Those that stand beside a robot without loops, of double precision."""
+
 MANIFEST = "manifest.json"
 """Name of the manifest's file."""
 
@@ -206,6 +214,14 @@ class ModuleSpec(Brief):
             runtime += CLOSURE_RUNTIME
         return (*(self.prefix + unit for unit in units), *runtime)
 
+    @property
+    def tile_sources(self) -> tuple[str, ...]:
+        """Names of the C files of the tiles, which can be a library of their own; () if none."""
+        if self.closure is not None or self.precision != "double":
+            return ()
+        units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
+        return (*units, *TILE_RUNTIME, "modeler_sincos.h")
+
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
         return self._text
@@ -236,7 +252,7 @@ def text_digest(text: str) -> str:
 
 
 def code_digest(sources: Mapping[str, str]) -> str:
-    """Digest of the C files of `ModuleSpec.sources`, with an empty text for the signature.
+    """Digest of the C files of a module, tiles included, with an empty text for the signature.
 
     The signature stands in the C itself, so it is put there last: it covers all the rest.
     """

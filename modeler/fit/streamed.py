@@ -10,7 +10,9 @@ from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from modeler.core.errors import DataError
+import numpy as np
+
+from modeler.core.errors import DataError, LoopError
 from modeler.estimate.compressed import Compressed, merged
 from modeler.fit.partial import Partial, merge, reduce_chunk
 from modeler.observation.chunk import chunks
@@ -82,6 +84,7 @@ def stream(
         DataError: a log that is damaged, changes while it is read or lacks a column; rows that no
             choice of the windows fits; no usable row.
     """
+    _check_memory(model, sources)
     known, reducer = Known(), reducer or by_threads
     for number in range(1, PASSES + 1):
         found = survey(model, sources, processing or Processing(), known, rows)
@@ -156,18 +159,41 @@ def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Fa
     """Refuse what only a log as a whole shows.
 
     Raises:
-        DataError: a channel without values, or a position that counts from another zero.
+        DataError: a channel without values, or a position whose count changes for good.
     """
     for source, own in zip(sources, facts, strict=True):
         own.ranges.check(Path(source.name), model.spec)
-        moved = own.first("zero")
-        for j, time in moved.items():
-            name = model.spec.joints[j].name
-            raise WholeNeeded(
-                f"{source.name}: q{name} counts from another zero from {time:.6g} s on; a log of "
-                f"{own.tally.count('rows')} rows is read in chunks, which cannot be joined across "
-                f"that; fit its parts, as in {source.name}@:{time:.6g}"
-            )
+        turned = {j: t for j, t in own.first("wrap").items() if not _repeats(model, j)}
+        for kind, found in (("another zero", own.first("zero")), ("another turn", turned)):
+            for j, time in found.items():
+                name, rows = model.spec.joints[j].name, own.tally.count("rows")
+                raise WholeNeeded(
+                    f"{source.name}: q{name} counts from {kind} from {time:.6g} s on; a log of "
+                    f"{rows} rows is read in chunks, which cannot be joined across that; fit its "
+                    f"parts, as in {source.name}@:{time:.6g}"
+                )
+
+
+def _check_memory(model: "CompiledModel", sources: Sequence[Source]) -> None:
+    """Refuse an effect that remembers all motion before."""
+    if any(signal.kind == "slip" for signal in model.spec.signals):
+        raise WholeNeeded(
+            f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
+            "and long logs are read in chunks; fit a part of it, FILE@START:END"
+        )
+
+
+def _repeats(model: "CompiledModel", j: int) -> bool:
+    """True if a turn of a joint changes nothing in the model."""
+    joints, signals = len(model.spec.joints), model.spec.signals
+    q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))
+    read = np.full((1, len(signals)), 0.5) if signals else None
+    try:
+        here = model.base_regressor(q, qd, qdd, read)
+        there = model.base_regressor(q + 2.0 * np.pi * np.eye(joints)[j], qd, qdd, read)
+    except LoopError:
+        return True
+    return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))
 
 
 class WholeNeeded(DataError):

@@ -86,7 +86,7 @@ def open_cluster(address: str) -> Iterator[Cluster]:
         count = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
         with (
             LocalCluster(
-                n_workers=count or 1, threads_per_worker=1, dashboard_address=None,
+                n_workers=count or 1, threads_per_worker=1, dashboard_address=":0",
                 memory_limit=0, silence_logs=logging.CRITICAL,
             ) as cluster,
             Client(cluster) as client,

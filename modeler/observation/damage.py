@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.contract import ModuleSpec
 from modeler.observation.glitches import TorqueNoise, glitch_floor, glitches, torque_glitches
 from modeler.observation.isolated import LEAST, departures
-from modeler.observation.leaps import Leap, Walk, floors, floors_here, leaps_of, walked
+from modeler.observation.leaps import Leap, Walk, floors, floors_here, leaps_of, surely_none, walked
 from modeler.observation.log import Log
 from modeler.observation.resolution import resolution
 from modeler.observation.segments import GAP
@@ -134,6 +134,10 @@ def _positions(
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
     stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
+    if usual is not None and all(
+        surely_none(log.time[rows], log.q[rows], usual.leaps) for rows in stretches
+    ):
+        return q, segment, positions, steps, usual.leaps
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
     long = [walk for walk in walks if walk is not None]
     least = floors(long, steps) if usual is None else floors_here(long, usual.leaps)
@@ -186,8 +190,11 @@ def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Found]], To
     """Spikes of the measured torques by joint; and what is usual in them."""
     there = np.isfinite(log.tau).all(axis=1) & np.isfinite(log.q).all(axis=1)
     stretches = [rows for rows in _stretches(log, there) if len(rows) >= LEAST]
-    speeds = [np.gradient(log.q[rows], log.time[rows], axis=0) for rows in stretches]
-    spikes, noise = torque_glitches([log.tau[rows] for rows in stretches], speeds, usual)
+    spikes, noise = torque_glitches(
+        [log.tau[rows] for rows in stretches],
+        lambda: [np.gradient(log.q[rows], log.time[rows], axis=0) for rows in stretches],
+        usual,
+    )
     return [
         [_spike(one, rows, log) for own, rows in zip(by_joint, stretches, strict=True)
          for one in own]

@@ -1,11 +1,20 @@
 """Spikes of one to three samples in torques, velocities and accelerations: of wires, not motion."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.observation.isolated import REACH, departures, floor_here, lone, nearby, threshold
+from modeler.observation.isolated import (
+    REACH,
+    departures,
+    departures_near,
+    floor_here,
+    lone,
+    nearby,
+    spread,
+    threshold,
+)
 from modeler.observation.resolution import resolution
 
 LONGEST = 3
@@ -27,6 +36,7 @@ _MEAN = 5  # samples before and after a spike over which the speed is taken
 _RARELY = 0.95  # quantile of the changes of the speed over that time
 _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
+_FEW = 0.02  # of the values that may be spikes, or all are looked at
 
 Spike = tuple[int, int, float]
 """First sample, the one after the last, and the largest departure with its sign."""
@@ -113,7 +123,7 @@ def torque_noise(
 
 def torque_glitches(
     stretches: Sequence[np.ndarray],
-    speeds: Sequence[np.ndarray],
+    speeds_of: Callable[[], Sequence[np.ndarray]],
     usual: TorqueNoise | None = None,
 ) -> tuple[list[list[list[Spike]]], TorqueNoise | None]:
     """By joint and stretch, the spikes of torques that no motion and no blow explains.
@@ -124,7 +134,7 @@ def torque_glitches(
 
     Args:
         stretches: (n, J) torques without gaps; a joint without a measured torque is all 0.
-        speeds: (n, J) of the joints.
+        speeds_of: gives the speeds (n, J) of the joints; asked for where they matter.
         usual: in the whole log, of which these are a part; None: they are all of it.
 
     Returns:
@@ -132,25 +142,50 @@ def torque_glitches(
     """
     if not stretches:
         return [], usual
-    departed = [np.column_stack([departures(own) for own in tau.T]) for tau in stretches]
-    sizes = [np.abs(own) for own in departed]
+    departed = [_departed(tau, usual) for tau in stretches]
+    speeds = None if usual is not None else speeds_of()
     if usual is None:
+        assert speeds is not None
         usual = torque_noise(stretches, speeds, departed)
-    top, widths = usual.top, usual.range
-    found = []
-    for j in range(stretches[0].shape[1]):
-        own = glitches(
-            [tau[:, j] for tau in stretches],
-            [one[:, j] for one in departed],
+    found = [
+        glitches(
+            [tau[:, j] for tau in stretches], [own[:, j] for own in departed],
             float(usual.floors[j]),
         )
-        found.append([
+        for j in range(stretches[0].shape[1])
+    ]  # fmt: skip
+    if any(spikes for by_joint in found for spikes in by_joint):
+        found = _unexplained(found, departed, speeds or speeds_of(), usual)
+    return found, usual
+
+
+def _unexplained(
+    found: Sequence[Sequence[Sequence[Spike]]],
+    departed: Sequence[np.ndarray],
+    speeds: Sequence[np.ndarray],
+    usual: TorqueNoise,
+) -> list[list[list[Spike]]]:
+    """The spikes that no motion and no blow explains."""
+    sizes = [np.abs(own) for own in departed]
+    return [
+        [
             [spike for spike in spikes
              if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike[2]) > widths[j] or _moves(speed[:, j], spike, _SLOW * top[j]))]
+             and (abs(spike[2]) > usual.range[j]
+                  or _moves(speed[:, j], spike, _SLOW * usual.top[j]))]
             for spikes, size, speed in zip(own, sizes, speeds, strict=True)
-        ])  # fmt: skip
-    return found, usual
+        ]
+        for j, own in enumerate(found)
+    ]  # fmt: skip
+
+
+def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:
+    """(n, J) departures of the torques of a stretch; 0 where they are surely no spikes."""
+    if usual is not None:
+        places = np.flatnonzero((spread(tau) > usual.floors).any(axis=1))
+        if len(places) < _FEW * len(tau):
+            return departures_near(tau, places)
+    return np.column_stack([departures(own) for own in tau.T])
 
 
 def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:

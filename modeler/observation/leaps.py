@@ -14,6 +14,7 @@ from modeler.observation.isolated import (
     lone,
     nearby,
     running_median,
+    spread,
     threshold,
 )
 
@@ -112,6 +113,21 @@ def floors(walks: Sequence[Walk], resolution: np.ndarray) -> np.ndarray:
     top = np.quantile(np.abs(steps), _TOP, axis=0)
     lonely = [threshold(own, one, RARE) for own, one in zip(excess.T, resolution, strict=True)]
     return np.maximum(lonely, top)
+
+
+def surely_none(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
+    """True if no step of a stretch can be a leap, as its slopes hardly change over 11 samples.
+
+    Args:
+        time: (n,) s.
+        q: (n, J) rad or m, all finite.
+        known: (J,) `floors` of the whole log.
+    """
+    if len(time) <= LEAST:
+        return True
+    dt = np.diff(time)[:, None]
+    most = spread(np.diff(q, axis=0) / dt) * dt  # at least the excess of any step
+    return bool(np.all(most.max(axis=0) <= np.minimum(known, 0.5 * _TURN)))
 
 
 def floors_here(walks: Sequence[Walk], known: np.ndarray) -> np.ndarray:

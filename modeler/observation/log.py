@@ -62,7 +62,7 @@ class Log(Presented):
         return float(np.median(np.diff(self.time)))
 
 
-FINGER = 65_536
+FINGER = 32_768
 """Rows of which a long log keeps one fingerprint; that of the log is theirs together."""
 
 LONG = 250_000

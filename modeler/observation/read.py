@@ -241,13 +241,10 @@ class Ranges:
     @staticmethod
     def of(log: Log) -> "Ranges":
         """Of some rows."""
-        both = (log.q, log.tau)
-        low, high = (
-            np.stack([least.reduce(values, axis=0) for values in both])
-            for least in (np.fmin, np.fmax)
+        there, low, high = (
+            np.stack(rows) for rows in zip(*map(_range, (log.q, log.tau)), strict=True)
         )
-        there = np.stack([np.isfinite(values).sum(axis=0) for values in both])
-        return Ranges(there, np.where(there > 0, low, np.inf), np.where(there > 0, high, -np.inf))
+        return Ranges(there, low, high)
 
     def over(self, other: "Ranges") -> "Ranges":
         """Of the rows of both."""
@@ -288,3 +285,13 @@ class Ranges:
             raise DataError(
                 f"{path}: every measured torque is 0; expected joint torques; check the recording"
             )
+
+
+def _range(values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of values (n, J), NaN where missing: how many there are, the least and the largest."""
+    low, high = values.min(axis=0), values.max(axis=0)
+    if np.isfinite(low).all() and np.isfinite(high).all():
+        return np.full(values.shape[1], len(values)), low, high
+    there = np.isfinite(values).sum(axis=0)
+    low, high = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
+    return there, np.where(there > 0, low, np.inf), np.where(there > 0, high, -np.inf)

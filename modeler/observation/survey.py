@@ -47,7 +47,7 @@ class Survey:
 
     Attributes:
         observation: of the windows, for all that needs rows side by side.
-        prepared: the windows.
+        prepared: what else was seen in the windows; without their samples.
         chosen: by log.
         places: of each log among those that were prepared; that of another where none is.
         windows: how many.
@@ -110,6 +110,7 @@ def survey(
         every.append(_chosen((k, log), (prepared, at), chosen, parts, known.extremes.get(k), rows))
     count = sum(len(own) for own in windows)
     rows_seen = sum(log.rows for log in seen)
+    prepared = dataclasses.replace(prepared, segments=(), pieces=())  # memory for the chunks
     return Survey(observation, prepared, tuple(every), places, count, rows_seen)
 
 

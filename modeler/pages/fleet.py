@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.fleet import Fleet
 from modeler.fleet.result import Finding, Followed, Values
-from modeler.fleet.text import effect_title, headline_of, rows_of, sentence
+from modeler.fleet.text import effect_title, headline_of, left_lines, rows_of, sentence
 from modeler.pages.sheet import (
     Cell,
     Figure,
@@ -49,7 +49,7 @@ def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Pat
             ("logs", str(found.logs)),
             ("chance of any finding where nothing drifts", f"{100 * found.false_alarm:.2g} %"),
         ],
-        provenance=[*found.notes, *(f"left out: {p}: {why}" for p, why in found.left), *provenance],
+        provenance=[*found.notes, *left_lines(found), *provenance],
         command="fleet",
     )
     return write_page(path, sheet, "fleet.html")

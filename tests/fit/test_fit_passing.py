@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 
 from modeler.compiled import CompiledModel
 from modeler.fit import FitResult, identify, with_verdict
-from modeler.observation import Observation, Processing, observe, passing
+from modeler.observation import Observation, Processing, observe, passing, stretch
 from modeler.observation.evaluated import Evaluated
 from modeler.observation.log import Log
 from modeler.observation.thinned import thinned
@@ -83,6 +83,7 @@ def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memor
     log = moved(model, memory, 1.0 if name == "wrist" else 0.1)
     kept, expected = fitted(model, log, processing, method)
     monkeypatch.setattr(passing, "KEPT", 0)
+    monkeypatch.setattr(stretch, "_BLOCK", 50)  # fewer samples than lags
     observation, found = fitted(model, log, processing, method)
     assert len(kept.stretches) == 2 and not kept.used.all()
     assert "columns" in vars(kept) and "columns" not in vars(observation)

@@ -1,7 +1,6 @@
 """Fleets whose drifts are known: logs written by a robot's own equations, with coloured noise."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -15,7 +14,6 @@ from modeler.fleet.summary import summary
 from modeler.observation import Log, Processing
 
 RATE = 100.0  # Hz
-DURATION = 12.0  # s
 
 
 @cache
@@ -50,6 +48,7 @@ class Scene:
         noise: of torques, as a share of their rms; half of it remembers 50 ms.
         planted: what drifts.
         warm: True: a temperature column that rises with the periods.
+        duration: of a log, s.
     """
 
     machines: int = 3
@@ -59,7 +58,7 @@ class Scene:
     noise: float = 0.03
     planted: tuple[Planted, ...] = ()
     warm: bool = False
-    further: Mapping[str, float] = field(default_factory=dict)
+    duration: float = 12.0
 
 
 def parameters(seed: int, model: CompiledModel) -> np.ndarray:
@@ -74,9 +73,9 @@ def parameters(seed: int, model: CompiledModel) -> np.ndarray:
     return model.base_parameters([values[p.name] for p in model.spec.standard])
 
 
-def motion(rng: np.random.Generator, joints: int) -> tuple[np.ndarray, ...]:
+def motion(rng: np.random.Generator, joints: int, duration: float) -> tuple[np.ndarray, ...]:
     """Time, q, qd, qdd of a Fourier series."""
-    t = np.arange(0.0, DURATION, 1.0 / RATE)
+    t = np.arange(0.0, duration, 1.0 / RATE)
     base, found = 2.0 * np.pi * 0.15, [np.zeros((len(t), joints)) for _ in range(3)]
     for j in range(joints):
         for k in range(1, 6):
@@ -134,7 +133,7 @@ def _log(
     rng: np.random.Generator,
     period: int,
 ) -> Log:
-    t, q, qd, qdd = motion(rng, len(gains))
+    t, q, qd, qdd = motion(rng, len(gains), scene.duration)
     exact = model.base_regressor(q, qd, qdd) @ beta
     rms = np.sqrt(np.mean(exact**2, axis=0))
     noise = np.column_stack([coloured_noise(rng, len(t)) for _ in gains]) * rms * scene.noise

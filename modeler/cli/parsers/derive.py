@@ -110,6 +110,9 @@ def add_generate(commands: Commands) -> None:
         "--precision", choices=get_args(Precision), default="double",
         help="of all numbers of the C: double, or float for a microcontroller",
     )  # fmt: skip
+    parser.add_argument(
+        "--cuda", action="store_true", help="also the base regressor for graphics processors"
+    )
     add_force(parser)
     add_json(parser, "write the manifest for machines")
     parser.set_defaults(load=_generate)

@@ -1,0 +1,27 @@
+/* One leg of the Orthoglide, cut open
+ *
+ * Base regressors of many samples: see modeler_tile.h for what to do with them.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#ifndef ORTHOGLIDE_LEG_TREE_TILE_H
+#define ORTHOGLIDE_LEG_TREE_TILE_H
+
+#include "modeler_tile.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The entries of orthoglide_leg_tree_base_regressor_nonzeros, by the best instructions of this processor.
+ * They are equal to its values but for roundings: where one fuses a multiplication and an addition
+ * and the other does not. */
+const modeler_tiled *orthoglide_leg_tree_tiled(void);
+
+/* Tells whether this code belongs to a manifest. */
+const char *orthoglide_leg_tree_tile_signature(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,27 @@
+/* SR400, 6R arm with a parallelogram
+ *
+ * Base regressors of many samples: see modeler_tile.h for what to do with them.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#ifndef SR400_TILE_H
+#define SR400_TILE_H
+
+#include "modeler_tile.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The entries of sr400_base_regressor_nonzeros, by the best instructions of this processor.
+ * They are equal to its values but for roundings: where one fuses a multiplication and an addition
+ * and the other does not. */
+const modeler_tiled *sr400_tiled(void);
+
+/* Tells whether this code belongs to a manifest. */
+const char *sr400_tile_signature(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,119 @@
+"""CUDA of a robot without loops: its base regressor, many samples at once, from the same emitter.
+
+A thread computes the entries of one sample, as the scalar C does. There are two kernels: all
+entries into columns, so that neighbouring threads write neighbouring numbers; and, per joint, the
+products [W_j tau_j]' [W_j tau_j] of its own columns, summed over samples without a W.
+"""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.codegen import layout
+from modeler.codegen.block import Block, make_block
+from modeler.codegen.functions import Function
+from modeler.codegen.render import render
+from modeler.codegen.target import DOUBLE
+from modeler.core.contract import CUDA_THREADS, ModuleSpec
+from modeler.core.errors import EmitError
+
+CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
+"""CUDA has all functions of <math.h>, and one of its own for both."""
+
+_SHARED = 48 * 1024
+"""Bytes that the threads of a block may share on every device."""
+
+_TILES = (32, 16, 8, 4)
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """How the products of one robot are spread over a block.
+
+    Attributes:
+        threads: of a block.
+        tile: samples at hand.
+        products: pairs of entries, torques counted after them.
+        joints: lines of a C table: whose row each entry and torque is of.
+    """
+
+    threads: int
+    tile: int
+    products: tuple[tuple[int, int], ...]
+    joints: list[str]
+
+    @property
+    def first(self) -> list[str]:
+        """Lines of a C table."""
+        return layout.number_lines([a for a, _ in self.products])
+
+    @property
+    def second(self) -> list[str]:
+        """Lines of a C table."""
+        return layout.number_lines([b for _, b in self.products])
+
+
+def cuda_files(
+    spec: ModuleSpec,
+    blocks: Sequence[tuple[Function, Block | None]],
+    places: Mapping[str, str],
+    values: Mapping[str, Any],
+) -> dict[str, str]:
+    """{name: text} of the CUDA unit.
+
+    Args:
+        spec: the manifest.
+        blocks: functions of the module, `base_regressor_nonzeros` among them.
+        places: C text of every symbol of the graph.
+        values: what all templates of the module are given.
+
+    Raises:
+        EmitError: the robot has loops, or the module is in single precision.
+    """
+    _check(spec)
+    function = next(f for f, _ in blocks if f.role == "base_regressor_nonzeros")
+    block = make_block(
+        [(f"values[{k}*stride]", value) for k, value in function.entries], places, target=CUDA
+    )
+    names = [argument.name for argument in function.inputs]
+    lines = [f"(void){name};" for name in layout.unread(function, block)]
+    for part in (block.constants, block.calls, block.body):
+        lines += ["", *part] if lines and part else part
+    texts = values["symbols"].texts
+    text = render(
+        "kernel.cu",
+        **values,
+        block=block,
+        lines=lines,
+        states=", ".join(f"const double *{name}" for name in names),
+        constants=[(values["names"][n], texts[n]) for n in texts if n in block.symbols],
+        shape=_shape(spec),
+    )
+    return {f"{spec.prefix}.cu": text}
+
+
+def _check(spec: ModuleSpec) -> None:
+    """Nothing, if the module can have the unit.
+
+    Raises:
+        EmitError: the robot has loops, or the module is in single precision.
+    """
+    if spec.closure is not None:
+        raise EmitError(
+            f"{spec.robot} has loops, whose closing has no CUDA form; leave CUDA out, or open them"
+        )
+    if spec.precision == "single":
+        raise EmitError("CUDA is emitted in double precision only; leave out one of the two")
+
+
+def _shape(spec: ModuleSpec) -> _Shape:
+    entries, joints = spec.nonzeros, len(spec.joints)
+    columns = len(entries) + joints
+    products = []
+    for joint in range(joints):
+        own = [k for k, (row, _) in enumerate(entries) if row == joint] + [len(entries) + joint]
+        products += [(a, b) for at, a in enumerate(own) for b in own[at:]]
+    fitting = (tile for tile in _TILES if columns * (tile + 1) * 8 <= _SHARED)
+    rows = [row for row, _ in entries] + list(range(joints))
+    return _Shape(CUDA_THREADS, next(fitting, 1), tuple(products), layout.number_lines(rows))

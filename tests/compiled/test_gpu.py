@@ -1,0 +1,200 @@
+"""CUDA of the base regressor: its arithmetic on the CPU, real compilers where there are some."""
+
+import ctypes
+import shutil
+import subprocess
+import sys
+from functools import cache
+from importlib import util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.api import derive, load, on_gpu
+from modeler.cli import main
+from modeler.codegen import emit
+from modeler.compiled.gpu import GpuModel, load_gpu
+from modeler.core.contract import Emitted
+from modeler.core.errors import BuildError, EmitError, ManifestError, ShapeError
+from tests.codegen.fitted_library import robot_module
+from tests.compiled.cupy_on_cpu import cupy
+from tests.modules import compiled, compiler, module, states
+
+NAMES = ("wrist", "puma560")
+
+
+@cache
+def emitted(name: str) -> Emitted:
+    made = robot_module(name)
+    return emit(made.model, made.base, cuda=True)
+
+
+@pytest.fixture(scope="module")
+def gpu(tmp_path_factory):
+    """The kernels of a robot, on the CPU."""
+    compiler("g++")
+    found = {}
+
+    def model(name: str) -> GpuModel:
+        if name not in found:
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setitem(sys.modules, "cupy", cupy(tmp_path_factory.mktemp("gpu")))
+                found[name] = load_gpu(emitted(name))
+        return found[name]
+
+    return model
+
+
+def grams(phi: np.ndarray, tau: np.ndarray, model: GpuModel) -> list[np.ndarray]:
+    """By numpy, from the regressor of the scalar C."""
+    found = []
+    for joint, columns in enumerate(model.columns):
+        rows = np.column_stack([phi[:, joint, list(columns)], tau[:, joint]])
+        found.append(rows.T @ rows)
+    return found
+
+
+@pytest.mark.parametrize("samples", [1, 31, 32, 200])
+@pytest.mark.parametrize("name", NAMES)
+def test_kernels_compute_what_the_scalar_c_computes(name, samples, gpu):
+    model = gpu(name)
+    motion = states(len(model.spec.joints), samples)
+    phi = compiled(name).base_regressor(*motion)
+    values = model.nonzeros(*motion)
+    expected = np.array([phi[:, joint, column] for joint, column in model.spec.nonzeros])
+    np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-12 * np.abs(phi).max())
+    rng = np.random.default_rng(1)
+    tau = rng.normal(size=(samples, len(model.spec.joints)))
+    use = rng.uniform(size=tau.shape) < 0.7
+    for mask in (None, use):
+        kept = np.ones_like(tau) if mask is None else mask
+        wanted = grams(phi * kept[:, :, None], tau * kept, model)
+        for got, exact in zip(model.gram(*motion, tau, use=mask), wanted, strict=True):
+            size = np.sqrt(np.outer(np.diag(exact), np.diag(exact)))
+            assert (np.abs(got - exact) <= 1e-12 * size + 1e-300).all()
+
+
+def test_effects_that_read_signals(gpu):
+    model = gpu("slow-arm")
+    motion = states(3, 20)
+    s = np.random.default_rng(2).uniform(0, 1, (20, len(model.spec.signals)))
+    host = robot_module("slow-arm").emitted
+    from modeler.compiled import load as load_compiled
+
+    phi = load_compiled(host.spec, host.files).base_regressor(*motion, s=s)
+    expected = np.array([phi[:, joint, column] for joint, column in model.spec.nonzeros])
+    np.testing.assert_allclose(model.nonzeros(*motion, s=s), expected, rtol=1e-12, atol=1e-12)
+    with pytest.raises(ShapeError, match="its effects read signals; give s"):
+        model.nonzeros(*motion)
+
+
+def test_of_no_samples_nothing(gpu):
+    model = gpu("wrist")
+    none = np.empty((0, 3))
+    assert model.nonzeros(none, none, none).shape == (len(model.spec.nonzeros), 0)
+    assert not any(square.any() for square in model.gram(none, none, none, none))
+
+
+def test_what_is_refused(gpu):
+    model = gpu("wrist")
+    q, qd, qdd = states(3, 5)
+    with pytest.raises(ShapeError, match="different numbers of samples"):
+        model.nonzeros(q, qd[:4], qdd)
+    with pytest.raises(ShapeError, match=r"use: got shape \(5, 2\)"):
+        model.gram(q, qd, qdd, q, use=np.ones((5, 2), bool))
+    there = on_device(np.full((5, 3), np.nan))
+    with pytest.raises(ShapeError, match="q: got values that are not finite"):
+        model.nonzeros(there, qd, qdd)
+    with pytest.raises(ShapeError, match=r"q: got shape \(5, 2\), expected \(samples, 3\)"):
+        model.nonzeros(on_device(q[:, :2]), qd, qdd)
+    assert model.nonzeros(on_device(q), qd, qdd).shape == (len(model.spec.nonzeros), 5)
+
+
+def on_device(array: np.ndarray) -> np.ndarray:
+    """An array that says it lies on the processor."""
+
+    class There(np.ndarray):
+        __cuda_array_interface__ = None
+
+    return array.view(There)
+
+
+def test_without_cupy_or_a_processor_one_line(monkeypatch, tmp_path):
+    robot = derive(load("wrist"))
+    monkeypatch.setitem(sys.modules, "cupy", None)
+    with pytest.raises(BuildError, match=r"CuPy is not installed; pip install 'modeler\[gpu\]'$"):
+        on_gpu(robot)
+    monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path, devices=0))
+    with pytest.raises(BuildError, match=r"CuPy finds none; use compile_model, which needs none$"):
+        on_gpu(robot)
+    broken = cupy(tmp_path)
+    monkeypatch.setattr(broken.cuda.runtime, "getDeviceCount", no_driver)
+    monkeypatch.setitem(sys.modules, "cupy", broken)
+    with pytest.raises(BuildError, match=r"finds none \(driver too old\); use compile_model"):
+        on_gpu(robot)
+
+
+def no_driver() -> int:
+    raise RuntimeError("driver too old\nat line 3")
+
+
+def test_a_compiler_that_refuses_is_quoted(monkeypatch, tmp_path):
+    compiler("g++")
+    monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path))
+    with pytest.raises(BuildError, match="the emitted kernels do not compile:\n"):
+        GpuModel(emitted("wrist").spec, "no C")
+
+
+def test_modules_without_kernels():
+    with pytest.raises(ManifestError, match=r"has no wrist\.cu; generate it with cuda=True"):
+        load_gpu(module("wrist").emitted)
+    with pytest.raises(EmitError, match="five-bar has loops, whose closing has no CUDA form"):
+        emit(module("five-bar").model, module("five-bar").base, cuda=True)
+    with pytest.raises(EmitError, match="CUDA is emitted in double precision only"):
+        emit(module("wrist").model, module("wrist").base, precision="single", cuda=True)
+
+
+def test_the_command(tmp_path, capsys):
+    words = ["generate", "two-link", "--cuda", "--out", str(tmp_path)]
+    assert main(words) == 0
+    assert "  two_link.cu" in capsys.readouterr().out
+    assert "two_link_nonzeros_kernel" in (tmp_path / "two_link.cu").read_text()
+    assert main(["generate", "five-bar", "--cuda", "--out", str(tmp_path / "b")]) == 1
+    assert "has no CUDA form" in capsys.readouterr().err and not (tmp_path / "b").exists()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nvcc_compiles_the_kernels(name, tmp_path):
+    if shutil.which("nvcc") is None:
+        pytest.skip("NOT CHECKED: nvcc is not installed")
+    source = tmp_path / "kernels.cu"
+    source.write_text(emitted(name).files[f"{emitted(name).spec.prefix}.cu"])
+    command = ["nvcc", "-ptx", "-arch=sm_80", "-Werror", "all-warnings", "-o", tmp_path / "k.ptx"]
+    subprocess.run([*command, source], check=True, capture_output=True)
+    assert f".entry {emitted(name).spec.prefix}_gram_kernel" in (tmp_path / "k.ptx").read_text()
+
+
+def test_nvrtc_compiles_the_kernels():
+    """The compiler that CuPy calls; it needs no processor."""
+    library = nvrtc()
+    source = emitted("puma560").files["puma560.cu"].encode()
+    program = ctypes.c_void_p()
+    made = library.nvrtcCreateProgram(ctypes.byref(program), source, b"k.cu", 0, None, None)
+    assert made == 0
+    options = (ctypes.c_char_p * 1)(b"--gpu-architecture=compute_80")
+    done = library.nvrtcCompileProgram(program, 1, options)
+    size = ctypes.c_size_t()
+    library.nvrtcGetProgramLogSize(program, ctypes.byref(size))
+    log = ctypes.create_string_buffer(size.value)
+    library.nvrtcGetProgramLog(program, log)
+    assert done == 0 and not log.value.strip(), log.value.decode()
+
+
+def nvrtc() -> ctypes.CDLL:
+    spec = util.find_spec("nvidia.cuda_nvrtc") if util.find_spec("nvidia") else None
+    places = [Path(place) / "lib" for place in spec.submodule_search_locations] if spec else []
+    found = [path for place in places for path in place.glob("libnvrtc.so.*")]
+    if not found:
+        pytest.skip("NOT CHECKED: NVRTC is not installed (nvidia-cuda-nvrtc-cu12)")
+    return ctypes.CDLL(str(found[0]))

@@ -1,0 +1,64 @@
+"""Jobs here and in processes: the same results to the bit, and what is told of those that fail."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError
+from modeler.jobs import open_workers
+from modeler.jobs.run import Here, in_pairs, pairs
+from tests.jobs.work import added, ends_always, refused, third
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 8, 13, 64])
+def test_pairs_make_one_of_all_in_order(count: int) -> None:
+    """Each merge takes neighbours, earlier first; no branch is higher than a binary tree's."""
+    spans, heights = [(k, k + 1) for k in range(count)], [0] * count
+    for left, right in pairs(count):
+        assert spans[left][1] == spans[right][0]
+        spans[left] = (spans[left][0], spans[right][1])
+        heights[left] = 1 + max(heights[left], heights[right])
+    assert spans[0] == (0, count) and heights[0] == int(np.ceil(np.log2(count)))
+    assert in_pairs([[k] for k in range(count)], lambda a, b: a + b) == [*range(count)]
+
+
+def test_no_jobs_have_no_result() -> None:
+    with pytest.raises(DataError, match="no jobs; expected one at least"):
+        Here().begun(third, 0.1, [], added)()
+    assert Here().each(third, 0.1, []) == []
+
+
+def test_processes_give_what_this_one_gives() -> None:
+    jobs, shares = range(7), []
+    here = Here()
+    with open_workers(processes=2) as others:
+        waiting = others.begun(third, 0.1, jobs, added)
+        found = others.each(third, 0.1, jobs, shares.append)
+        assert np.array_equal(waiting(), here.begun(third, 0.1, jobs, added)())
+        assert np.array_equal(found, here.each(third, 0.1, jobs))
+        with pytest.raises(DataError, match="log: job 2 cannot be done"):
+            others.each(refused, "log", range(4))
+    assert shares == [k / 7 for k in range(1, 8)]
+
+
+def test_a_process_that_ends_is_told() -> None:
+    with open_workers(processes=2) as others, pytest.raises(DataError, match="a process ended in"):
+        others.each(ends_always, "", range(2))
+
+
+def test_this_process_does_what_it_is_given() -> None:
+    shares: list[float] = []
+    with open_workers() as workers:
+        assert workers.each(refused, "log", [0, 1], shares.append) == [0, 1]
+        with pytest.raises(DataError, match="log: job 2 cannot be done"):
+            workers.each(refused, "log", range(4))
+    assert shares == [0.5, 1.0]
+
+
+def test_without_dask_one_line_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(DataError) as error, open_workers("local"):
+        pass
+    told = "--dask local: Dask is not installed; pip install 'modeler[dask]', or leave --dask out"
+    assert str(error.value) == told
