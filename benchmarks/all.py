@@ -1,6 +1,16 @@
 """Every line, in the order of the report."""
 
-from benchmarks import answers, callgrind, folder, least_squares, memory, regressor, start, streams
+from benchmarks import (
+    answers,
+    callgrind,
+    folder,
+    least_squares,
+    loops,
+    memory,
+    regressor,
+    start,
+    streams,
+)
 
 LINES = (
     *start.LINES,
@@ -9,6 +19,7 @@ LINES = (
     *folder.LINES,
     *memory.LINES,
     *least_squares.LINES,
+    *loops.LINES,
     *streams.LINES,
     *answers.LINES,
 )
