@@ -3,6 +3,7 @@
 from benchmarks import (
     answers,
     callgrind,
+    cortex,
     folder,
     least_squares,
     loops,
@@ -16,6 +17,7 @@ LINES = (
     *start.LINES,
     *regressor.LINES,
     *callgrind.LINES,
+    *cortex.LINES,
     *folder.LINES,
     *memory.LINES,
     *least_squares.LINES,
