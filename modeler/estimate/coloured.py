@@ -73,6 +73,13 @@ def coloured(
     """
     if isinstance(W, Neighbours):
         return _passing(W, estimate, at)
+    return _kept(observation, W, y, counted, estimate)
+
+
+def _kept(
+    observation: Observation, W: np.ndarray, y: np.ndarray, counted: np.ndarray, estimate: Estimate
+) -> Colour:
+    """As `coloured`, with W."""
     C, own_way = estimate.covariance, estimate.influence
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
