@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.50202.53472.49429) only what has the signature c41ad0e0c115a854.
-set(PACKAGE_VERSION 1.50202.53472.49429)
+# find_package(evra 1.38485.2575.57130) only what has the signature 96550a0fdf2a4ee3.
+set(PACKAGE_VERSION 1.38485.2575.57130)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

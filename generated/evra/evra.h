@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "c41ad0e0c115a854"
+#define EVRA_SIGNATURE "96550a0fdf2a4ee3"
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210

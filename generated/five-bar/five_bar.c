@@ -379,10 +379,10 @@ void five_bar_tree_spread(const double *J, const double *K, const double *lu,
                           double *MODELER_RESTRICT x)
 {
     const double t1 = J[1] - K[1];
-    const double t2 = lu[1]*(J[5] - K[5] - t1*lu[3]);
+    const double t2 = lu[1]*(J[5] - K[5] - lu[3]*t1);
     const double t3 = lu[0]*(t1 - lu[2]*t2);
     const double t4 = J[3] - K[3];
-    const double t5 = lu[1]*(J[7] - K[7] - t4*lu[3]);
+    const double t5 = lu[1]*(J[7] - K[7] - lu[3]*t4);
     const double t6 = lu[0]*(t4 - lu[2]*t5);
     x[0] = t3*t3 + t2*t2 + t6*t6 + t5*t5;
 }

@@ -1023,7 +1023,7 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
                                  double *MODELER_RESTRICT x)
 {
     const double t1 = J[1] - K[1];
-    const double t2 = J[7] - K[7] - t1*lu[10];
+    const double t2 = J[7] - K[7] - lu[10]*t1;
     const double t3 = lu[21]*t2;
     const double t4 = lu[8]*(lu[22]*t2 - lu[24]*t3);
     const double t5 = lu[7]*(t3 - lu[23]*t4);
@@ -1040,7 +1040,7 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
     const double t16 = t7*t7 + t8*t8 + t10*t10 + t12*t12 + t11*t11 + t14*t14 + t13*t13 + t15*t15;
     const double t17 = J[2] - K[2];
     const double t18 = J[4] - K[4];
-    const double t19 = J[8] - K[8] - t17*lu[10] - t18*lu[11];
+    const double t19 = J[8] - K[8] - lu[10]*t17 - lu[11]*t18;
     const double t20 = lu[21]*t19;
     const double t21 = lu[8]*(lu[22]*t19 - lu[24]*t20);
     const double t22 = lu[7]*(t20 - lu[23]*t21);
@@ -1056,7 +1056,7 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
     const double t32 = t16 + t5*t5 + t24*t24 + t25*t25 + t27*t27 + t29*t29 + t28*t28 + t31*t31;
     const double t33 = lu[5]*(t26 + lu[17]*t22);
     const double t34 = J[14] - K[14];
-    const double t35 = J[11] - K[11] - t34*lu[13];
+    const double t35 = J[11] - K[11] - lu[13]*t34;
     const double t36 = lu[24]*t35*lu[8];
     const double t37 = lu[7]*(t35 + lu[23]*t36);
     const double t38 = lu[15]*t37*lu[4];
@@ -1072,7 +1072,7 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
     const double t48 = lu[5]*(t41 - lu[17]*t37);
     const double t49 = J[15] - K[15];
     const double t50 = J[17] - K[17];
-    const double t51 = J[12] - K[12] - t49*lu[13] - t50*lu[14];
+    const double t51 = J[12] - K[12] - lu[13]*t49 - lu[14]*t50;
     const double t52 = lu[24]*t51*lu[8];
     const double t53 = lu[7]*(t51 + lu[23]*t52);
     const double t54 = lu[15]*t53*lu[4];
@@ -1087,7 +1087,7 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
     const double t63 = lu[2]*(t49 - t52 - lu[12]*t62);
     const double t64 = lu[5]*(t57 - lu[17]*t53);
     const double t65 = J[25] - K[25];
-    const double t66 = lu[8]*(J[22] - K[22] - t65*lu[18]);
+    const double t66 = lu[8]*(J[22] - K[22] - lu[18]*t65);
     const double t67 = lu[23]*t66*lu[7];
     const double t68 = lu[15]*t67*lu[4];
     const double t69 = (1000000000000000.0/848528137423857.0)*t68;
@@ -1102,10 +1102,10 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
     const double t78 = lu[5]*(t65 - t72 + lu[17]*t67);
     const double t79 = t70 + t69*t69 + t71*t71 + t73*t73 + t75*t75 + t74*t74 + t77*t77 + t76*t76;
     const double t80 = J[19] - K[19];
-    const double t81 = t80*lu[16];
+    const double t81 = lu[16]*t80;
     const double t82 = t80 - lu[21]*t81;
     const double t83 = J[26] - K[26];
-    const double t84 = lu[8]*(J[23] - K[23] - t83*lu[18] + lu[22]*t81 + lu[24]*t82);
+    const double t84 = lu[8]*(J[23] - K[23] - lu[18]*t83 + lu[22]*t81 + lu[24]*t82);
     const double t85 = lu[7]*(t82 + lu[23]*t84);
     const double t86 = lu[4]*(t80 + lu[15]*t85);
     const double t87 = (1000000000000000.0/848528137423857.0)*t86;
@@ -1228,28 +1228,28 @@ void orthoglide_2003_tree_platform_spread(const double *J, const double *K, cons
                                           double *MODELER_RESTRICT x)
 {
     const double t1 = J[1] - K[1];
-    const double t2 = lu[2]*(J[7] - K[7] - t1*lu[11])*(1000000000000000.0/848528137423857.0);
-    const double t3 = t1*lu[1];
+    const double t2 = lu[2]*(J[7] - K[7] - lu[11]*t1)*(1000000000000000.0/848528137423857.0);
+    const double t3 = lu[1]*t1;
     const double t4 = J[4] - K[4];
-    const double t5 = J[2] - K[2] - t4*lu[9];
-    const double t6 = lu[2]*(J[8] - K[8] - t4*lu[10] - lu[11]*t5);
+    const double t5 = J[2] - K[2] - lu[9]*t4;
+    const double t6 = lu[2]*(J[8] - K[8] - lu[10]*t4 - lu[11]*t5);
     const double t7 = (1000000000000000.0/848528137423857.0)*t6;
     const double t8 = lu[1]*t5;
-    const double t9 = t4*lu[0];
-    const double t10 = (J[14] - K[14])*lu[4];
+    const double t9 = lu[0]*t4;
+    const double t10 = lu[4]*(J[14] - K[14]);
     const double t11 = lu[3]*(J[11] - K[11] - lu[12]*t10)*(1000000000000000.0/848528137423857.0);
-    const double t12 = (J[17] - K[17])*lu[5];
+    const double t12 = lu[5]*(J[17] - K[17]);
     const double t13 = lu[4]*(J[15] - K[15] - lu[14]*t12);
     const double t14 = lu[3]*(J[12] - K[12] - lu[12]*t13 - lu[13]*t12);
     const double t15 = (1000000000000000.0/848528137423857.0)*t14;
     const double t16 = t2*t2 + t3*t3 + t7*t7 + t8*t8 + t9*t9 + t11*t11 + t10*t10 + t15*t15;
-    const double t17 = (J[25] - K[25])*lu[8];
+    const double t17 = lu[8]*(J[25] - K[25]);
     const double t18 = lu[7]*(J[22] - K[22] - lu[17]*t17)*(1000000000000000.0/848528137423857.0);
     const double t19 = J[19] - K[19];
-    const double t20 = lu[8]*(J[26] - K[26] - t19*lu[16]);
-    const double t21 = lu[7]*(J[23] - K[23] - t19*lu[15] - lu[17]*t20);
+    const double t20 = lu[8]*(J[26] - K[26] - lu[16]*t19);
+    const double t21 = lu[7]*(J[23] - K[23] - lu[15]*t19 - lu[17]*t20);
     const double t22 = (1000000000000000.0/848528137423857.0)*t21;
-    const double t23 = t19*lu[6];
+    const double t23 = lu[6]*t19;
     x[0] = t16 + t13*t13 + t12*t12 + t18*t18 + t17*t17 + t22*t22 + t20*t20 + t23*t23;
 }
 

@@ -90,7 +90,7 @@ static void base_rows(const double *u, const double *qd, const double *qdd, doub
 
 const char *orthoglide_2003_signature(void)
 {
-    return "5a6792b45b8d5ad8";
+    return "da16c78e8221a765";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

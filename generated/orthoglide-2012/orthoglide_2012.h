@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "a9e6eacbee95b034"
+#define ORTHOGLIDE_2012_SIGNATURE "a1d90d71ee162fb1"
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196
