@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, LoopError
 from modeler.observation.chunk import chunk_rows, margin
 from modeler.observation.dry_friction import Shaft, shafts
 from modeler.observation.log import FINGER, Log
@@ -42,6 +42,10 @@ _PLACES = (0.5, 0.25, 0.75, 0.1, 0.9, 0.4, 0.6)  # of a window in its part of a 
 _TRAVEL = 1e-3  # rad or m: less is rest
 
 Extremes = tuple[tuple[float, float], ...]
+
+
+class WholeNeeded(DataError):
+    """Only a log that is in memory as a whole can be fitted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,14 +99,18 @@ def survey(
         rows: of a chunk, at least.
 
     Raises:
-        DataError: as `observe` does, of the windows.
+        DataError: a log is damaged.
+        WholeNeeded: `observe` refuses the windows.
     """
     windows = [_windows(source, _count(sources, k)) for k, source in enumerate(sources)]
     looked = [k for k, own in enumerate(windows) if own]
     logs = [windows_joined(own) if own else None for own in windows]
     seen = [log for log in logs if log is not None]
-    prepared = prepare(model.spec, seen, processing)
-    observation = observed(model, seen, prepared)
+    try:
+        prepared = prepare(model.spec, seen, processing)
+        observation = observed(model, seen, prepared)
+    except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
+        raise WholeNeeded(f"{error}; so it is in all windows of a long log") from None
     chosen, parts = observation.report.processing, shafts(model)
     chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))

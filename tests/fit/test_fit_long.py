@@ -17,12 +17,12 @@ from modeler.core.errors import DataError
 from modeler.fit import identify, streamed
 from modeler.fit.long import identify_long
 from modeler.fit.partial import merge_all, reduce_chunk
-from modeler.fit.streamed import WholeNeeded, stream
+from modeler.fit.streamed import stream
 from modeler.observation import Processing, observe
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass
 from modeler.observation.source import MemorySource, cut
-from modeler.observation.survey import Known, survey
+from modeler.observation.survey import Known, WholeNeeded, survey
 
 ROWS = 1024  # of a chunk
 ARM = planar_arm()
