@@ -6,8 +6,8 @@
  */
 #define _GNU_SOURCE
 #include HEADER
-#ifdef TILED
-#include TILED
+#ifdef TILE_HEADER
+#include TILE_HEADER
 #endif
 
 #include <dlfcn.h>
@@ -62,7 +62,7 @@ static double ours(void)
         sum += values[0];
     }
     keep(1, start);
-#ifdef TILED
+#ifdef TILE_HEADER
     const modeler_tiled *const tiled = PASTE(PREFIX, _tiled)();
     start = now();
     for (int i = 0; i < CALLS; i += LANES) {

@@ -58,19 +58,21 @@ def nanoseconds(name: str, rounds: int) -> dict[str, float]:
 
 
 def _compiled(name: str, folder: Path) -> Path:
-    module = emitted(name)
-    tools, prefix = find_toolchain(), module.spec.prefix
+    spec = emitted(name).spec
+    tools, prefix = find_toolchain(), spec.prefix
     names = [f'-DHEADER="{prefix}.h"', f"-DPREFIX={prefix}", f"-DMACRO={prefix.upper()}"]
-    if (tile := f"{prefix}_tile.h") in module.files:
-        names.append(f'-DTILED="{tile}"')
-    units = [folder / "module" / unit for unit in module.files if unit.endswith(".c")]
-    units = [unit for unit in units if "self_check" not in unit.name and "example" not in unit.name]
+    if spec.tile_sources:
+        names.append(f'-DTILE_HEADER="{prefix}_tile.h"')
+    files = dict.fromkeys((*spec.sources, *spec.tile_sources))
+    units = [str(folder / "module" / unit) for unit in files if unit.endswith(".c")]
     program = folder / "regressor"
-    subprocess.run(
+    made = subprocess.run(
         [*tools.command, *tools.flags, *names, "-I", str(folder / "module"), "-o", str(program),
-         str(HERE / "regressor.c"), *map(str, units), "-lm", "-ldl"],
-        check=True,
+         str(HERE / "regressor.c"), *units, "-lm", "-ldl"],
+        capture_output=True, text=True, check=False,
     )  # fmt: skip
+    if made.returncode:
+        raise Missing(f"the C of {name} does not compile: {made.stderr.partition(chr(10))[0]}")
     return program
 
 

@@ -81,7 +81,7 @@ size_t modeler_tile_work(const modeler_tiled *robot)
     const size_t doubles = values_length(robot) + whole_lines(FEW * widest(robot) + 3 * LINE)
         + inputs_length(robot);
 
-    return doubles * sizeof(double) + (2 + FEW) * (size_t)robot->nonzeros * sizeof(int);
+    return (doubles + LINE) * sizeof(double) + (2 + FEW) * (size_t)robot->nonzeros * sizeof(int);
 }
 
 /* Blocks that hold every entry. */
@@ -161,9 +161,11 @@ static double *padded(double *to, const double **input, size_t samples, size_t l
 }
 
 static void evaluate(const modeler_tiled *robot, size_t samples, const double *q, const double *qd,
-                     const double *qdd, const double *s, double *out, double *work, int dense)
+                     const double *qdd, const double *s, double *out, void *room, int dense)
 {
     const size_t joints = (size_t)robot->joints, signals = (size_t)robot->signals;
+    const size_t past = (uintptr_t)room % (LINE * sizeof(double));
+    double *const work = (double *)(void *)((char *)room + (LINE * sizeof(double) - past));
     const int version = MODELER_BEST_VERSION;
     const plan p = planned(robot, out, work, dense);
     const size_t phase = (size_t)(p.rows - work) % LINE;

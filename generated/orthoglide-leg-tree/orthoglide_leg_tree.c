@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "07ef02a395095fd8";
+    return "c859d9743802c6cb";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

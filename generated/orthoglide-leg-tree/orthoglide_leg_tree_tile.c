@@ -52,7 +52,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "07ef02a395095fd8";
+    return "c859d9743802c6cb";
 }
 
 #else /* for one instruction set */

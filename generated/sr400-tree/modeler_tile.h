@@ -1,7 +1,7 @@
 /* Samples side by side: base regressors of MODELER_LANES samples at once, and loops over many.
  *
  * C99, no allocation, no global state, re-entrant. Arrays are row-major: one row per sample.
- * Output arrays must not overlap input arrays. A value that is not finite marks its own sample only.
+ * Output arrays must not overlap input arrays. A value that is not finite marks only its sample.
  * What a sample gives depends on nothing but that sample: not on its place, nor on how many there
  * are.
  */
@@ -28,7 +28,7 @@ typedef struct {
     modeler_tile_function tile;
 } modeler_tiled;
 
-/* Bytes of work that the loops below need: 64-byte aligned, each thread its own. */
+/* Bytes that the loops below work in, without content or alignment; each thread needs its own. */
 size_t modeler_tile_work(const modeler_tiled *robot);
 
 /* W, (samples*joints) x columns: y = W beta. Every entry is written, zeros too, past the caches. */

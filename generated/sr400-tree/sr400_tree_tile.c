@@ -68,7 +68,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "7162010add7f71c6";
+    return "e419ca378d352141";
 }
 
 #else /* for one instruction set */

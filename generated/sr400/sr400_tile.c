@@ -65,7 +65,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "a9194323b53bc9c0";
+    return "7c637234a0fa15eb";
 }
 
 #else /* for one instruction set */

@@ -54,7 +54,7 @@
 #define MODELER_JOIN(a, b) MODELER_JOIN_(a, b)
 #define MODELER_JOIN_(a, b) a##b
 
-/* Lanes of two vectors, by constant places; `bits` is the vector of whole numbers of that length. */
+/* Lanes of two vectors, by constant places; `bits` is the vector of as many whole numbers. */
 #if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
 #define MODELER_SHUFFLE(bits, a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
@@ -65,7 +65,8 @@
 #if defined(MODELER_X86) && defined(__clang__)
 #define MODELER_STREAM(to, value) __builtin_nontemporal_store(value, to)
 #elif defined(MODELER_X86)
-#define MODELER_STREAM(to, value) MODELER_JOIN(MODELER_STREAM_, MODELER_WIDTH)((double *)(to), value)
+#define MODELER_STREAM(to, value) \
+    MODELER_JOIN(MODELER_STREAM_, MODELER_WIDTH)((double *)(to), value)
 #define MODELER_STREAM_2 __builtin_ia32_movntpd
 #define MODELER_STREAM_4 __builtin_ia32_movntpd256
 #define MODELER_STREAM_8 __builtin_ia32_movntpd512

@@ -5,10 +5,12 @@
  * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "wrist.h"
+#include "wrist_tile.h"
 
 #define N WRIST_JOINTS
 #define C WRIST_BASE_PARAMETERS
@@ -58,6 +60,37 @@ static double difference(int state)
     return worst;
 }
 
+/* Largest difference of a tile from the same entries one sample after another, relative to the
+ * largest of the sample. */
+static double tile_difference(void)
+{
+    static double room[(WRIST_NONZEROS + 1) * MODELER_LANES];
+    const size_t past = (uintptr_t)room / sizeof(double) % MODELER_LANES;
+    double *const values = room + (MODELER_LANES - past) % MODELER_LANES;
+    double q[MODELER_LANES * N], qd[MODELER_LANES * N], qdd[MODELER_LANES * N];
+    double entries[WRIST_NONZEROS], worst = 0.0;
+
+    for (int i = 0; i < MODELER_LANES * N; i++) {
+        q[i] = 0.7 * sin(1.0 + i);
+        qd[i] = 2.0 * cos(3.0 * i);
+        qdd[i] = 3.0 * cos(2.0 * i);
+    }
+    wrist_tiled()->tile(q, qd, qdd, NULL, values);
+    for (int lane = 0; lane < MODELER_LANES; lane++) {
+        double largest = 0.0, apart = 0.0;
+
+        wrist_base_regressor_nonzeros(q + lane * N, qd + lane * N, qdd + lane * N,
+entries);
+        for (int k = 0; k < WRIST_NONZEROS; k++) {
+            largest = fmax(largest, fabs(entries[k]));
+            apart = fmax(apart, fabs(values[k * MODELER_LANES + lane] - entries[k]));
+        }
+        if (!(apart <= worst * largest))
+            worst = apart / largest;
+    }
+    return worst;
+}
+
 int main(void)
 {
     double worst = 0.0;
@@ -74,6 +107,11 @@ int main(void)
         worst = fmax(worst, found);
     }
     printf("wrist %s:\n", signature);
+    if (strcmp(wrist_tile_signature(), signature) != 0
+        || !(tile_difference() <= TOLERANCE)) {
+        printf("tiles do not agree with single samples; other files or compiler flags?\n");
+        return 1;
+    }
     if (worst > TOLERANCE) {
         printf("three ways to the torques do not agree; other compiler flags?\n");
         return 1;

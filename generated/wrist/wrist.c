@@ -38,7 +38,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "20705ff601b2ea29";
+    return "04bf926c32be58c4";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -46,7 +46,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "20705ff601b2ea29";
+    return "04bf926c32be58c4";
 }
 
 #else /* for one instruction set */

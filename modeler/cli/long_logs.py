@@ -4,13 +4,13 @@ import argparse
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from modeler.api import Derivation
 from modeler.api.long_logs import are_long, check_whole, fit_long, sources_of, too_long
 from modeler.api.spread import by_workers, from_anywhere
 from modeler.cli.console import note, progress
 from modeler.compiled import CompiledModel
 from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
+from modeler.derivation import Derivation
 from modeler.fit import IdentifiedModel
 from modeler.fit.long import OF_TRIANGLES
 from modeler.fit.streamed import Reducer, WholeNeeded

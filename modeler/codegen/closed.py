@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.base.result import BaseParameters
+from modeler.codegen.closure_functions import PLATFORM, Solving
 from modeler.codegen.functions import (
     Arguments,
     Closed,
@@ -51,6 +52,11 @@ class _Frame:
         """How a function is made, with these variables given."""
         return Closed(kind, f"{self.head}loops", self.given.q.name, **more)
 
+    def regressor(self) -> Closed:
+        """The one of the base parameters, in one block where the elimination is sparse."""
+        given = self.given
+        return self.closed("rows", qd=given.qd.name, qdd=given.qdd.name, role="rows")
+
     def moving(self, role: str, reads: str, width: int = 1, qdd: str = "") -> Closed:
         """One that carries speeds and accelerations over; `qdd` stands for these."""
         qd = self.given.qd.name
@@ -58,8 +64,16 @@ class _Frame:
         return self.closed("projected", qd=qd, qdd=given, role=role, reads=reads, width=width)
 
 
-def closed_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function, ...]:
-    """All functions of the module of a robot with loops: internal ones, then the public ones."""
+def closed_functions(
+    model: SymbolicModel, base: BaseParameters, solving: Solving
+) -> tuple[Function, ...]:
+    """All functions of the module of a robot with loops: internal ones, then the public ones.
+
+    Args:
+        model: as derived.
+        base: the base parameters of the same model.
+        solving: how the loops are solved.
+    """
     frames = _frames(model, base)
     frame = frames[0]
     if model.signals or reads_more(model):
@@ -78,7 +92,7 @@ def closed_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Functi
             _dynamics(platform)[0],
             *_postures(platform),
         ]
-    return (*_internal(model, base), *public)
+    return (*_internal(model, base, solving), *public)
 
 
 def closed_dynamics(
@@ -109,7 +123,7 @@ def _frames(model: SymbolicModel, base: BaseParameters) -> list[_Frame]:
         joints = [model.robot.free[k] for k in closure.platform]
         names = ", ".join(joint.name for joint in joints)
         x = _renamed(arguments_of(joints, model, base), names)
-        frames.append(_Frame("platform_", x, closure))
+        frames.append(_Frame(PLATFORM, x, closure))
     return frames
 
 
@@ -124,7 +138,7 @@ def _renamed(given: Arguments, names: str) -> Arguments:
     )
 
 
-def _internal(model: SymbolicModel, base: BaseParameters) -> list[Function]:
+def _internal(model: SymbolicModel, base: BaseParameters, solving: Solving) -> list[Function]:
     """Functions of the opened tree, of u."""
     closure = model.closure
     assert closure is not None
@@ -133,24 +147,13 @@ def _internal(model: SymbolicModel, base: BaseParameters) -> list[Function]:
         del found[role]
     given = arguments_of(model.robot.free, model, base)
     found["coriolis"] = _tree_coriolis(model, beta_symbols(model, base), given)
-    values = [*closure.equations, *(entry for line in closure.jacobian for entry in line)]
-    found["closure"] = Function(
-        "", "closure", "Closure equations f(u) and their derivatives by u.", "f(u) = 0",
-        (given.q,), ArgumentSpec("values", (len(values),), "m or 1", "f, then df/du"),
-        entries_of(values),
-    )  # fmt: skip
-    checked = [*closure.every, *closure.alignments]
-    found["residual"] = Function(
-        "", "residual", "All equations of all loops, then cosines that are positive.", "f(u) = 0",
-        (given.q,), ArgumentSpec("values", (len(checked),), "m or 1", "equations, then cosines"),
-        entries_of(checked),
-    )  # fmt: skip
     found["drift"] = Function(
         "", "drift", "d/dt(df/du) ud.", "df/du udd + drift = 0", (given.q, given.qd),
         ArgumentSpec("values", (len(closure.drift),), "m/s2 or 1/s2", "drift"),
         entries_of(closure.drift),
     )  # fmt: skip
-    return [dataclasses.replace(f, role=f"tree_{role}", internal=True) for role, f in found.items()]
+    tree = [dataclasses.replace(f, role=f"tree_{role}", internal=True) for role, f in found.items()]
+    return [*tree, *solving.functions]
 
 
 def _tree_coriolis(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> Function:
@@ -184,7 +187,9 @@ def _regressors(
                 (x.q, x.qd, x.qdd),
                 phi,
                 (),
-                frame.moving(role, "u, ud, udd", width),
+                frame.regressor()
+                if kind == "base" and not frame.head
+                else frame.moving(role, "u, ud, udd", width),
             )
         )
     return found[0], found[1]

@@ -10,6 +10,7 @@ from modeler.base.result import BaseParameters
 from modeler.codegen import layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import closed_functions
+from modeler.codegen.closure_functions import closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import (
     UNIT,
@@ -140,18 +141,24 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
+    solving = solving_of(model, base) if model.closure is not None else None
+    parameters += solving.symbols if solving is not None else []
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
     constants = symbol_constants(prefix, model.geometry.values)
     places = graph_places(model.geometry.coordinates, constants, parameters)
-    closed = model.closure is not None
-    functions = closed_functions(model, base) if closed else tree_functions(model, base)
+    functions = (
+        closed_functions(model, base, solving) if solving is not None
+        else tree_functions(model, base)
+    )  # fmt: skip
     blocks = [(f, _block(f, places, precision)) for f in functions]
     spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
     values = _values(spec, symbols, written, relations)
-    values |= {"loops": _loops(model, precision), "names": constants, "signature": ""}
+    closed = _CLOSED[precision]
+    values |= {"loops": closure_tables(model, solving, closed) if solving is not None else None}
+    values |= {"names": constants, "signature": ""}
     values |= {"tile": tile_of(functions, places, spec.nonzeros) if precision == "double" else None}
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
@@ -232,34 +239,6 @@ def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
     constants = _constants([values["tile"]], values, values["symbols"].initial)
     given = {**values, "constants": constants}
     return {f"{prefix}{TILE_UNIT}.{kind}": render(f"tile.{kind}", **given) for kind in ("h", "c")}
-
-
-def _loops(model: SymbolicModel, precision: Precision) -> dict[str, Any] | None:
-    """Numbers of the closures, as C initialisers."""
-    closure = model.closure
-    if closure is None:
-        return None
-    scales = [closure.size if long else 1.0 for long in closure.lengths]
-    sets = [("", closure.given)]
-    if closure.platform is not None:
-        sets.append(("platform_", closure.platform))
-    every = range(len(closure.home))
-    return {
-        "home": ", ".join(repr(x) for x in closure.home),
-        "scale": ", ".join(repr(x) for x in scales),
-        "unknowns": len(closure.home),
-        "solved": len(closure.solved),
-        "given": len(closure.given),
-        "residuals": len(closure.every),
-        "alignments": len(closure.alignments),
-        # Where the robot is small, its directions are as exact as its lengths.
-        "tolerance": repr(_CLOSED[precision] * min(1.0, closure.size)),
-        "variables": ", ".join(joint.name for joint in model.robot.free),
-        "sets": [
-            (head, ", ".join(map(str, given)), ", ".join(str(k) for k in every if k not in given))
-            for head, given in sets
-        ],
-    }
 
 
 def _block(

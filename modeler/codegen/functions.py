@@ -44,8 +44,8 @@ class Closed:
     """How a function of the closed robot closes the loops and uses one of the opened tree.
 
     Attributes:
-        kind: which macro of the template writes it: "projected" | "inertia_matrix" | "poses" |
-            "posture" | "coupling".
+        kind: which macro of the template writes it: "rows" | "projected" | "inertia_matrix" |
+            "poses" | "posture" | "coupling".
         loops: C name of the closure.
         q, qd, qdd: C names of the motion that is given; empty where none is.
         start: C name of the closed posture from which the loops are closed.
@@ -69,8 +69,13 @@ class Closed:
     @property
     def calls(self) -> tuple[str, ...]:
         """Roles of the tree's functions that it calls."""
-        carried = ("tree_drift",) if self.qd else ()
-        return ("tree_closure", "tree_residual", *carried, f"{self.tree}_{self.role}")
+        head = self.loops.removesuffix("loops")
+        closing = [f"tree_{head}{part}" for part in ("factor", "solve", "turned")]
+        if self.kind not in ("posture", "poses"):
+            closing.append(f"tree_{head}coupling")
+        if self.qd and self.kind != "rows":
+            closing.append("tree_drift")
+        return ("tree_closure", "tree_residual", *closing, f"{self.tree}_{self.role}")
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """What makes an emitted folder a package: its version, what is installed, texts of the build."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -77,7 +77,7 @@ def package_files(
         "home": _home(spec),
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
-        "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
+        **_counts(values["functions"], prefix),
     }
     names = {
         "Makefile": "Makefile",
@@ -119,6 +119,23 @@ def _included(text: str) -> list[str]:
 
 def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
     return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+
+
+def _counts(functions: Sequence[Any], prefix: str) -> dict[str, dict[str, int]]:
+    """Operations of closing loops: equations and derivatives, and the solution."""
+    return {
+        "turn": _operations(functions, f"{prefix}_tree_closure"),
+        "solving": _operations(functions, f"{prefix}_tree_factor", f"{prefix}_tree_solve"),
+    }
+
+
+def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
+    """Operations of the functions of these names together."""
+    own = [f for f in functions if f.name in names]
+    return {
+        "additions": sum(f.additions for f in own),
+        "multiplications": sum(f.multiplications for f in own),
+    }
 
 
 def _home(spec: ModuleSpec) -> str:

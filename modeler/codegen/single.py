@@ -37,8 +37,8 @@ _MATH = (
 _NAMES = {"double": "float", "DOUBLE": "double", "atof": "(float)atof"}
 
 # Bounds of the closing of loops that follow from the precision: the correction after which the
-# error is its square, pivots that are zero, the shortest step.
-_BOUNDS = {"CONVERGED": "2e-4", "FLAT": "1e-4", "SHORTEST": "1e-4"}
+# error is its square, one that is not worth making, pivots that are zero, the shortest step.
+_BOUNDS = {"CONVERGED": "2e-4", "EXACT": "2e-6", "FLAT": "1e-4", "SHORTEST": "1e-4"}
 
 
 def of_precision(precision: Precision, files: Mapping[str, str]) -> dict[str, str]:

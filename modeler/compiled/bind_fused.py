@@ -1,5 +1,6 @@
 """The least squares of csrc/modeler_fused.c, made callable; with bind.py all that knows cffi."""
 
+import os
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,6 +14,9 @@ from modeler.core.resources import resource_dir
 
 _SOURCES = ("modeler_fused.c",)
 _HEADERS = ("modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_runtime.h")
+_DECISIVE = ("CC", "CFLAGS", "PATH", "MODELER_CACHE", "XDG_CACHE_HOME", "HOME")
+"""Variables that decide which library is meant, and where it is kept."""
+
 _DECLARED = """
 typedef struct {
     int joints, signals, nonzeros;
@@ -222,12 +226,13 @@ def fused_library() -> FusedLibrary:
     Raises:
         BuildError: no compiler, or it refused.
     """
-    folder = resource_dir("csrc")
-    texts = {name: (folder / name).read_text("utf-8") for name in _SOURCES}
-    texts |= {name: (folder / "include" / name).read_text("utf-8") for name in _HEADERS}
-    return _loaded(build_library(texts))
+    return _loaded(tuple(os.environ.get(name, "") for name in _DECISIVE))
 
 
 @lru_cache(maxsize=4)
-def _loaded(path: Path) -> FusedLibrary:
-    return FusedLibrary(path)
+def _loaded(environment: tuple[str, ...]) -> FusedLibrary:
+    """For variables of these values."""
+    folder = resource_dir("csrc")
+    texts = {name: (folder / name).read_text("utf-8") for name in _SOURCES}
+    texts |= {name: (folder / "include" / name).read_text("utf-8") for name in _HEADERS}
+    return FusedLibrary(build_library(texts))

@@ -14,8 +14,6 @@ from modeler.compiled.build import build_library
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import BuildError, ManifestError
 
-_LINE = 64  # bytes of a line of the cache
-
 _DECLARED = """
 typedef struct {{
     int joints, columns, signals, nonzeros;
@@ -73,8 +71,8 @@ class TileLibrary:
         """
         pointers = [self._doubles(array) for array in inputs]
         pointers += [self._ffi.NULL] * (4 - len(inputs))
-        work = np.empty(self._library.modeler_tile_work(self._tiled) + _LINE, dtype=np.uint8)
-        start = self._ffi.cast("void *", work.ctypes.data + -work.ctypes.data % _LINE)
+        work = np.empty(self._library.modeler_tile_work(self._tiled), dtype=np.uint8)
+        start = self._ffi.cast("void *", work.ctypes.data)
         name = "observation" if dense else "nonzeros"
         function = getattr(self._library, f"modeler_tile_{name}")
         function(self._tiled, len(inputs[0]), *pointers, self._doubles(out), start)

@@ -210,21 +210,22 @@ def of_rows(
 
     Args:
         pattern: which columns to use.
-        phi: (b, n, c) C-contiguous.
+        phi: (b, n, c); copied unless C-contiguous.
         y: (b, n).
         use: (b, n) bool; None for all.
         state: of earlier rows, which these are added to.
         level: of instructions; 0: the best of this processor.
     """
-    library, own = fused_library(), no_rows(pattern)
+    library, before = fused_library(), no_rows(pattern) if state is None else state
+    packed, rows, phi = before.packed.copy(), before.rows.copy(), np.ascontiguousarray(phi)
     kept = None if use is None else use.view(np.uint8)
     for j, (columns, triangle) in enumerate(
-        zip(pattern.columns, pattern.parts(own.packed), strict=True)
+        zip(pattern.columns, pattern.parts(packed), strict=True)
     ):
         flags = None if kept is None else kept[:, j]
         added, _ = library.rows(phi[:, j], y[:, j], flags, columns, level, triangle)
-        own.rows[j] += np.uintp(added)
-    return _merged(library, pattern, [own], state)
+        rows[j] += np.uintp(added)
+    return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
 
 
 def _merged(

@@ -72,7 +72,7 @@ class Tiling:
         def part(piece: slice) -> None:
             tiles.fill([array[piece] for array in inputs], rows[piece], dense)
 
-        threads = min(_processors(), samples // _SLICE)
+        threads = max(1, min(_processors(), samples // _SLICE))
         borders = [samples * k // threads for k in range(threads + 1)]
         pieces = [slice(a, b) for a, b in pairwise(borders)]
         with ThreadPoolExecutor(threads) as pool:

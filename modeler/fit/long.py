@@ -11,6 +11,7 @@ from modeler.estimate.coloured import Colour, coloured
 from modeler.estimate.compressed import Compressed
 from modeler.estimate.least_squares import Estimate
 from modeler.estimate.methods import method_of
+from modeler.estimate.passing import Neighbours, rows_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.identify import (
@@ -26,7 +27,6 @@ from modeler.fit.identify import (
 from modeler.fit.reduced import Reduced, reduced_model
 from modeler.fit.result import FitResult
 from modeler.fit.streamed import Streamed
-from modeler.observation.observation import Observation
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -58,7 +58,8 @@ def identify_long(
     data, alive = problem.data, problem.counted
     estimate = method_of(method).estimate(problem)
     essential = essential_parameters(data, estimate, method)
-    colour = _coloured(observation, np.arange(len(data.names)), alive, estimate, streamed.share)
+    rows, every = rows_of(observation, alive), np.arange(len(data.names))
+    colour = _coloured(problem, rows, every, estimate, streamed.share)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
     return FitResult(
         robot=observation.robot, method=method, status=status_of(estimate),
@@ -72,7 +73,7 @@ def identify_long(
         sentences=(*dead_sentences(observation, dead), *estimate.sentences,
                    *sentences_of(estimate, essential), *colour.sentences()),
         processing=observation.report.processing, own=estimate.sentences,
-        essential=_reduced(observation, alive, essential, streamed.share),
+        essential=_reduced(problem, rows, essential, streamed.share),
         reading=streamed.reading,
     )  # fmt: skip
 
@@ -84,8 +85,7 @@ def _problem(streamed: Streamed, dead: list[int], model: "CompiledModel | None")
     check_enough_rows(observation, len(data.names), int(data.rows.sum()))
     alive = ~np.isin(observation.row_joint, dead)
     return Problem(
-        observation, observation.W, observation.y, alive, observation.names, observation.units,
-        data, model,
+        observation, None, observation.y, alive, observation.names, observation.units, data, model
     )  # fmt: skip
 
 
@@ -108,7 +108,11 @@ def _without_joints(data: Compressed, dead: list[int]) -> Compressed:
 
 
 def _coloured(
-    observation: Observation, at: np.ndarray, alive: np.ndarray, estimate: Estimate, share: float
+    problem: Problem,
+    rows: np.ndarray | Neighbours,
+    at: np.ndarray,
+    estimate: Estimate,
+    share: float,
 ) -> Colour:
     """The colour that a share of the rows shows; the estimate is of all of them.
 
@@ -120,16 +124,17 @@ def _coloured(
     scaled = dataclasses.replace(
         estimate, covariance=estimate.covariance / share, influence=influence
     )
-    return coloured(observation, observation.W[:, at], observation.y, alive, scaled)
+    own = rows if isinstance(rows, Neighbours) else rows[:, at]
+    return coloured(problem.observation, own, problem.y, problem.counted, scaled, list(at))
 
 
 def _reduced(
-    observation: Observation, alive: np.ndarray, essential: Essential, share: float
+    problem: Problem, rows: np.ndarray | Neighbours, essential: Essential, share: float
 ) -> Reduced | None:
     """The essential parameters alone, as sure as their own residuals let them be."""
-    at = np.array([observation.names.index(name) for name in essential.names], dtype=int)
+    at = np.array([problem.names.index(name) for name in essential.names], dtype=int)
     reduced = essential.reduced
-    factors = _coloured(observation, at, alive, reduced, share).factors
+    factors = _coloured(problem, rows, at, reduced, share).factors
     sigma = factors * np.sqrt(np.diag(reduced.covariance))
-    units = dict(zip(observation.names, observation.units, strict=True))
+    units = dict(zip(problem.names, problem.units, strict=True))
     return reduced_model(essential, reduced, sigma, units)

@@ -1,28 +1,24 @@
 """One chunk of a long log, reduced to what a fit needs of it: pure functions, for any worker."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.compiled.fused import no_rows
 from modeler.estimate.compressed import Compressed, compress, merged
 from modeler.observation.chunk import Chunk
+from modeler.observation.evaluated import Evaluated
 from modeler.observation.facts import Facts
+from modeler.observation.motion import Segment
+from modeler.observation.passing import with_stretch
 from modeler.observation.seen import Chosen, seen
-from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
-
-_SAMPLES = (
-    4096  # evaluated at a time: with 6 joints x 48 columns 9 MB, which the caches hold in part
-)
-_HELD = 10_000  # rows after which they become a triangle
-
-_Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,35 +61,17 @@ def merge_all(parts: Iterable[Partial]) -> Partial:
 
 def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
     """Triangles of some stretches; W is never there as a whole."""
-    data, held, rows = none_of(model), list[_Rows](), 0
-    for block in (block for part in stretches for block in _blocks(model, part)):
-        held.append(block)
-        rows += len(block[1])
-        if rows > _HELD:
-            data, held, rows = merged(data, _of(held, data)), [], 0
-    return merged(data, _of(held, data)) if held else data
+    parts = [part for part in stretches if part.used.any()]
+    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    for part in parts:
+        torque = part.filtered(partial(_torque, part.segment))
+        state = with_stretch(regressor, part, torque, part.used, state)
+    like = none_of(model)
+    return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
 
 
-def _blocks(model: "CompiledModel", part: Stretch) -> Iterator[_Rows]:
-    """The rows of a stretch that count: W, y and joint."""
-    if not part.used.any():
-        return
-    s, read = part.segment, signals_of(model.spec, part.segment)
-
-    def columns(w: slice) -> np.ndarray:
-        return model.base_regressor(s.q[w], s.qd[w], s.qdd[w], None if read is None else read[w])
-
-    torque = part.filtered(lambda w: s.tau[w])
-    for rows, W in part.blocks(columns, _SAMPLES):
-        used = part.used[rows]
-        yield W[used], torque[rows][used], np.nonzero(used)[1]
-
-
-def _of(held: Sequence[_Rows], like: Compressed) -> Compressed:
-    """Triangles of some rows."""
-    W, y, joint = (np.concatenate(values) for values in zip(*held, strict=True))
-    free = [int(j) for j in np.flatnonzero(like.free)]
-    return compress(W, y, joint, len(like.rows), like.names, free)
+def _torque(segment: Segment, window: slice) -> np.ndarray:
+    return segment.tau[window]
 
 
 def none_of(model: "CompiledModel") -> Compressed:

@@ -4,13 +4,14 @@ Up to `KEPT` bytes W is built once and kept. Beyond, every stage asks for what i
 and they are evaluated as often as that: cheaper than to write them to memory and read them back.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
 
 from modeler.compiled.fused import Pattern, Triangles, no_rows, of_rows
 from modeler.observation.evaluated import Evaluated, near
+from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
 from modeler.observation.stretch import Stretch
 
@@ -74,16 +75,38 @@ def explained(
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
     """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
     regressor = observation.regressor
-    evaluated = regressor if isinstance(regressor, Evaluated) else None
-    pattern = _every(observation) if evaluated is None else evaluated.pattern
+    pattern = regressor.pattern if isinstance(regressor, Evaluated) else _every(observation)
     state = no_rows(pattern)
     for part, own in _stretches(observation):
-        if evaluated is not None and is_plain(part):
-            state = evaluated.triangles(part, keep[own], state)
-            continue
-        torque, used = observation.torque[own], keep[own]
-        for rows, columns in part.blocks(partial(regressor, part.segment)):
-            state = of_rows(pattern, columns, torque[rows], used[rows].copy(), state)
+        state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
+    return state
+
+
+def with_stretch(
+    regressor: Callable[[Segment, slice], np.ndarray],
+    part: Stretch,
+    torque: np.ndarray,
+    keep: np.ndarray,
+    state: Triangles,
+    samples: int = 4096,
+) -> Triangles:
+    """Triangles with the rows of a stretch added.
+
+    Args:
+        regressor: over its samples.
+        part: the stretch.
+        torque: (rows, n) filtered.
+        keep: (rows, n) bool.
+        state: before.
+        samples: whose regressor is evaluated at a time, where rows are filtered.
+    """
+    if not keep.any():
+        return state
+    if isinstance(regressor, Evaluated) and is_plain(part):
+        return regressor.triangles(part, keep, state)
+    for rows, columns in part.blocks(partial(regressor, part.segment), samples):
+        used = np.ascontiguousarray(keep[rows])
+        state = of_rows(state.pattern, columns, torque[rows], used, state)
     return state
 
 

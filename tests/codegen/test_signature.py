@@ -70,7 +70,7 @@ def emitted(gravity="-9.81", alpha="0.3", d="0.1", r="0"):
 def sources(made, signature=None):
     """The C files; with another text for the signature if that is given."""
     own = f'"{made.spec.signature()}"'
-    texts = {name: made.files[name] for name in made.spec.sources}
+    texts = {name: made.files[name] for name in (*made.spec.sources, *made.spec.tile_sources)}
     if signature is None:
         return texts
     return {name: text.replace(own, f'"{signature}"') for name, text in texts.items()}

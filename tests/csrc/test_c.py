@@ -19,7 +19,8 @@ HERE = Path(__file__).resolve().parent
 def test_runtime_under_sanitizers(cc, tmp_path):
     csrc = resource_dir("csrc")
     command = [compiler(cc), *STRICT, "-g", "-fsanitize=address,undefined"]
-    command += ["-fno-sanitize-recover=all", "-I", csrc / "include", "-o", tmp_path / "test"]
+    command += ["-fno-sanitize-recover=all", "-I", csrc / "include", "-I", csrc]
+    command += ["-o", tmp_path / "test"]
     command += [HERE / "test_runtime.c", *sorted(csrc.glob("*.c")), "-lm"]
     built = subprocess.run(command, capture_output=True, text=True, check=False)
     if "cannot find" in built.stderr and "san" in built.stderr:

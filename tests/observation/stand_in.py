@@ -4,6 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from modeler.compiled.bind_fused import Samples
+from modeler.compiled.fused import Pattern, of_dense
 from modeler.core.contract import FORMAT, BaseSpec, JointSpec, ModuleSpec, ParameterSpec
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
@@ -48,6 +50,17 @@ class StandIn:
     gains: tuple | None = None
     passive: tuple = ()
     seed: int = 7
+
+    @property
+    def pattern(self):
+        columns = np.arange(len(self.spec.base), dtype=np.intc)
+        return Pattern((columns,) * len(self.rows), len(columns))
+
+    def triangles(self, q, qd, qdd, tau, use=None, s=None, weight=None, state=None):
+        def evaluate(w):
+            return self.base_regressor(q[w], qd[w], qdd[w]), np.zeros(len(q[w]), dtype=bool)
+
+        return of_dense(self.pattern, evaluate, Samples(q, qd, qdd, tau, s, use, weight), state)
 
     def __post_init__(self):
         n = len(self.rows)

@@ -1,0 +1,316 @@
+"""Tiles: the same values as one sample after another, wherever a sample stands and whatever is in
+the others; robots, compilers and instruction sets side by side."""
+
+import dataclasses
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+import modeler.compiled.tiling as tiling
+from modeler.codegen import write_emitted
+from modeler.compiled import load, load_folder
+from modeler.core.errors import ManifestError, ShapeError
+from modeler.robot import read_robot
+from tests.codegen.fitted_library import robot_module
+from tests.modules import STRICT, compiled, compiler, module, states
+from tests.robots import ROBOTS
+
+WITHOUT_LOOPS = [name for name in ROBOTS if not read_robot(name).loops]
+BOUND = 64 * np.finfo(float).eps  # of the largest entry of the sample: roundings in other places
+SAMPLES = 21
+
+
+@pytest.fixture
+def tiled(monkeypatch):
+    """Tiles for any number of samples."""
+    monkeypatch.setattr(tiling, "TILED_FROM", 1)
+    monkeypatch.setattr(tiling, "_SLICE", 8)
+
+
+def assert_close(got: np.ndarray, expected: np.ndarray) -> None:
+    """Equal to the bound, sample by sample."""
+    assert got.shape == expected.shape
+    apart = np.abs(got - expected).max(axis=1, initial=0)
+    assert (apart <= BOUND * np.abs(expected).max(axis=1, initial=1)).all()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "emps", "wrist", "scara",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in WITHOUT_LOOPS),
+    ],
+)  # fmt: skip
+def test_a_tile_has_the_values_of_the_scalar_functions(name, monkeypatch):
+    model = compiled(name)
+    joints = len(model.spec.joints)
+    motion = states(joints, SAMPLES)
+    entries, phi, W = model.nonzeros(*motion), model.base_regressor(*motion), None
+    W = model.observation(*motion)
+    monkeypatch.setattr(tiling, "TILED_FROM", 1)
+    monkeypatch.setattr(tiling, "_SLICE", 8)
+    assert_close(model.nonzeros(*motion), entries)
+    by_tiles = model.base_regressor(*motion)
+    assert_close(by_tiles.reshape(SAMPLES, -1), phi.reshape(SAMPLES, -1))
+    np.testing.assert_array_equal(model.observation(*motion), by_tiles.reshape(W.shape))
+    rows, columns = np.array(model.spec.nonzeros).T
+    np.testing.assert_array_equal(model.nonzeros(*motion), by_tiles[:, rows, columns])
+
+
+def test_effects_that_read_signals_have_tiles(tiled, monkeypatch):
+    made = robot_module("slow-arm")
+    model = load(made.emitted.spec, made.emitted.files)
+    motion = states(len(model.spec.joints), SAMPLES)
+    s = np.random.default_rng(3).uniform(0.1, 0.9, (SAMPLES, len(model.spec.signals)))
+    by_tiles = model.nonzeros(*motion, s)
+    monkeypatch.setattr(tiling, "TILED_FROM", 2**18)
+    assert_close(by_tiles, model.nonzeros(*motion, s))
+
+
+@pytest.mark.parametrize("name", WITHOUT_LOOPS)
+def test_the_text_of_a_tile_is_the_arithmetic_of_the_model(name):
+    """Every robot's unit, read as Python: no compiler, and another order of evaluation."""
+    made = module(name)
+    spec, text = made.emitted.spec, made.emitted.files[f"{made.emitted.spec.prefix}_tile.c"]
+    q, qd, qdd = states(len(spec.joints), 8)
+    values = dict(made.model.geometry.values)
+    for kind, array in (("q", q), ("qd", qd), ("qdd", qdd)):
+        values |= {f"{kind}[{i}]": array[:, i] for i in range(len(spec.joints))}
+    place = {parameter.column: i for i, parameter in enumerate(made.base.parameters)}
+    wanted = {
+        (joint, place[k]): value for (joint, k), value in made.model.regressor.items() if k in place
+    }
+    expected = made.model.graph.evaluate([wanted[at] for at in spec.nonzeros], values)
+    got = python_of(text, values, q, qd, qdd)
+    largest = np.max([np.abs(v) + np.zeros(8) for v in expected], axis=0)
+    for k, value in enumerate(expected):
+        assert (np.abs(got[k] - value) <= 1e-12 * largest).all()
+
+
+def python_of(text: str, geometry: dict, q, qd, qdd) -> dict[int, np.ndarray]:
+    """{entry: (8,)} of the body of a unit."""
+    found: dict[int, np.ndarray] = {}
+    names: dict = {
+        "modeler_lanes_spread": lambda x: x + np.zeros(8), "modeler_lanes_sign": np.sign,
+        "modeler_lanes_fabs": np.abs, "modeler_lanes_exp": np.exp, "modeler_lanes_tanh": np.tanh,
+        "modeler_lanes_sqrt": np.sqrt, "modeler_lanes_pow": np.power, "modeler_lanes_tan": np.tan,
+        "sin": np.sin, "cos": np.cos, "MODELER_ROWS": lambda x, n, i: x.reshape(-1, n)[:, i],
+        "MODELER_ROWS_OF_ONE": np.ravel, "q": q, "qd": qd, "qdd": qdd, "found": found,
+    }  # fmt: skip
+    for name, initial in re.findall(r"^static const double (\w+) = (\w+|\S+);$", text, re.M):
+        symbol = name.split("_geo_", 1)[1]
+        assert initial
+        names[name] = geometry[symbol]
+    body = text.split("(entries)(", 1)[1].split("{\n", 1)[1].split("\n}\n", 1)[0]
+    for line in body.splitlines():
+        line = re.sub(r"^ *(const (double|modeler_lanes) )?", "", line).removesuffix(";")
+        line = re.sub(r"^MODELER_PUT\((\d+)\)", r"found[\1]", line)
+        pair = re.fullmatch(r"modeler_lanes_sincos\((.*), &(\w+), &(\w+)\)", line)
+        if pair:
+            line = f"{pair[2]}, {pair[3]} = sin({pair[1]}), cos({pair[1]})"
+        if "=" in line:
+            exec(line, names)
+    return found
+
+
+@pytest.mark.parametrize("samples", [1, 7, 8, 20])
+def test_an_output_may_begin_anywhere_and_nothing_else_is_written(samples, tiled):
+    model = compiled("scara")
+    motion = states(len(model.spec.joints), samples)
+    width = len(model.spec.base) * len(model.spec.joints)
+    whole = model.observation(*motion).reshape(samples, width)
+    for begin in range(9):
+        room = np.full(samples * width + 32, 7.5)
+        out = room[begin : begin + samples * width].reshape(-1, len(model.spec.base))
+        assert model.observation(*motion, out=out) is out
+        np.testing.assert_array_equal(out.reshape(samples, width), whole)
+        assert (room[:begin] == 7.5).all() and (room[begin + samples * width :] == 7.5).all()
+
+
+def test_results_do_not_depend_on_place_number_or_threads(tiled, monkeypatch):
+    model = compiled("wrist")
+    motion = states(3, 100)
+    whole = model.nonzeros(*motion)
+    for begin in (1, 3, 8, 50):
+        part = model.nonzeros(*(array[begin:] for array in motion))
+        np.testing.assert_array_equal(part, whole[begin:])
+    for threads in (1, 2, 5):
+        monkeypatch.setattr(tiling, "_processors", lambda threads=threads: threads)
+        np.testing.assert_array_equal(model.nonzeros(*motion), whole)
+
+
+def test_far_angles_and_values_that_are_no_numbers_stay_in_their_lane(monkeypatch):
+    """The scalar function says what they give; their neighbours must not change at all."""
+    model = compiled("wrist")
+    tiles, function = model._tiles, model._functions["base_regressor_nonzeros"]
+    q, qd, qdd = states(3, 16)
+    shape = (16, len(model.spec.nonzeros))
+    clean, got, expected = np.empty(shape), np.empty(shape), np.empty(shape)
+    tiles.fill((q, qd, qdd), clean, dense=False)
+    for k, odd in enumerate([99_999.9, 1e5, -1e5, 3e7, -1e15, 1e300, np.nan, np.inf, -np.inf]):
+        for array in (q, qd, qdd):
+            lane, changed = (3 * k) % 16, array.copy()
+            changed[lane, k % 3] = odd
+            given = [changed if each is array else each for each in (q, qd, qdd)]
+            tiles.fill(given, got, dense=False)
+            model._library.batch(function, given, expected)
+            others = np.arange(16) != lane
+            np.testing.assert_array_equal(got[others], clean[others])
+            size = np.nanmax(np.where(np.isfinite(expected[lane]), np.abs(expected[lane]), 1.0))
+            np.testing.assert_allclose(
+                got[lane], expected[lane], rtol=1e-12, atol=BOUND * size, equal_nan=True
+            )
+
+
+CHECK = """
+#include "{prefix}_tile.c"
+#include "{prefix}.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum {{
+    N = {prefix_upper}_JOINTS, Z = {prefix_upper}_NONZEROS, C = {prefix_upper}_BASE_PARAMETERS,
+    SAMPLES = 13
+}};
+
+/* 0 if W is filled at any place of a line, and nothing else. */
+static int whole(const double *q, const double *qd, const double *qdd)
+{{
+    void *const work = malloc(modeler_tile_work({prefix}_tiled()));
+    int bad = work == NULL;
+
+    for (size_t begin = 0; begin < 9 && !bad; begin++) {{
+        const size_t length = SAMPLES * N * C;
+        double *const W = malloc((begin + length) * sizeof *W), phi[N * C];
+        if (W == NULL) {{
+            bad = 1;
+            break;
+        }}
+        for (size_t i = 0; i < begin; i++)
+            W[i] = 7.5;
+        modeler_tile_observation({prefix}_tiled(), SAMPLES, q, qd, qdd, NULL, W + begin, work);
+        for (size_t i = 0; i < begin; i++)
+            bad |= W[i] != 7.5;
+        for (int i = 0; i < SAMPLES; i++) {{
+            {prefix}_base_regressor(q + i * N, qd + i * N, qdd + i * N, phi);
+            for (int k = 0; k < N * C; k++)
+                bad |= !(fabs(W[begin + (size_t)(i * N * C + k)] - phi[k]) < 1e-11);
+        }}
+        free(W);
+    }}
+    free(work);
+    return bad;
+}}
+
+int main(void)
+{{
+    static double room[(Z + 1) * MODELER_LANES], q[SAMPLES * N], qd[SAMPLES * N], qdd[SAMPLES * N];
+    double *const values = room + (8 - (size_t)room / 8 % 8) % 8;
+
+    for (int i = 0; i < SAMPLES * N; i++) {{
+        q[i] = 3.0 * sin(1.0 + i);
+        qd[i] = cos(3.0 * i);
+        qdd[i] = 5.0 * cos(2.0 * i);
+    }}
+    q[2 * N] = 1e7;
+    for (size_t k = MODELER_BEST_VERSION; k < sizeof tiled / sizeof *tiled; k++) {{
+        tiled[k].tile(q, qd, qdd, NULL, values);
+        for (int lane = 0; lane < 8; lane++) {{
+            double entries[Z], largest = 1.0;
+            {prefix}_base_regressor_nonzeros(q + lane * N, qd + lane * N, qdd + lane * N, entries);
+            for (int i = 0; i < Z; i++)
+                largest = fmax(largest, fabs(entries[i]));
+            for (int i = 0; i < Z; i++)
+                if (!(fabs(values[i * 8 + lane] - entries[i]) <= 1.5e-14 * largest))
+                    return 1 + (int)k;
+        }}
+    }}
+    return whole(q, qd, qdd) ? 100 : 0;
+}}
+"""
+
+
+FLAGS = [
+    ["-O0"], ["-O2", "-ffp-contract=fast"], ["-DMODELER_PLAIN"],
+    *(
+        pytest.param(
+            ["-g", *flags, "-fsanitize=address,undefined", "-fno-sanitize-recover=all"],
+            marks=pytest.mark.slow,
+        )
+        for flags in (["-O0"], ["-O2"], ["-O2", "-march=native"], ["-DMODELER_PLAIN"])
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("flags", FLAGS)
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+def test_every_instruction_set_of_this_processor_gives_the_same(cc, flags, tmp_path):
+    emitted = module("wrist").emitted
+    write_emitted(emitted, tmp_path)
+    (tmp_path / "check.c").write_text(CHECK.format(prefix="wrist", prefix_upper="WRIST"))
+    units = ["check.c", "wrist_base_regressor.c", "modeler_tile.c"]
+    command = [compiler(cc), *STRICT, *flags, "-o", "check", *units, "-lm"]
+    built = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    if "cannot find" in built.stderr and "san" in built.stderr:
+        pytest.skip(f"NOT CHECKED: {cc} has no sanitizer libraries")
+    assert built.returncode == 0, built.stderr
+    assert subprocess.run([tmp_path / "check"], check=False).returncode == 0
+
+
+def test_loops_have_no_tiles_and_say_so():
+    model = compiled("five-bar")
+    assert model.spec.tile_sources == ()
+    assert not any("tile" in name for name in module("five-bar").emitted.files)
+    q = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])[None]
+    with pytest.raises(ManifestError, match=r"five-bar has loops: every entry .* base_regressor"):
+        model.nonzeros(q, 0 * q, 0 * q)
+
+
+def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled):
+    """As those of older model files."""
+    emitted = module("wrist").emitted
+    files = {name: emitted.files[name] for name in emitted.spec.sources}
+    older, motion = load(emitted.spec, files), states(3, SAMPLES)
+    assert older._tiles is None
+    assert_close(older.nonzeros(*motion), compiled("wrist").nonzeros(*motion))
+    assert older.observation(*motion).shape == (SAMPLES * 3, len(emitted.spec.base))
+
+
+def test_a_folder_keeps_its_tiles(tiled, tmp_path):
+    write_emitted(module("wrist").emitted, tmp_path)
+    assert load_folder(tmp_path)._tiles is not None
+
+
+def test_tiles_of_another_robot_are_refused(tiled):
+    emitted = module("wrist").emitted
+    text = emitted.files["wrist_tile.c"].replace(emitted.spec.signature(), "0123456789abcdef")
+    model = load(emitted.spec, {**emitted.files, "wrist_tile.c": text})
+    with pytest.raises(ManifestError, match="tiles answers 0123456789abcdef, the manifest expects"):
+        model.nonzeros(*states(3, 9))
+
+
+def test_an_output_of_another_shape_is_refused():
+    model, motion = compiled("wrist"), states(3, 4)
+    entries = len(model.spec.nonzeros)
+    with pytest.raises(ShapeError, match=rf"out: got \(4, 2\), expected an array \(4, {entries}\)"):
+        model.nonzeros(*motion, out=np.empty((4, 2)))
+    with pytest.raises(ShapeError, match="C-contiguous float64"):
+        model.nonzeros(*motion, out=np.empty((entries, 4)).T)
+
+
+def test_triangles_of_tiles_are_those_of_samples(monkeypatch):
+    model, motion = compiled("wrist"), states(3, 200)
+    tau = np.random.default_rng(5).normal(size=(200, 3))
+    one = model.triangles(*motion, tau).triangles
+    monkeypatch.setattr(tiling, "TILED_FROM", 1)
+    both = model.triangles(*motion, tau).triangles
+    np.testing.assert_allclose(np.abs(both), np.abs(one), rtol=0, atol=1e-11 * np.abs(one).max())
+
+
+def test_the_manifest_names_the_files_of_tiles():
+    emitted = module("wrist").emitted
+    assert set(emitted.spec.tile_sources) <= set(emitted.files)
+    single = dataclasses.replace(emitted.spec, precision="single")
+    assert single.tile_sources == ()
