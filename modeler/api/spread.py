@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
+from typing import TypeGuard
 
 from modeler.compiled import CompiledModel
 from modeler.compiled.once import compiled_once
@@ -45,7 +46,7 @@ def by_workers(workers: Workers, emitted: Emitted) -> Reducer:
     """
 
     def reducer(model: CompiledModel, source: Source, chosen: Chosen) -> Iterator[Partial]:
-        if not (isinstance(source, FileSource) and source.exact):
+        if not from_anywhere(source):
             return by_threads(model, source, chosen)
         path, mapping = source.place
         shared = Shared(emitted, path.absolute(), mapping, chosen, source.rows)
@@ -58,6 +59,11 @@ def by_workers(workers: Workers, emitted: Emitted) -> Reducer:
         return _in_order(begun)
 
     return reducer
+
+
+def from_anywhere(source: Source) -> TypeGuard[FileSource]:
+    """True of a log whose rows a worker can read by itself, from the middle of its file."""
+    return isinstance(source, FileSource) and source.exact
 
 
 def reduce_rows(shared: Shared, numbers: range) -> Partial:

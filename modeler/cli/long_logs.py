@@ -1,11 +1,11 @@
 """`modeler fit` of logs that are too long to be in memory at once."""
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from modeler.api.long_logs import are_long, check_whole, fit_long, sources_of, too_long
-from modeler.api.spread import by_workers
+from modeler.api.spread import by_workers, from_anywhere
 from modeler.cli.console import note, progress
 from modeler.compiled import CompiledModel
 from modeler.core.contract import Emitted
@@ -16,6 +16,7 @@ from modeler.fit.long import OF_TRIANGLES
 from modeler.fit.streamed import Reducer
 from modeler.jobs import open_workers
 from modeler.observation import Observation, Processing
+from modeler.observation.source import Source
 from modeler.observation.survey import WholeNeeded
 
 
@@ -41,6 +42,8 @@ def fit_if_long(
     try:
         with progress("reading and reducing") as bar, _reducer(args, emitted) as reducer:
             sources = sources_of(compiled, args.logs, args.map)
+            if reducer is not None:
+                _tell_read_here(sources)
             model, streamed = fit_long(
                 derivation, emitted, compiled, sources, args.method, processing, bar, reducer
             )
@@ -60,6 +63,15 @@ def _reducer(args: argparse.Namespace, emitted: Emitted) -> Iterator[Reducer | N
         return
     with open_workers(args.dask) as workers:
         yield by_workers(workers, emitted)
+
+
+def _tell_read_here(sources: Sequence[Source]) -> None:
+    own = [source.name for source in sources if not from_anywhere(source)]
+    if own:
+        note(
+            f"--dask: {', '.join(own)}: read and reduced by this process; workers can begin in the "
+            "middle of Parquet files only"
+        )
 
 
 def _check_no_dask(args: argparse.Namespace) -> None:
