@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "bfb69338bd236735"
+#define EVRA_SIGNATURE "96550a0fdf2a4ee3"
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210

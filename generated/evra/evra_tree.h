@@ -21,9 +21,21 @@ void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, co
                         double *tau);
 void evra_tree_friction(const double *qd, const double *beta, double *tau);
 void evra_tree_forward_kinematics(const double *q, double *T);
-void evra_tree_closure(const double *q, double *values);
-void evra_tree_residual(const double *q, double *values);
 void evra_tree_drift(const double *q, const double *qd, double *values);
+void evra_tree_closure(const double *q, double *values);
+void evra_tree_residual(const double *q, double *f);
+void evra_tree_factor(const double *J, double *lu);
+void evra_tree_solve(const double *lu, const double *right, double *x);
+void evra_tree_coupling(const double *J, const double *lu, double *G);
+void evra_tree_turned(const double *J, const double *K, const double *lu, double *x);
+void evra_tree_spread(const double *J, const double *K, const double *lu, double *x);
+void evra_tree_platform_factor(const double *J, double *lu);
+void evra_tree_platform_solve(const double *lu, const double *right, double *x);
+void evra_tree_platform_coupling(const double *J, const double *lu, double *G);
+void evra_tree_platform_turned(const double *J, const double *K, const double *lu, double *x);
+void evra_tree_platform_spread(const double *J, const double *K, const double *lu, double *x);
+void evra_tree_rows(const double *q, const double *t, const double *G, const double *lu,
+                    const double *v, const double *a, double *phi);
 
 #ifdef __cplusplus
 }

@@ -235,59 +235,6 @@ void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT 
     MODELER_ZEROS(T + 47, 1);
 }
 
-/* Closure equations f(u) and their derivatives by u.
- * 12 additions, 16 multiplications. */
-void five_bar_tree_closure(const double *q, double *MODELER_RESTRICT values)
-{
-    double s0, c0;
-    modeler_sincos(q[0], &s0, &c0);
-    double s1, c1;
-    modeler_sincos(q[1], &s1, &c1);
-    double s2, c2;
-    modeler_sincos(q[2], &s2, &c2);
-    double s3, c3;
-    modeler_sincos(q[3], &s3, &c3);
-
-    const double t1 = five_bar_geo_L2*(c0*c1 - s0*s1);
-    const double t2 = five_bar_geo_L1*c0 + t1;
-    const double t3 = five_bar_geo_L3*c2;
-    const double t4 = five_bar_geo_L4*(c2*c3 - s2*s3);
-    values[0] = t2 - (five_bar_geo_L0 + t3 + t4);
-    const double t5 = five_bar_geo_L2*(s0*c1 + c0*s1);
-    const double t6 = five_bar_geo_L1*s0 + t5;
-    const double t7 = five_bar_geo_L4*(s2*c3 + c2*s3);
-    const double t8 = five_bar_geo_L3*s2 + t7;
-    values[1] = t6 - t8;
-    values[2] = -t6;
-    values[3] = -t5;
-    values[4] = t8;
-    values[5] = t7;
-    values[6] = t2;
-    values[7] = t1;
-    values[8] = -(t3 + t4);
-    values[9] = -t4;
-}
-
-/* All equations of all loops, then cosines that are positive.
- * 11 additions, 16 multiplications. */
-void five_bar_tree_residual(const double *q, double *MODELER_RESTRICT values)
-{
-    double s0, c0;
-    modeler_sincos(q[0], &s0, &c0);
-    double s1, c1;
-    modeler_sincos(q[1], &s1, &c1);
-    double s2, c2;
-    modeler_sincos(q[2], &s2, &c2);
-    double s3, c3;
-    modeler_sincos(q[3], &s3, &c3);
-
-    const double t1 = five_bar_geo_L0 + five_bar_geo_L3*c2 + five_bar_geo_L4*(c2*c3 - s2*s3);
-    values[0] = five_bar_geo_L1*c0 + five_bar_geo_L2*(c0*c1 - s0*s1) - t1;
-    const double t2 = five_bar_geo_L1*s0 + five_bar_geo_L2*(s0*c1 + c0*s1);
-    values[1] = t2 - (five_bar_geo_L3*s2 + five_bar_geo_L4*(s2*c3 + c2*s3));
-    values[2] = 1.0;
-}
-
 /* d/dt(df/du) ud.
  * 26 additions, 50 multiplications. */
 void five_bar_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
@@ -319,6 +266,125 @@ void five_bar_tree_drift(const double *q, const double *qd, double *MODELER_REST
     const double t15 = five_bar_geo_L4*(c3*t9 + c2*t8 + (s3*t7 + s2*t10));
     const double t16 = qd[0]*((five_bar_geo_L1*s0 + t13)*qd[0] + t13*qd[1]) + t14;
     values[1] = qd[3]*t15 - (t16 - qd[2]*(five_bar_geo_L3*t9 + t15));
+}
+
+/* All equations of all loops, cosines, nonzeros of df/du, turns.
+ * 12 additions, 16 multiplications. */
+void five_bar_tree_closure(const double *q, double *MODELER_RESTRICT values)
+{
+    double s0, c0;
+    modeler_sincos(q[0], &s0, &c0);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+
+    const double t1 = five_bar_geo_L2*(c0*c1 - s0*s1);
+    const double t2 = five_bar_geo_L1*c0 + t1;
+    const double t3 = five_bar_geo_L3*c2;
+    const double t4 = five_bar_geo_L4*(c2*c3 - s2*s3);
+    values[0] = t2 - (five_bar_geo_L0 + t3 + t4);
+    const double t5 = five_bar_geo_L2*(s0*c1 + c0*s1);
+    const double t6 = five_bar_geo_L1*s0 + t5;
+    const double t7 = five_bar_geo_L4*(s2*c3 + c2*s3);
+    const double t8 = five_bar_geo_L3*s2 + t7;
+    values[1] = t6 - t8;
+    values[2] = 1.0;
+    values[3] = -t6;
+    values[4] = -t5;
+    values[5] = t8;
+    values[6] = t7;
+    values[7] = t2;
+    values[8] = t1;
+    values[9] = -(t3 + t4);
+    values[10] = -t4;
+    values[11] = c0;
+    values[12] = s0;
+    values[13] = c1;
+    values[14] = s1;
+    values[15] = c2;
+    values[16] = s2;
+    values[17] = c3;
+    values[18] = s3;
+}
+
+/* The independent equations.
+ * 11 additions, 16 multiplications. */
+void five_bar_tree_residual(const double *q, double *MODELER_RESTRICT f)
+{
+    double s0, c0;
+    modeler_sincos(q[0], &s0, &c0);
+    double s1, c1;
+    modeler_sincos(q[1], &s1, &c1);
+    double s2, c2;
+    modeler_sincos(q[2], &s2, &c2);
+    double s3, c3;
+    modeler_sincos(q[3], &s3, &c3);
+
+    const double t1 = five_bar_geo_L0 + five_bar_geo_L3*c2 + five_bar_geo_L4*(c2*c3 - s2*s3);
+    f[0] = five_bar_geo_L1*c0 + five_bar_geo_L2*(c0*c1 - s0*s1) - t1;
+    const double t2 = five_bar_geo_L1*s0 + five_bar_geo_L2*(s0*c1 + c0*s1);
+    f[1] = t2 - (five_bar_geo_L3*s2 + five_bar_geo_L4*(s2*c3 + c2*s3));
+}
+
+/* Factors of the solved columns of J: 1/pivots, then the rest.
+ * 1 additions, 4 multiplications. */
+void five_bar_tree_factor(const double *J, double *MODELER_RESTRICT lu)
+{
+    const double t1 = 1.0/J[1];
+    lu[0] = t1;
+    const double t2 = J[5]*t1;
+    lu[1] = 1.0/(J[7] - J[3]*t2);
+    lu[2] = J[3];
+    lu[3] = t2;
+}
+
+/* Solution with the factors.
+ * 2 additions, 4 multiplications. */
+void five_bar_tree_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+{
+    const double t1 = lu[1]*(right[1] - lu[3]*right[0]);
+    x[0] = lu[0]*(right[0] - lu[2]*t1);
+    x[1] = t1;
+}
+
+/* G from the factors.
+ * 4 additions, 8 multiplications. */
+void five_bar_tree_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+{
+    const double t1 = lu[1]*(J[4] - J[0]*lu[3]);
+    G[0] = -lu[0]*(J[0] - lu[2]*t1);
+    G[1] = -t1;
+    const double t2 = lu[1]*(J[6] - J[2]*lu[3]);
+    G[2] = -lu[0]*(J[2] - lu[2]*t2);
+    G[3] = -t2;
+}
+
+/* Bounds of the rows of J^-1 (K - J).
+ * 8 additions, 4 multiplications. */
+void five_bar_tree_turned(const double *J, const double *K, const double *lu,
+                          double *MODELER_RESTRICT x)
+{
+    const double t1 = fabs(J[1] - K[1]) + fabs(J[3] - K[3]);
+    const double t2 = (fabs(J[5] - K[5]) + fabs(J[7] - K[7]) + t1*fabs(lu[3]))*fabs(lu[1]);
+    x[0] = (t1 + t2*fabs(lu[2]))*fabs(lu[0]);
+    x[1] = t2;
+}
+
+/* Sum of the squares of J^-1 (K - J).
+ * 11 additions, 12 multiplications. */
+void five_bar_tree_spread(const double *J, const double *K, const double *lu,
+                          double *MODELER_RESTRICT x)
+{
+    const double t1 = J[1] - K[1];
+    const double t2 = lu[1]*(J[5] - K[5] - lu[3]*t1);
+    const double t3 = lu[0]*(t1 - lu[2]*t2);
+    const double t4 = J[3] - K[3];
+    const double t5 = lu[1]*(J[7] - K[7] - lu[3]*t4);
+    const double t6 = lu[0]*(t4 - lu[2]*t5);
+    x[0] = t3*t3 + t2*t2 + t6*t6 + t5*t5;
 }
 
 /* Base parameters from standard ones: the grouping relations.

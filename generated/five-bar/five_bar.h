@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "98e1dcab9ff45e81"
+#define FIVE_BAR_SIGNATURE "0728e3571232ca7a"
 
 #define FIVE_BAR_JOINTS 2
 #define FIVE_BAR_STANDARD_PARAMETERS 40

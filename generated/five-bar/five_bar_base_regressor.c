@@ -34,7 +34,9 @@
 
 static const double five_bar_geo_g = FIVE_BAR_GEO_g;
 static const double five_bar_geo_L1 = FIVE_BAR_GEO_L1;
+static const double five_bar_geo_L2 = FIVE_BAR_GEO_L2;
 static const double five_bar_geo_L3 = FIVE_BAR_GEO_L3;
+static const double five_bar_geo_L4 = FIVE_BAR_GEO_L4;
 
 /* Regressor of the base parameters.
  * 17 additions, 28 multiplications. */
@@ -89,4 +91,71 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     phi[32] = -(five_bar_geo_L3*s3*t14 + t16*t16*(five_bar_geo_L3*c3) + t15);
     phi[43] = -t15;
     MODELER_ZEROS(phi + 41, 1);
+}
+
+/* Regressor of the base parameters, loops closed.
+ * 56 additions, 100 multiplications. */
+void five_bar_tree_rows(const double *q, const double *t, const double *G, const double *lu,
+                        const double *v, const double *a, double *MODELER_RESTRICT phi)
+{
+    (void)q;
+    phi[6] = 0.0;
+    phi[7] = 0.0;
+    phi[8] = 0.0;
+    phi[11] = 0.0;
+    phi[12] = 0.0;
+    phi[13] = 0.0;
+
+    phi[0] = a[0];
+    const double t1 = five_bar_geo_g*t[0];
+    phi[1] = t1;
+    const double t2 = five_bar_geo_g*t[1];
+    phi[2] = -t2;
+    const double t3 = five_bar_geo_L2*(t[0]*t[2] - t[1]*t[3]);
+    const double t4 = G[0]*v[0] + G[2]*v[1];
+    const double t5 = t[0]*v[0];
+    const double t6 = t[3]*t4;
+    const double t7 = t[1]*v[0];
+    const double t8 = t[2]*t4;
+    const double t9 = five_bar_geo_L2*(t[2]*t5 - t[1]*t6 + (t[0]*t8 - t[3]*t7))*t4;
+    const double t10 = t[4]*v[1];
+    const double t11 = G[1]*v[0] + G[3]*v[1];
+    const double t12 = t[7]*t11;
+    const double t13 = t[5]*v[1];
+    const double t14 = t[6]*t11;
+    const double t15 = five_bar_geo_L4*(t[6]*t10 - t[5]*t12 + (t[4]*t14 - t[7]*t13));
+    const double t16 = v[0]*(v[0]*(five_bar_geo_L1*t[0] + t3) + t4*t3) + t9;
+    const double t17 = t16 - v[1]*(five_bar_geo_L3*t10 + t15) - t11*t15;
+    const double t18 = five_bar_geo_L2*(t[1]*t[2] + t[0]*t[3]);
+    const double t19 = five_bar_geo_L2*(t[2]*t7 + t[0]*t6 + (t[3]*t5 + t[1]*t8))*t4;
+    const double t20 = five_bar_geo_L4*(t[6]*t13 + t[4]*t12 + (t[7]*t10 + t[5]*t14));
+    const double t21 = v[0]*(v[0]*(five_bar_geo_L1*t[1] + t18) + t4*t18) + t19;
+    const double t22 = lu[1]*(t21 - v[1]*(five_bar_geo_L3*t13 + t20) - t11*t20 - lu[3]*t17);
+    const double t23 = G[0]*a[0] + G[2]*a[1] + lu[0]*(t17 - lu[2]*t22) + a[0];
+    phi[3] = t23 + G[0]*t23;
+    phi[14] = G[2]*t23;
+    const double t24 = t1 + five_bar_geo_L1*a[0];
+    const double t25 = t2 - v[0]*v[0]*five_bar_geo_L1;
+    const double t26 = t[2]*t24 - t[3]*t25;
+    const double t27 = v[0] + t4;
+    const double t28 = t27*t27;
+    const double t29 = five_bar_geo_L1*t[3];
+    const double t30 = five_bar_geo_L1*t[2];
+    phi[4] = t23*t30 - t28*t29 + t26 + G[0]*t26;
+    phi[15] = G[2]*t26;
+    const double t31 = t[2]*t25 + t[3]*t24;
+    phi[5] = -(t23*t29 + t28*t30 + t31 + G[0]*t31);
+    phi[16] = -G[2]*t31;
+    phi[17] = a[1];
+    const double t32 = five_bar_geo_g*t[4];
+    phi[18] = t32;
+    const double t33 = five_bar_geo_g*t[5];
+    phi[19] = -t33;
+    const double t34 = G[1]*a[0] + G[3]*a[1] + t22 + a[1];
+    phi[9] = G[1]*t34;
+    phi[20] = t34 + G[3]*t34;
+    const double t35 = t[6]*(t33 - v[1]*v[1]*five_bar_geo_L3) + t[7]*(t32 + five_bar_geo_L3*a[1]);
+    phi[10] = -G[1]*t35;
+    const double t36 = v[1] + t11;
+    phi[21] = -(five_bar_geo_L3*t[7]*t34 + t36*t36*(five_bar_geo_L3*t[6]) + t35 + G[3]*t35);
 }

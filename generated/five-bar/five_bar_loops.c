@@ -8,7 +8,7 @@
 #include "modeler_closure.h"
 #include "five_bar_tree.h"
 
-#define WORK MODELER_CLOSURE_WORK(4, 2, 3)
+#define WORK MODELER_CLOSURE_WORK(4, 2, 19, 4)
 
 /* Free variables u: 11, 21, 12, 22. */
 static const double home[4] = {
@@ -17,27 +17,65 @@ static const double home[4] = {
 static const double scale[4] = {
     1.0, 1.0, 1.0, 1.0
 };
+/* Equation and place in u of the nonzeros of df/du. */
+static const int row[8] = {
+    0, 0, 0, 0, 1, 1, 1, 1
+};
+static const int column[8] = {
+    0, 1, 2, 3, 0, 1, 2, 3
+};
+
 static const int given[2] = { 0, 2 };
 static const int solved[2] = { 1, 3 };
+/* Largest sizes of 1/pivot. */
+static const double limits[2] = {
+    100.0, 200.0
+};
+/* Places in u and among the given of the nonzeros of G in solved rows. */
+static const int coupling_row[4] = {
+    1, 3, 1, 3
+};
+static const int coupling_column[4] = {
+    0, 0, 1, 1
+};
 static const modeler_closure loops = {
-    4, 2, 2, given, solved, scale, five_bar_tree_closure,
-    2, 1, 4.2e-10, five_bar_tree_residual
+    4, 2, 2, given, solved, scale,
+    2, 1, 4.2e-10, 8, row, column, 19,
+    five_bar_tree_closure, five_bar_tree_residual,
+    4, limits, five_bar_tree_factor, five_bar_tree_solve,
+    4, coupling_row, coupling_column,
+    five_bar_tree_coupling, five_bar_tree_turned, five_bar_tree_spread
 };
 
 static const double standing[2] = {0.0};
 
+/* Regressor of the base parameters at the closed posture u that was found last. */
+static void base_rows(const double *u, const double *qd, const double *qdd, double *work, double *phi)
+{
+    const double *values, *lu, *G_nonzeros;
+
+    if (modeler_eliminated(&loops, work, &values, &lu, &G_nonzeros)) {
+        five_bar_tree_rows(u, values + 11, G_nonzeros, lu, qd, qdd, phi);
+    } else {
+        double ud[4], udd[4], G[8];
+        double rows[4 * FIVE_BAR_BASE_PARAMETERS];
+
+        modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
+        five_bar_tree_base_regressor(u, ud, udd, rows);
+        modeler_project(&loops, G, rows, FIVE_BAR_BASE_PARAMETERS, phi);
+    }
+}
+
 const char *five_bar_signature(void)
 {
-    return "98e1dcab9ff45e81";
+    return "0728e3571232ca7a";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
 void five_bar_observation(size_t samples, const double *q, const double *qd, const double *qdd,
                           double *MODELER_RESTRICT W, int *status)
 {
-    double u[4], ud[4], udd[4];
-    double G[8], rows[4 * FIVE_BAR_BASE_PARAMETERS];
-    double work[WORK];
+    double u[4], work[WORK];
     const size_t width = (size_t)FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS;
 
     for (size_t i = 0; i < samples; i++) {
@@ -45,14 +83,11 @@ void five_bar_observation(size_t samples, const double *q, const double *qd, con
         int found = MODELER_OPEN;
 
         if (i > 0 && status[i - 1] == MODELER_CLOSED)
-            found = modeler_close(&loops, q + at, u, u, work);
+            found = modeler_close_next(&loops, q + at, u, work);
         if (found != MODELER_CLOSED)
             found = modeler_close(&loops, q + at, home, u, work);
-        if (found == MODELER_CLOSED)
-            found = modeler_follow(&loops, five_bar_tree_drift, u, qd + at, qdd + at, G, ud, udd, work);
         if (found == MODELER_CLOSED) {
-            five_bar_tree_base_regressor(u, ud, udd, rows);
-            modeler_project(&loops, G, rows, FIVE_BAR_BASE_PARAMETERS, W + i * width);
+            base_rows(u, qd + at, qdd + at, work, W + i * width);
         } else {
             modeler_nothing(W + i * width, width);
         }
@@ -65,14 +100,13 @@ int five_bar_regressor(const double *q, const double *qd, const double *qdd,
                        double *MODELER_RESTRICT phi)
 {
     double u[4], G[8], ud[4], udd[4], rows[160], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(phi, 80);
         return status;
     }
+    modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
     five_bar_tree_regressor(u, ud, udd, rows);
     modeler_project(&loops, G, rows, 40, phi);
     return MODELER_CLOSED;
@@ -82,18 +116,14 @@ int five_bar_regressor(const double *q, const double *qd, const double *qdd,
 int five_bar_base_regressor(const double *q, const double *qd, const double *qdd,
                             double *MODELER_RESTRICT phi)
 {
-    double u[4], G[8], ud[4], udd[4], rows[44], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    double u[4], work[WORK];
+    const int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
-    if (status != MODELER_CLOSED) {
+        base_rows(u, qd, qdd, work, phi);
+    else
         modeler_nothing(phi, 22);
-        return status;
-    }
-    five_bar_tree_base_regressor(u, ud, udd, rows);
-    modeler_project(&loops, G, rows, 11, phi);
-    return MODELER_CLOSED;
+    return status;
 }
 
 /* Torques that move the closed robot so. */
@@ -101,14 +131,13 @@ int five_bar_inverse_dynamics(const double *q, const double *qd, const double *q
                               const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 2);
         return status;
     }
+    modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
     five_bar_tree_inverse_dynamics(u, ud, udd, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -118,14 +147,13 @@ int five_bar_inverse_dynamics(const double *q, const double *qd, const double *q
 int five_bar_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], rows[4], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_coupling(&loops, u, G, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 2);
         return status;
     }
+    modeler_coupling(&loops, G, work);
     five_bar_tree_gravity(u, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -136,14 +164,13 @@ int five_bar_coriolis(const double *q, const double *qd, const double *beta,
                       double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 2);
         return status;
     }
+    modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
     five_bar_tree_coriolis(u, ud, udd, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -154,14 +181,13 @@ int five_bar_friction(const double *q, const double *qd, const double *beta,
                       double *MODELER_RESTRICT tau)
 {
     double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 2);
         return status;
     }
+    modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
     five_bar_tree_friction(ud, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -171,14 +197,13 @@ int five_bar_friction(const double *q, const double *qd, const double *beta,
 int five_bar_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     double u[4], G[8], rows[16], half[8], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_coupling(&loops, u, G, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(M, 4);
         return status;
     }
+    modeler_coupling(&loops, G, work);
     five_bar_tree_inertia_matrix(u, beta, rows);
     modeler_project(&loops, G, rows, 4, half);
     for (int i = 0; i < 2; i++)
@@ -227,11 +252,11 @@ int five_bar_close_from(const double *q, const double *start, double *MODELER_RE
 int five_bar_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[4], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
-        status = modeler_coupling(&loops, u, G, work);
-    if (status != MODELER_CLOSED)
+        modeler_coupling(&loops, G, work);
+    else
         modeler_nothing(G, 8);
     return status;
 }

@@ -21,9 +21,16 @@ void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd
                             const double *beta, double *tau);
 void five_bar_tree_friction(const double *qd, const double *beta, double *tau);
 void five_bar_tree_forward_kinematics(const double *q, double *T);
-void five_bar_tree_closure(const double *q, double *values);
-void five_bar_tree_residual(const double *q, double *values);
 void five_bar_tree_drift(const double *q, const double *qd, double *values);
+void five_bar_tree_closure(const double *q, double *values);
+void five_bar_tree_residual(const double *q, double *f);
+void five_bar_tree_factor(const double *J, double *lu);
+void five_bar_tree_solve(const double *lu, const double *right, double *x);
+void five_bar_tree_coupling(const double *J, const double *lu, double *G);
+void five_bar_tree_turned(const double *J, const double *K, const double *lu, double *x);
+void five_bar_tree_spread(const double *J, const double *K, const double *lu, double *x);
+void five_bar_tree_rows(const double *q, const double *t, const double *G, const double *lu,
+                        const double *v, const double *a, double *phi);
 
 #ifdef __cplusplus
 }

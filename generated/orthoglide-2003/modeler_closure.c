@@ -5,31 +5,42 @@
 
 #define STEP 0.3          /* longest change of a variable in one step, in its scale */
 #define SHORTEST 1e-7     /* share of the way; where shorter steps fail too, the way ends */
-#define EVALUATIONS 1000  /* of the equations, at most */
+#define EVALUATIONS 1000  /* of all equations and their derivatives, at most */
 #define NEWTON 12         /* corrections of one step, at most */
 #define CONVERGED 1e-8    /* a correction after which the error is its square */
+#define EXACT 1e-14       /* a correction that is not worth making */
+#define POLISHED 2        /* corrections after CONVERGED, at most: rounding may be above EXACT */
 #define FLAT 1e-11        /* pivots below this share of the largest are zero */
 #define INEXACT 1e-3      /* how far from closed a start may be, in its scale */
 #define TURNED 0.5        /* |J^-1 J' - 1| from the start of a step to its end, at most */
+#define TURNING 4.0       /* about that, per length of a step */
+#define NEAR 0.05         /* length of a step, or contraction, up to which old factors do */
+#define STRAIGHT 0.1      /* how far from the last direction a step may be to bend like it */
 
-/* Factors of the solved columns of a Jacobian, rows and columns scaled. */
-typedef struct {
-    double *lu;
-    double *norm;  /* of the rows */
-    double *order; /* of the rows */
-} factors;
+/* What `kept` holds: 1 or 0; PLACE: which of two; DENSE: of either. */
+enum { VALID, PLACE, BENT, COUPLED, DENSE, KEPT = 8 };
 
-/* The parts of `work`. */
+/* The parts of `work`. There are two places for values and factors: where a step starts, and where
+ * it has come. */
 typedef struct {
-    double *values; /* residuals and Jacobian */
-    factors at;     /* where they were evaluated last */
-    factors first;  /* where a step starts */
-    double *step;
-    double *along;  /* tangent at the start of a step: of the solved variables, scaled */
-    double *change; /* of the given variables that is left there */
+    double *kept;
+    double *values[2];
+    double *lu[2];
+    double *dense[2]; /* factors with rows exchanged, rows and columns scaled */
+    double *norm[2];  /* of the rows */
+    double *order[2]; /* of the rows */
+    double *step;     /* of the solved variables, as all below */
+    double *right;
+    double *along; /* tangent of a step, to its end */
+    double *bend;  /* what the last step was along its tangent */
+    double *share; /* 1/scale */
+    double *whole; /* of all variables: a change */
+    double *change; /* of the given variables that is left at the start of a step */
+    double *last;   /* what the last step changed of them */
     double *trial;  /* posture */
     double *start;  /* of a step: posture */
-    double *check;  /* all equations, and the alignments */
+    double *coupled; /* nonzeros of G in solved rows */
+    int at;         /* place of the values of the trial posture */
 } workspace;
 
 static double *take(double **work, int length)
@@ -45,42 +56,65 @@ static workspace parts(const modeler_closure *loops, double *work)
     const int n = loops->unknowns, m = loops->solved;
     workspace w;
 
-    w.values = take(&work, m + m * n);
-    w.at.lu = take(&work, m * m);
-    w.at.norm = take(&work, m);
-    w.at.order = take(&work, m);
-    w.first.lu = take(&work, m * m);
-    w.first.norm = take(&work, m);
-    w.first.order = take(&work, m);
+    w.kept = take(&work, KEPT);
+    for (int k = 0; k < 2; k++) {
+        w.values[k] = take(&work, loops->length);
+        w.lu[k] = take(&work, loops->factors);
+        w.dense[k] = take(&work, m * m);
+        w.norm[k] = take(&work, m);
+        w.order[k] = take(&work, m);
+    }
     w.step = take(&work, m);
+    w.right = take(&work, m);
     w.along = take(&work, m);
+    w.bend = take(&work, m);
+    w.share = take(&work, m);
+    w.coupled = take(&work, m * (n - m));
+    w.whole = take(&work, n);
     w.change = take(&work, n);
+    w.last = take(&work, n);
     w.trial = take(&work, n);
     w.start = take(&work, n);
-    w.check = work;
+    w.at = w.kept[PLACE] > 0.0;
     return w;
 }
 
-/* Factors of the solved columns of the Jacobian at hand; 0 if they are singular. */
-static int factor(const modeler_closure *loops, const workspace *w)
+static const double *jacobian(const modeler_closure *loops, const workspace *w, int k)
 {
-    const int n = loops->unknowns, m = loops->solved;
-    const double *J = w->values + m;
-    double *const lu = w->at.lu;
+    return w->values[k] + loops->equations + loops->alignments;
+}
+
+/* Dense factors of the solved columns; 0 if they are singular. */
+static int pivoted(const modeler_closure *loops, const workspace *w, int at)
+{
+    const int m = loops->solved;
+    const double *J = jacobian(loops, w, at);
+    double *const lu = w->dense[at], *const norm = w->norm[at], *const order = w->order[at];
     double largest = 0.0;
 
+    for (int k = 0; k < loops->unknowns; k++)
+        w->whole[k] = -1.0;
+    for (int j = 0; j < m; j++)
+        w->whole[loops->solved_places[j]] = (double)j;
     for (int i = 0; i < m; i++) {
-        double sum = 0.0;
-        for (int k = 0; k < n; k++)
-            sum += J[i * n + k] * J[i * n + k] * loops->scale[k] * loops->scale[k];
-        w->at.norm[i] = sqrt(sum);
-        if (!(w->at.norm[i] > 0.0))
+        norm[i] = 0.0;
+        order[i] = (double)i;
+    }
+    for (int k = 0; k < m * m; k++)
+        lu[k] = 0.0;
+    for (int k = 0; k < loops->nonzeros; k++) {
+        const int place = (int)w->whole[loops->column[k]];
+        const double value = J[k] * loops->scale[loops->column[k]];
+        norm[loops->row[k]] += value * value;
+        if (place >= 0)
+            lu[loops->row[k] * m + place] = value;
+    }
+    for (int i = 0; i < m; i++) {
+        norm[i] = sqrt(norm[i]);
+        if (!(norm[i] > 0.0))
             return 0;
-        for (int j = 0; j < m; j++) {
-            const int k = loops->solved_places[j];
-            lu[i * m + j] = J[i * n + k] * loops->scale[k] / w->at.norm[i];
-        }
-        w->at.order[i] = (double)i;
+        for (int j = 0; j < m; j++)
+            lu[i * m + j] /= norm[i];
     }
     for (int j = 0; j < m; j++) {
         int pivot = j;
@@ -92,9 +126,9 @@ static int factor(const modeler_closure *loops, const workspace *w)
         if (!(fabs(lu[pivot * m + j]) > FLAT * largest))
             return 0;
         if (pivot != j) {
-            const double row = w->at.order[j];
-            w->at.order[j] = w->at.order[pivot];
-            w->at.order[pivot] = row;
+            const double row = order[j];
+            order[j] = order[pivot];
+            order[pivot] = row;
             for (int k = 0; k < m; k++) {
                 const double value = lu[j * m + k];
                 lu[j * m + k] = lu[pivot * m + k];
@@ -111,112 +145,216 @@ static int factor(const modeler_closure *loops, const workspace *w)
     return 1;
 }
 
-/* x with J_solved x = right, in scaled variables; right in the order of the equations. */
-static void solve(int m, const factors *f, const double *right, int stride, double *x)
+/* Factors of the solved columns of the Jacobian at hand; 0 if they are singular. */
+static int factor(const modeler_closure *loops, const workspace *w, int at)
 {
+    int small = 0;
+
+    loops->factor(jacobian(loops, w, at), w->lu[at]);
+    for (int j = 0; j < loops->solved; j++)
+        small |= !(fabs(w->lu[at][j]) <= loops->limits[j]);
+    w->kept[DENSE + at] = (double)small;
+    return !small || pivoted(loops, w, at);
+}
+
+/* x with J_solved x = right; right in the order of the equations. */
+static void solve(const modeler_closure *loops, const workspace *w, int at, const double *right,
+                  double *x)
+{
+    const int m = loops->solved;
+    const double *const lu = w->dense[at];
+
+    if (!(w->kept[DENSE + at] > 0.0)) {
+        loops->solve(w->lu[at], right, x);
+        return;
+    }
     for (int i = 0; i < m; i++) {
-        const int row = (int)f->order[i];
-        x[i] = right[row * stride] / f->norm[row];
+        const int row = (int)w->order[at][i];
+        x[i] = right[row] / w->norm[at][row];
         for (int k = 0; k < i; k++)
-            x[i] -= f->lu[i * m + k] * x[k];
+            x[i] -= lu[i * m + k] * x[k];
     }
     for (int i = m - 1; i >= 0; i--) {
         for (int k = i + 1; k < m; k++)
-            x[i] -= f->lu[i * m + k] * x[k];
-        x[i] /= f->lu[i * m + i];
+            x[i] -= lu[i * m + k] * x[k];
+        x[i] /= lu[i * m + i];
     }
+    for (int i = 0; i < m; i++)
+        x[i] *= loops->scale[loops->solved_places[i]];
 }
 
-static double largest(const double *x, int n)
+/* Largest change of a solved variable, in its scale. */
+static double largest(const modeler_closure *loops, const workspace *w, const double *x)
 {
     double found = 0.0;
 
-    for (int i = 0; i < n; i++)
-        if (!(fabs(x[i]) <= found))
-            found = fabs(x[i]);
+    for (int j = 0; j < loops->solved; j++) {
+        const double size = fabs(x[j]) * w->share[j];
+        if (!(size <= found))
+            found = size;
+    }
     return found;
+}
+
+/* Takes the step from w->trial. */
+static void correct(const modeler_closure *loops, const workspace *w)
+{
+    for (int j = 0; j < loops->solved; j++)
+        w->trial[loops->solved_places[j]] -= w->step[j];
+}
+
+/* 1 if a correction is not within `allowed`, or does not contract from the one before. */
+static int diverges(double size, double before, int round, double allowed)
+{
+    return !(size <= allowed) || (round > 0 && size > CONVERGED && !(size <= 0.5 * before));
 }
 
 /* Newton on w->trial with the given variables held. 1 if it contracts, within a move of `allowed`;
  * values and factors are then those there. */
 static int corrected(const modeler_closure *loops, workspace *w, double allowed, int *evaluations)
 {
-    const int m = loops->solved;
     double before = 0.0;
+    int polished = 0;
 
     for (int round = 0; round < NEWTON; round++) {
-        loops->equations(w->trial, w->values);
+        loops->closure(w->trial, w->values[w->at]);
         ++*evaluations;
-        if (!factor(loops, w))
+        if (!factor(loops, w, w->at))
             return 0;
-        solve(m, &w->at, w->values, 1, w->step);
-        const double size = largest(w->step, m);
-        if (!(size <= allowed) || (round > 0 && size > CONVERGED && !(size <= 0.5 * before)))
+        solve(loops, w, w->at, w->values[w->at], w->step);
+        const double size = largest(loops, w, w->step);
+        if (diverges(size, before, round, allowed))
             return 0;
-        for (int j = 0; j < m; j++) {
-            const int k = loops->solved_places[j];
-            w->trial[k] -= w->step[j] * loops->scale[k];
-        }
-        if (size <= CONVERGED)
+        if (size <= EXACT || (size <= CONVERGED && polished++ >= POLISHED))
             return 1;
+        correct(loops, w);
         before = size;
     }
     return 0;
 }
 
+/* The same with the factors where the step of that length starts, as long as these contract well; 0
+ * if it does not contract. */
+static int neared(const modeler_closure *loops, workspace *w, double allowed, double length)
+{
+    double before = 0.0;
+
+    if (length > NEAR)
+        return 1;
+    for (int round = 0; round < NEWTON; round++) {
+        loops->residual(w->trial, w->right);
+        solve(loops, w, 1 - w->at, w->right, w->step);
+        const double size = largest(loops, w, w->step);
+        if (diverges(size, before, round, allowed))
+            return 0;
+        correct(loops, w);
+        const double rate = round > 0 ? size / before : TURNING * length;
+        if (!(size * rate > 0.1 * EXACT) || (round > 0 && rate > NEAR))
+            return 1;
+        before = size;
+    }
+    return 1;
+}
+
 /* 1 if every loop is closed at w->trial, redundant equations and directions of axes included. */
 static int closed(const modeler_closure *loops, const workspace *w)
 {
-    loops->residual(w->trial, w->check);
-    for (int i = 0; i < loops->residuals; i++)
-        if (!(fabs(w->check[i]) <= loops->tolerance))
+    const double *const f = w->values[w->at], *const cosine = f + loops->equations;
+
+    for (int i = 0; i < loops->equations; i++)
+        if (!(fabs(f[i]) <= loops->tolerance))
             return 0;
     for (int i = 0; i < loops->alignments; i++)
-        if (!(w->check[loops->residuals + i] > 0.0))
+        if (!(cosine[i] > 0.0))
             return 0;
     return 1;
 }
 
-/* 1 if the Jacobian has turned so little since the start of the step that it was singular nowhere
- * between: |J^-1 J' - 1| stays below 1 on the straight way from J to J'. */
-static int alike(const modeler_closure *loops, const workspace *w)
+/* |J^-1 J' - 1|^2 from the start of the step, where pivoting was dense. */
+static double spread(const modeler_closure *loops, const workspace *w)
 {
-    const int n = loops->unknowns, m = loops->solved;
+    const int m = loops->solved;
+    const double *const J = jacobian(loops, w, w->at);
     double sum = 0.0;
 
     for (int j = 0; j < m; j++) {
         const int k = loops->solved_places[j];
-        solve(m, &w->first, w->values + m + k, n, w->step);
+        for (int i = 0; i < m; i++)
+            w->right[i] = 0.0;
+        for (int i = 0; i < loops->nonzeros; i++)
+            if (loops->column[i] == k)
+                w->right[loops->row[i]] = J[i];
+        solve(loops, w, 1 - w->at, w->right, w->step);
         for (int i = 0; i < m; i++) {
-            const double x = w->step[i] * loops->scale[k] - (i == j ? 1.0 : 0.0);
+            const double x = w->step[i] * w->share[i] * loops->scale[k] - (i == j ? 1.0 : 0.0);
             sum += x * x;
         }
     }
+    return sum;
+}
+
+/* 1 if the Jacobian has turned so little since the start of the step that it was singular nowhere
+ * between: |J^-1 J' - 1| stays below 1 on the straight way from J to J'. The norm is that of
+ * Frobenius; sums of absolute entries of rows bound it from above, and are quicker. */
+static int alike(const modeler_closure *loops, const workspace *w)
+{
+    const int first = 1 - w->at;
+    const double *const J = jacobian(loops, w, first), *const K = jacobian(loops, w, w->at);
+    double sum = 0.0;
+
+    if (w->kept[DENSE + first] > 0.0)
+        return spread(loops, w) <= TURNED * TURNED;
+    loops->turned(J, K, w->lu[first], w->step);
+    for (int j = 0; j < loops->solved; j++)
+        sum += w->step[j] * w->step[j];
+    if (!(sum <= TURNED * TURNED))
+        loops->spread(J, K, w->lu[first], &sum);
     return sum <= TURNED * TURNED;
+}
+
+/* The tangent, from G at hand. */
+static void along_coupling(const modeler_closure *loops, const workspace *w)
+{
+    for (int k = 0; k < loops->unknowns; k++)
+        w->whole[k] = 0.0;
+    for (int k = 0; k < loops->couplings; k++)
+        w->whole[loops->coupling_row[k]] += w->coupled[k] * w->change[loops->coupling_column[k]];
+    for (int j = 0; j < loops->solved; j++)
+        w->along[j] = w->whole[loops->solved_places[j]];
+}
+
+/* The tangent, from the factors. */
+static void along_solution(const modeler_closure *loops, const workspace *w)
+{
+    const double *const J = jacobian(loops, w, w->at);
+
+    for (int k = 0; k < loops->unknowns; k++)
+        w->whole[k] = 0.0;
+    for (int j = 0; j < loops->given; j++)
+        w->whole[loops->given_places[j]] = w->change[j];
+    for (int i = 0; i < loops->solved; i++)
+        w->right[i] = 0.0;
+    for (int k = 0; k < loops->nonzeros; k++)
+        w->right[loops->row[k]] -= J[k] * w->whole[loops->column[k]];
+    solve(loops, w, w->at, w->right, w->along);
 }
 
 /* The posture w->trial is where the next step starts, straight to q; gives its length, in scales. */
 static double arrive(const modeler_closure *loops, workspace *w, const double *q)
 {
-    const int n = loops->unknowns, m = loops->solved;
-    const double *J = w->values + m;
-    const factors at = w->at;
     double length;
 
-    for (int k = 0; k < n; k++)
+    for (int k = 0; k < loops->unknowns; k++)
         w->start[k] = w->trial[k];
     for (int j = 0; j < loops->given; j++)
         w->change[j] = q[j] - w->start[loops->given_places[j]];
-    for (int i = 0; i < m; i++) {
-        double sum = 0.0;
-        for (int j = 0; j < loops->given; j++)
-            sum -= J[i * n + loops->given_places[j]] * w->change[j];
-        w->values[i] = sum;
-    }
-    solve(m, &at, w->values, 1, w->along);
-    w->at = w->first;
-    w->first = at;
-    length = largest(w->along, m);
+    if (w->kept[COUPLED] > 0.0)
+        along_coupling(loops, w);
+    else
+        along_solution(loops, w);
+    w->kept[COUPLED] = 0.0;
+    w->at = 1 - w->at;
+    length = largest(loops, w, w->along);
     for (int j = 0; j < loops->given; j++) {
         const double own = fabs(w->change[j]) / loops->scale[loops->given_places[j]];
         if (!(own <= length))
@@ -225,12 +363,35 @@ static double arrive(const modeler_closure *loops, workspace *w, const double *q
     return length;
 }
 
-/* Puts w->trial a share of the way ahead. */
+/* Share of the last step in this one, if it goes about the same way; 0 if not. */
+static double straight(const modeler_closure *loops, const workspace *w)
+{
+    double own = 0.0, last = 0.0, both = 0.0;
+
+    if (!(w->kept[BENT] > 0.0))
+        return 0.0;
+    for (int j = 0; j < loops->given; j++) {
+        const double scale = loops->scale[loops->given_places[j]];
+        const double x = w->change[j] / scale, y = w->last[j] / scale;
+        own += x * x;
+        last += y * y;
+        both += x * y;
+    }
+    if (!(last > 0.0) || own * last - both * both > STRAIGHT * STRAIGHT * own * last)
+        return 0.0;
+    return both / last;
+}
+
+/* Puts w->trial a share of the way ahead. A whole step bends like the one before: its second order
+ * is half the change of the tangent. */
 static void advance(const modeler_closure *loops, workspace *w, const double *q, double share)
 {
+    const double more = share >= 1.0 ? straight(loops, w) : 0.0;
+
     for (int j = 0; j < loops->solved; j++) {
         const int k = loops->solved_places[j];
-        w->trial[k] = w->start[k] + share * w->along[j] * loops->scale[k];
+        const double bend = 0.5 * more * (w->along[j] - more * w->bend[j]);
+        w->trial[k] = w->start[k] + share * w->along[j] + bend;
     }
     for (int j = 0; j < loops->given; j++) {
         const int k = loops->given_places[j];
@@ -238,85 +399,139 @@ static void advance(const modeler_closure *loops, workspace *w, const double *q,
     }
 }
 
-int modeler_close(const modeler_closure *loops, const double *q, const double *start, double *u,
-                  double *work)
+/* The step is done: the next one may bend like it. */
+static void remember(const modeler_closure *loops, workspace *w, double share)
 {
-    workspace w = parts(loops, work);
-    double share = 1.0;
-    int evaluations = 0;
+    for (int j = 0; j < loops->solved; j++)
+        w->bend[j] = share * w->along[j];
+    for (int j = 0; j < loops->given; j++)
+        w->last[j] = share * w->change[j];
+    w->kept[BENT] = 1.0;
+}
 
-    for (int k = 0; k < loops->unknowns; k++)
-        w.trial[k] = start[k];
-    if (!corrected(loops, &w, INEXACT, &evaluations))
-        return factor(loops, &w) ? MODELER_OPEN : MODELER_SINGULAR;
-    for (;;) {
-        const double length = arrive(loops, &w, q);
+/* A share of the way; 1 if the loops are closed at its end, in the same assembly mode. */
+static int stepped(const modeler_closure *loops, workspace *w, const double *q, double share,
+                   double length, int *evaluations)
+{
+    const double allowed = 0.5 * share * length + INEXACT;
+
+    advance(loops, w, q, share);
+    if (!neared(loops, w, allowed, share * length))
+        advance(loops, w, q, share);
+    return corrected(loops, w, allowed, evaluations) && alike(loops, w) && closed(loops, w);
+}
+
+/* From w->trial, whose values and factors are at hand, to q. */
+static int walk(const modeler_closure *loops, workspace *w, const double *q, double *u,
+                int evaluations)
+{
+    double share = 1.0;
+
+    w->kept[VALID] = 0.0;
+    do {
+        const double length = arrive(loops, w, q);
 
         if (!isfinite(length))
             return MODELER_UNFINISHED;
         share = fmin(1.0, 2.0 * share);
         if (share * length > STEP)
             share = STEP / length;
-        for (;;) {
-            advance(loops, &w, q, share);
-            if (corrected(loops, &w, 0.5 * share * length + INEXACT, &evaluations)
-                && alike(loops, &w) && closed(loops, &w))
-                break;
+        while (!stepped(loops, w, q, share, length, &evaluations)) {
             share *= 0.5;
             if (share < SHORTEST || evaluations > EVALUATIONS)
                 return MODELER_OPEN;
         }
-        if (share >= 1.0)
-            break;
-    }
+        remember(loops, w, share);
+    } while (share < 1.0);
+    for (int k = 0; k < loops->unknowns; k++)
+        u[k] = w->trial[k];
+    w->kept[VALID] = 1.0;
+    w->kept[PLACE] = (double)w->at;
+    return MODELER_CLOSED;
+}
+
+int modeler_close(const modeler_closure *loops, const double *q, const double *start, double *u,
+                  double *work)
+{
+    workspace w;
+    int evaluations = 0;
+
+    for (int k = 0; k < KEPT; k++)
+        work[k] = 0.0;
+    w = parts(loops, work);
+    for (int j = 0; j < loops->solved; j++)
+        w.bend[j] = 0.0;
+    for (int j = 0; j < loops->solved; j++)
+        w.share[j] = 1.0 / loops->scale[loops->solved_places[j]];
+    for (int k = 0; k < loops->unknowns; k++)
+        w.trial[k] = start[k];
+    if (!corrected(loops, &w, INEXACT, &evaluations))
+        return factor(loops, &w, w.at) ? MODELER_OPEN : MODELER_SINGULAR;
+    return walk(loops, &w, q, u, evaluations);
+}
+
+int modeler_close_next(const modeler_closure *loops, const double *q, double *u, double *work)
+{
+    workspace w = parts(loops, work);
+    int moved = 0;
+
+    if (!(w.kept[VALID] > 0.0))
+        return MODELER_OPEN;
+    for (int j = 0; j < loops->given; j++)
+        moved |= !(q[j] == w.trial[loops->given_places[j]]);
+    if (moved)
+        return walk(loops, &w, q, u, 0);
     for (int k = 0; k < loops->unknowns; k++)
         u[k] = w.trial[k];
     return MODELER_CLOSED;
 }
 
-/* G from factors at hand; J stays in w->values. */
-static void coupling(const modeler_closure *loops, workspace *w, double *G)
+/* Nonzeros of G in solved rows, where the elimination is sparse. */
+static const double *coupled(const modeler_closure *loops, const workspace *w)
+{
+    if (!(w->kept[COUPLED] > 0.0))
+        loops->coupling(jacobian(loops, w, w->at), w->lu[w->at], w->coupled);
+    w->kept[COUPLED] = 1.0;
+    return w->coupled;
+}
+
+void modeler_coupling(const modeler_closure *loops, double *G, double *work)
 {
     const int n = loops->unknowns, m = loops->solved, g = loops->given;
-    const double *J = w->values + m;
+    const workspace w = parts(loops, work);
+    const double *const J = jacobian(loops, &w, w.at);
 
     for (int k = 0; k < n * g; k++)
         G[k] = 0.0;
-    for (int j = 0; j < g; j++) {
+    for (int j = 0; j < g; j++)
         G[loops->given_places[j] * g + j] = 1.0;
+    if (!(w.kept[DENSE + w.at] > 0.0)) {
+        const double *const values = coupled(loops, &w);
+        for (int k = 0; k < loops->couplings; k++)
+            G[loops->coupling_row[k] * g + loops->coupling_column[k]] = values[k];
+        return;
+    }
+    for (int j = 0; j < g; j++) {
         for (int i = 0; i < m; i++)
-            w->values[i] = -J[i * n + loops->given_places[j]];
-        solve(m, &w->at, w->values, 1, w->step);
-        for (int i = 0; i < m; i++) {
-            const int k = loops->solved_places[i];
-            G[k * g + j] = w->step[i] * loops->scale[k];
-        }
+            w.right[i] = 0.0;
+        for (int k = 0; k < loops->nonzeros; k++)
+            if (loops->column[k] == loops->given_places[j])
+                w.right[loops->row[k]] = -J[k];
+        solve(loops, &w, w.at, w.right, w.step);
+        for (int i = 0; i < m; i++)
+            G[loops->solved_places[i] * g + j] = w.step[i];
     }
 }
 
-int modeler_coupling(const modeler_closure *loops, const double *u, double *G, double *work)
+void modeler_follow(const modeler_closure *loops,
+                    void (*drift)(const double *u, const double *ud, double *values),
+                    const double *u, const double *qd, const double *qdd, double *G, double *ud,
+                    double *udd, double *work)
 {
-    workspace w = parts(loops, work);
+    const int n = loops->unknowns, g = loops->given;
+    const workspace w = parts(loops, work);
 
-    loops->equations(u, w.values);
-    if (!factor(loops, &w))
-        return MODELER_SINGULAR;
-    coupling(loops, &w, G);
-    return MODELER_CLOSED;
-}
-
-int modeler_follow(const modeler_closure *loops,
-                   void (*drift)(const double *u, const double *ud, double *values),
-                   const double *u, const double *qd, const double *qdd, double *G, double *ud,
-                   double *udd, double *work)
-{
-    const int n = loops->unknowns, m = loops->solved, g = loops->given;
-    workspace w = parts(loops, work);
-
-    loops->equations(u, w.values);
-    if (!factor(loops, &w))
-        return MODELER_SINGULAR;
-    coupling(loops, &w, G);
+    modeler_coupling(loops, G, work);
     for (int k = 0; k < n; k++) {
         ud[k] = udd[k] = 0.0;
         for (int j = 0; j < g; j++) {
@@ -324,13 +539,23 @@ int modeler_follow(const modeler_closure *loops,
             udd[k] += G[k * g + j] * qdd[j];
         }
     }
-    drift(u, ud, w.values);
-    solve(m, &w.at, w.values, 1, w.step);
-    for (int i = 0; i < m; i++) {
-        const int k = loops->solved_places[i];
-        udd[k] -= w.step[i] * loops->scale[k];
-    }
-    return MODELER_CLOSED;
+    drift(u, ud, w.right);
+    solve(loops, &w, w.at, w.right, w.step);
+    for (int i = 0; i < loops->solved; i++)
+        udd[loops->solved_places[i]] -= w.step[i];
+}
+
+int modeler_eliminated(const modeler_closure *loops, double *work, const double **values,
+                       const double **lu, const double **G)
+{
+    const workspace w = parts(loops, work);
+
+    if (w.kept[DENSE + w.at] > 0.0)
+        return 0;
+    *values = w.values[w.at];
+    *lu = w.lu[w.at];
+    *G = coupled(loops, &w);
+    return 1;
 }
 
 void modeler_project(const modeler_closure *loops, const double *G, const double *rows, int width,

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "eb3dfe749b8c6251"
+#define ORTHOGLIDE_2003_SIGNATURE "da16c78e8221a765"
 
 #define ORTHOGLIDE_2003_JOINTS 3
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163

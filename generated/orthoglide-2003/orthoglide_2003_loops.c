@@ -8,7 +8,7 @@
 #include "modeler_closure.h"
 #include "orthoglide_2003_tree.h"
 
-#define WORK MODELER_CLOSURE_WORK(12, 9, 9)
+#define WORK MODELER_CLOSURE_WORK(12, 9, 48, 25)
 
 /* Free variables u: Px, Py, P, 11, 12, 13, 21, 31, 22, 32, 23, 33. */
 static const double home[12] = {
@@ -17,33 +17,87 @@ static const double home[12] = {
 static const double scale[12] = {
     0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 0.848528137423857, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0
 };
+/* Equation and place in u of the nonzeros of df/du. */
+static const int row[27] = {
+    0, 0, 0, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 5, 5, 6, 6, 7, 7, 7, 7, 8, 8, 8
+};
+static const int column[27] = {
+    0, 6, 7, 1, 7, 2, 3, 6, 7, 0, 4, 8, 9, 1, 8, 9, 2, 9, 0, 11, 1, 5, 10, 11, 2, 10, 11
+};
+
 static const int given[3] = { 3, 4, 5 };
 static const int solved[9] = { 0, 1, 2, 6, 7, 8, 9, 10, 11 };
-static const modeler_closure loops = {
-    12, 3, 9, given, solved, scale, orthoglide_2003_tree_closure,
-    9, 0, 8.485281374238571e-10, orthoglide_2003_tree_residual
+/* Largest sizes of 1/pivot. */
+static const double limits[9] = {
+    100.0, 100.0, 100.0, 100.0, 84.8528137423857, 100.0, 84.8528137423857, 100.0, 84.8528137423857
 };
+/* Places in u and among the given of the nonzeros of G in solved rows. */
+static const int coupling_row[27] = {
+    0, 1, 2, 6, 7, 8, 9, 10, 11, 0, 1, 2, 6, 7, 8, 9, 10, 11, 0, 1, 2, 6, 7, 8, 9, 10, 11
+};
+static const int coupling_column[27] = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2
+};
+static const modeler_closure loops = {
+    12, 3, 9, given, solved, scale,
+    9, 0, 8.485281374238571e-10, 27, row, column, 48,
+    orthoglide_2003_tree_closure, orthoglide_2003_tree_residual,
+    25, limits, orthoglide_2003_tree_factor, orthoglide_2003_tree_solve,
+    27, coupling_row, coupling_column,
+    orthoglide_2003_tree_coupling, orthoglide_2003_tree_turned, orthoglide_2003_tree_spread
+};
+
 static const int platform_given[3] = { 0, 1, 2 };
 static const int platform_solved[9] = { 3, 4, 5, 6, 7, 8, 9, 10, 11 };
+/* Largest sizes of 1/pivot. */
+static const double platform_limits[9] = {
+    100.0, 100.0, 84.8528137423857, 84.8528137423857, 100.0, 100.0, 100.0, 84.8528137423857, 100.0
+};
+/* Places in u and among the given of the nonzeros of G in solved rows. */
+static const int platform_coupling_row[18] = {
+    3, 4, 5, 6, 10, 11, 3, 4, 5, 6, 7, 8, 3, 4, 5, 8, 9, 10
+};
+static const int platform_coupling_column[18] = {
+    0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2
+};
 static const modeler_closure platform_loops = {
-    12, 3, 9, platform_given, platform_solved, scale, orthoglide_2003_tree_closure,
-    9, 0, 8.485281374238571e-10, orthoglide_2003_tree_residual
+    12, 3, 9, platform_given, platform_solved, scale,
+    9, 0, 8.485281374238571e-10, 27, row, column, 48,
+    orthoglide_2003_tree_closure, orthoglide_2003_tree_residual,
+    18, platform_limits, orthoglide_2003_tree_platform_factor, orthoglide_2003_tree_platform_solve,
+    18, platform_coupling_row, platform_coupling_column,
+    orthoglide_2003_tree_platform_coupling, orthoglide_2003_tree_platform_turned, orthoglide_2003_tree_platform_spread
 };
 
 static const double standing[3] = {0.0};
 
+/* Regressor of the base parameters at the closed posture u that was found last. */
+static void base_rows(const double *u, const double *qd, const double *qdd, double *work, double *phi)
+{
+    const double *values, *lu, *G_nonzeros;
+
+    if (modeler_eliminated(&loops, work, &values, &lu, &G_nonzeros)) {
+        orthoglide_2003_tree_rows(u, values + 36, G_nonzeros, lu, qd, qdd, phi);
+    } else {
+        double ud[12], udd[12], G[36];
+        double rows[12 * ORTHOGLIDE_2003_BASE_PARAMETERS];
+
+        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
+        orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
+        modeler_project(&loops, G, rows, ORTHOGLIDE_2003_BASE_PARAMETERS, phi);
+    }
+}
+
 const char *orthoglide_2003_signature(void)
 {
-    return "eb3dfe749b8c6251";
+    return "da16c78e8221a765";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
 void orthoglide_2003_observation(size_t samples, const double *q, const double *qd,
                                  const double *qdd, double *MODELER_RESTRICT W, int *status)
 {
-    double u[12], ud[12], udd[12];
-    double G[36], rows[12 * ORTHOGLIDE_2003_BASE_PARAMETERS];
-    double work[WORK];
+    double u[12], work[WORK];
     const size_t width = (size_t)ORTHOGLIDE_2003_JOINTS * ORTHOGLIDE_2003_BASE_PARAMETERS;
 
     for (size_t i = 0; i < samples; i++) {
@@ -51,14 +105,11 @@ void orthoglide_2003_observation(size_t samples, const double *q, const double *
         int found = MODELER_OPEN;
 
         if (i > 0 && status[i - 1] == MODELER_CLOSED)
-            found = modeler_close(&loops, q + at, u, u, work);
+            found = modeler_close_next(&loops, q + at, u, work);
         if (found != MODELER_CLOSED)
             found = modeler_close(&loops, q + at, home, u, work);
-        if (found == MODELER_CLOSED)
-            found = modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd + at, qdd + at, G, ud, udd, work);
         if (found == MODELER_CLOSED) {
-            orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
-            modeler_project(&loops, G, rows, ORTHOGLIDE_2003_BASE_PARAMETERS, W + i * width);
+            base_rows(u, qd + at, qdd + at, work, W + i * width);
         } else {
             modeler_nothing(W + i * width, width);
         }
@@ -71,14 +122,13 @@ int orthoglide_2003_regressor(const double *q, const double *qd, const double *q
                               double *MODELER_RESTRICT phi)
 {
     double u[12], G[36], ud[12], udd[12], rows[1956], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(phi, 489);
         return status;
     }
+    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
     orthoglide_2003_tree_regressor(u, ud, udd, rows);
     modeler_project(&loops, G, rows, 163, phi);
     return MODELER_CLOSED;
@@ -88,18 +138,14 @@ int orthoglide_2003_regressor(const double *q, const double *qd, const double *q
 int orthoglide_2003_base_regressor(const double *q, const double *qd, const double *qdd,
                                    double *MODELER_RESTRICT phi)
 {
-    double u[12], G[36], ud[12], udd[12], rows[516], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    double u[12], work[WORK];
+    const int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
-    if (status != MODELER_CLOSED) {
+        base_rows(u, qd, qdd, work, phi);
+    else
         modeler_nothing(phi, 129);
-        return status;
-    }
-    orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
-    modeler_project(&loops, G, rows, 43, phi);
-    return MODELER_CLOSED;
+    return status;
 }
 
 /* Torques that move the closed robot so. */
@@ -107,14 +153,13 @@ int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const do
                                      const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 3);
         return status;
     }
+    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
     orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -124,14 +169,13 @@ int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const do
 int orthoglide_2003_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], rows[12], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_coupling(&loops, u, G, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 3);
         return status;
     }
+    modeler_coupling(&loops, G, work);
     orthoglide_2003_tree_gravity(u, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -142,14 +186,13 @@ int orthoglide_2003_coriolis(const double *q, const double *qd, const double *be
                              double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 3);
         return status;
     }
+    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
     orthoglide_2003_tree_coriolis(u, ud, udd, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -160,14 +203,13 @@ int orthoglide_2003_friction(const double *q, const double *qd, const double *be
                              double *MODELER_RESTRICT tau)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(tau, 3);
         return status;
     }
+    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
     orthoglide_2003_tree_friction(ud, beta, rows);
     modeler_project(&loops, G, rows, 1, tau);
     return MODELER_CLOSED;
@@ -177,14 +219,13 @@ int orthoglide_2003_friction(const double *q, const double *qd, const double *be
 int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
     double u[12], G[36], rows[144], half[36], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_coupling(&loops, u, G, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(M, 9);
         return status;
     }
+    modeler_coupling(&loops, G, work);
     orthoglide_2003_tree_inertia_matrix(u, beta, rows);
     modeler_project(&loops, G, rows, 12, half);
     for (int i = 0; i < 3; i++)
@@ -233,11 +274,11 @@ int orthoglide_2003_close_from(const double *q, const double *start, double *MOD
 int orthoglide_2003_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[12], work[WORK];
-    int status = modeler_close(&loops, q, home, u, work);
+    const int status = modeler_close(&loops, q, home, u, work);
 
     if (status == MODELER_CLOSED)
-        status = modeler_coupling(&loops, u, G, work);
-    if (status != MODELER_CLOSED)
+        modeler_coupling(&loops, G, work);
+    else
         modeler_nothing(G, 36);
     return status;
 }
@@ -247,14 +288,13 @@ int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, c
                                             double *MODELER_RESTRICT phi)
 {
     double u[12], G[36], ud[12], udd[12], rows[516], work[WORK];
-    int status = modeler_close(&platform_loops, x, home, u, work);
+    const int status = modeler_close(&platform_loops, x, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(phi, 129);
         return status;
     }
+    modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
     orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
     modeler_project(&platform_loops, G, rows, 43, phi);
     return MODELER_CLOSED;
@@ -265,14 +305,13 @@ int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd,
                                               const double *beta, double *MODELER_RESTRICT f)
 {
     double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    int status = modeler_close(&platform_loops, x, home, u, work);
+    const int status = modeler_close(&platform_loops, x, home, u, work);
 
-    if (status == MODELER_CLOSED)
-        status = modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
     if (status != MODELER_CLOSED) {
         modeler_nothing(f, 3);
         return status;
     }
+    modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
     orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
     modeler_project(&platform_loops, G, rows, 1, f);
     return MODELER_CLOSED;
@@ -305,11 +344,11 @@ int orthoglide_2003_platform_close_from(const double *x, const double *start,
 int orthoglide_2003_platform_coupling(const double *x, double *MODELER_RESTRICT G)
 {
     double u[12], work[WORK];
-    int status = modeler_close(&platform_loops, x, home, u, work);
+    const int status = modeler_close(&platform_loops, x, home, u, work);
 
     if (status == MODELER_CLOSED)
-        status = modeler_coupling(&platform_loops, u, G, work);
-    if (status != MODELER_CLOSED)
+        modeler_coupling(&platform_loops, G, work);
+    else
         modeler_nothing(G, 36);
     return status;
 }

@@ -4,7 +4,7 @@
  * steps so short that Newton contracts from the first and that the Jacobian is singular nowhere
  * within one, so the assembly mode never changes: a way through a turning point or a bifurcation
  * ends there. Every equation of every loop is checked at the end of each step, those that follow
- * from others too. C99, no allocation, no global state, re-entrant.
+ * from others too. Each step starts with the factors of the one before. C99, no allocation, no global state, re-entrant.
  */
 #ifndef MODELER_CLOSURE_H
 #define MODELER_CLOSURE_H
@@ -25,40 +25,69 @@ enum {
     MODELER_UNFINISHED = 3 /* too many steps, or a value that is not finite */
 };
 
-/* The loops of a robot. `equations` writes the residuals f, then their derivatives by u, row after
- * row: solved + solved * unknowns numbers. */
+/* The loops of a robot; its functions are straight-line code without the zeros of df/du.
+ *
+ * `values` are all equations f, the `solved` independent ones first; cosines; the nonzeros of df/du,
+ * row after row; sines and cosines for other functions. Where a pivot of `factor` is small, the
+ * equations are solved densely, with rows exchanged. */
 typedef struct {
     int unknowns;             /* length of u */
     int given;                /* how many of u are given */
-    int solved;               /* the others: as many as equations */
+    int solved;               /* the others: as many as independent equations */
     const int *given_places;  /* in u */
     const int *solved_places; /* in u */
     const double *scale;      /* of u: 1 for angles in rad, the robot's size for travels in m */
-    void (*equations)(const double *u, double *values);
-    int residuals;            /* equations of all loops, in m or 1 */
+    int equations;            /* of all loops, in m or 1 */
     int alignments;           /* cosines that are positive where axes point as they should */
-    double tolerance;         /* of the residuals */
-    void (*residual)(const double *u, double *values); /* residuals, then alignments */
+    double tolerance;         /* of the equations */
+    int nonzeros;             /* of df/du */
+    const int *row;           /* of each nonzero: equation */
+    const int *column;        /* of each nonzero: place in u */
+    int length;               /* of `values` */
+    void (*closure)(const double *u, double *values);
+    void (*residual)(const double *u, double *f); /* the independent equations alone */
+    int factors;                                  /* length of lu */
+    const double *limits; /* largest size of the first `solved` of lu, which are 1/pivot */
+    void (*factor)(const double *J, double *lu);
+    void (*solve)(const double *lu, const double *right, double *x); /* J_solved x = right */
+    int couplings;              /* nonzeros of G in solved rows */
+    const int *coupling_row;    /* of each: place in u */
+    const int *coupling_column; /* of each: place among the given */
+    void (*coupling)(const double *J, const double *lu, double *G);
+    /* x: at least the sums of the absolute entries of each row of J_solved^-1 (K - J)_solved */
+    void (*turned)(const double *J, const double *K, const double *lu, double *x);
+    /* sum of the squares of the entries of that matrix, in scaled variables */
+    void (*spread)(const double *J, const double *K, const double *lu, double *sum);
 } modeler_closure;
 
-/* Numbers that `work` must hold; `checked` = residuals + alignments. */
-#define MODELER_CLOSURE_WORK(unknowns, solved, checked) \
-    ((solved) * ((unknowns) + 2 * (solved) + 7) + 3 * (unknowns) + (checked))
+/* Numbers that `work` must hold. */
+#define MODELER_CLOSURE_WORK(unknowns, solved, length, factors) \
+    (8 + 2 * ((length) + (factors) + (solved) * ((solved) + 2)) + \
+     (solved) * ((unknowns) - (solved) + 5) + 5 * (unknowns))
 
 /* Closed posture u with the given variables at q, from the closed posture `start`.
  * u may be `start`. Returns a status; u is unchanged unless it is MODELER_CLOSED. */
 int modeler_close(const modeler_closure *loops, const double *q, const double *start, double *u,
                   double *work);
 
-/* Velocities and accelerations at a closed posture: ud = G qd, udd = G qdd + gamma.
- * `drift` writes d/dt(J) ud. G is unknowns x given, row-major. */
-int modeler_follow(const modeler_closure *loops,
-                   void (*drift)(const double *u, const double *ud, double *values),
-                   const double *u, const double *qd, const double *qdd, double *G, double *ud,
-                   double *udd, double *work);
+/* The same from the posture to which the last call with this `work` has come. */
+int modeler_close_next(const modeler_closure *loops, const double *q, double *u, double *work);
 
-/* G alone. */
-int modeler_coupling(const modeler_closure *loops, const double *u, double *G, double *work);
+/* The functions below use what `work` holds of the closed posture that was found last. */
+
+/* G: ud = G qd; unknowns x given, row-major. */
+void modeler_coupling(const modeler_closure *loops, double *G, double *work);
+
+/* Velocities and accelerations: ud = G qd, udd = G qdd + gamma; `drift` writes d/dt(J) ud. */
+void modeler_follow(const modeler_closure *loops,
+                    void (*drift)(const double *u, const double *ud, double *values),
+                    const double *u, const double *qd, const double *qdd, double *G, double *ud,
+                    double *udd, double *work);
+
+/* `values`, lu and the nonzeros of G in solved rows; returns 0 if the equations were solved densely,
+ * so that there is no lu. */
+int modeler_eliminated(const modeler_closure *loops, double *work, const double **values,
+                       const double **lu, const double **G);
 
 /* out = G^T rows: `rows` is unknowns x width, out is given x width. */
 void modeler_project(const modeler_closure *loops, const double *G, const double *rows, int width,

@@ -661,119 +661,6 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     MODELER_ZEROS(T + 213, 2);
 }
 
-/* Closure equations f(u) and their derivatives by u.
- * 19 additions, 30 multiplications. */
-void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT values)
-{
-    MODELER_ALL_ZEROS(values, 117);
-
-    double s6, c6;
-    modeler_sincos(q[6], &s6, &c6);
-    double s7, c7;
-    modeler_sincos(q[7], &s7, &c7);
-    double s8, c8;
-    modeler_sincos(q[8], &s8, &c8);
-    double s9, c9;
-    modeler_sincos(q[9], &s9, &c9);
-    double s10, c10;
-    modeler_sincos(q[10], &s10, &c10);
-    double s11, c11;
-    modeler_sincos(q[11], &s11, &c11);
-
-    const double t1 = c6*c7*orthoglide_2012_geo_d4;
-    values[0] = t1 - q[0];
-    values[1] = -(q[1] + orthoglide_2012_geo_d4*s7);
-    MODELER_ZEROS(values + 10, 5);
-    const double t2 = s6*c7*orthoglide_2012_geo_d4;
-    values[2] = q[3] - t2 + orthoglide_2012_geo_d6 - q[2];
-    MODELER_ZEROS(values + 17, 5);
-    const double t3 = s8*c9*orthoglide_2012_geo_d4;
-    values[3] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[4] + t3) - q[0];
-    MODELER_ZEROS(values + 23, 5);
-    const double t4 = c8*c9*orthoglide_2012_geo_d4;
-    values[4] = t4 - q[1];
-    MODELER_ZEROS(values + 29, 6);
-    values[5] = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9 - q[2];
-    values[6] = -(q[0] + orthoglide_2012_geo_d4*s11);
-    MODELER_ZEROS(values + 37, 2);
-    const double t5 = s10*c11*orthoglide_2012_geo_d4;
-    values[7] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[5] + t5) - q[1];
-    MODELER_ZEROS(values + 41, 4);
-    const double t6 = c10*c11*orthoglide_2012_geo_d4;
-    values[8] = orthoglide_2012_geo_a + t6 - q[2];
-    MODELER_ZEROS(values + 46, 3);
-    values[9] = -1.0;
-    values[15] = -t2;
-    MODELER_ZEROS(values + 50, 3);
-    values[16] = -c6*s7*orthoglide_2012_geo_d4;
-    values[22] = -1.0;
-    MODELER_ZEROS(values + 55, 3);
-    values[28] = -orthoglide_2012_geo_d4*c7;
-    values[35] = -1.0;
-    MODELER_ZEROS(values + 59, 6);
-    values[36] = 1.0;
-    values[39] = -t1;
-    values[40] = s6*s7*orthoglide_2012_geo_d4;
-    MODELER_ZEROS(values + 67, 4);
-    values[45] = -1.0;
-    values[49] = 1.0;
-    MODELER_ZEROS(values + 72, 6);
-    values[53] = -t4;
-    values[54] = s8*s9*orthoglide_2012_geo_d4;
-    MODELER_ZEROS(values + 79, 2);
-    values[58] = -1.0;
-    values[65] = -t3;
-    MODELER_ZEROS(values + 82, 8);
-    values[66] = -c8*s9*orthoglide_2012_geo_d4;
-    values[71] = -1.0;
-    MODELER_ZEROS(values + 90, 2);
-    values[78] = -orthoglide_2012_geo_d4*c9;
-    values[81] = -1.0;
-    MODELER_ZEROS(values + 93, 1);
-    values[92] = -orthoglide_2012_geo_d4*c11;
-    values[94] = -1.0;
-    MODELER_ZEROS(values + 95, 3);
-    values[98] = 1.0;
-    values[103] = -t6;
-    MODELER_ZEROS(values + 99, 4);
-    values[104] = s10*s11*orthoglide_2012_geo_d4;
-    values[107] = -1.0;
-    MODELER_ZEROS(values + 105, 2);
-    values[115] = -t5;
-    values[116] = -c10*s11*orthoglide_2012_geo_d4;
-    MODELER_ZEROS(values + 108, 7);
-}
-
-/* All equations of all loops, then cosines that are positive.
- * 19 additions, 15 multiplications. */
-void orthoglide_2012_tree_residual(const double *q, double *MODELER_RESTRICT values)
-{
-    double s6, c6;
-    modeler_sincos(q[6], &s6, &c6);
-    double s7, c7;
-    modeler_sincos(q[7], &s7, &c7);
-    double s8, c8;
-    modeler_sincos(q[8], &s8, &c8);
-    double s9, c9;
-    modeler_sincos(q[9], &s9, &c9);
-    double s10, c10;
-    modeler_sincos(q[10], &s10, &c10);
-    double s11, c11;
-    modeler_sincos(q[11], &s11, &c11);
-
-    values[0] = c6*c7*orthoglide_2012_geo_d4 - q[0];
-    values[1] = -(q[1] + orthoglide_2012_geo_d4*s7);
-    values[2] = q[3] - s6*c7*orthoglide_2012_geo_d4 + orthoglide_2012_geo_d6 - q[2];
-    const double t1 = orthoglide_2012_geo_a - q[4] + s8*c9*orthoglide_2012_geo_d4;
-    values[3] = orthoglide_2012_geo_d6 - t1 - q[0];
-    values[4] = c8*c9*orthoglide_2012_geo_d4 - q[1];
-    values[5] = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9 - q[2];
-    values[6] = -(q[0] + orthoglide_2012_geo_d4*s11);
-    const double t2 = orthoglide_2012_geo_a - q[5] + s10*c11*orthoglide_2012_geo_d4;
-    values[7] = orthoglide_2012_geo_d6 - t2 - q[1];
-    values[8] = orthoglide_2012_geo_a + c10*c11*orthoglide_2012_geo_d4 - q[2];
-}
-
 /* d/dt(df/du) ud.
  * 18 additions, 66 multiplications. */
 void orthoglide_2012_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
@@ -818,6 +705,502 @@ void orthoglide_2012_tree_drift(const double *q, const double *qd, double *MODEL
     values[7] = t17 + orthoglide_2012_geo_d4*(s11*t15 + s10*t16)*qd[11];
     const double t18 = orthoglide_2012_geo_d4*(c11*t15 - s10*t13)*qd[10];
     values[8] = orthoglide_2012_geo_d4*(s11*t14 - c10*t16)*qd[11] - t18;
+}
+
+/* All equations of all loops, cosines, nonzeros of df/du, turns.
+ * 19 additions, 30 multiplications. */
+void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT values)
+{
+    double s6, c6;
+    modeler_sincos(q[6], &s6, &c6);
+    double s7, c7;
+    modeler_sincos(q[7], &s7, &c7);
+    double s8, c8;
+    modeler_sincos(q[8], &s8, &c8);
+    double s9, c9;
+    modeler_sincos(q[9], &s9, &c9);
+    double s10, c10;
+    modeler_sincos(q[10], &s10, &c10);
+    double s11, c11;
+    modeler_sincos(q[11], &s11, &c11);
+
+    const double t1 = c6*c7*orthoglide_2012_geo_d4;
+    values[0] = t1 - q[0];
+    values[1] = -(q[1] + orthoglide_2012_geo_d4*s7);
+    const double t2 = s6*c7*orthoglide_2012_geo_d4;
+    values[2] = q[3] - t2 + orthoglide_2012_geo_d6 - q[2];
+    const double t3 = s8*c9*orthoglide_2012_geo_d4;
+    values[3] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[4] + t3) - q[0];
+    const double t4 = c8*c9*orthoglide_2012_geo_d4;
+    values[4] = t4 - q[1];
+    values[5] = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9 - q[2];
+    values[6] = -(q[0] + orthoglide_2012_geo_d4*s11);
+    const double t5 = s10*c11*orthoglide_2012_geo_d4;
+    values[7] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[5] + t5) - q[1];
+    const double t6 = c10*c11*orthoglide_2012_geo_d4;
+    values[8] = orthoglide_2012_geo_a + t6 - q[2];
+    values[9] = -1.0;
+    values[10] = -t2;
+    values[11] = -c6*s7*orthoglide_2012_geo_d4;
+    values[12] = -1.0;
+    values[13] = -orthoglide_2012_geo_d4*c7;
+    values[14] = -1.0;
+    values[15] = 1.0;
+    values[16] = -t1;
+    values[17] = s6*s7*orthoglide_2012_geo_d4;
+    values[18] = -1.0;
+    values[19] = 1.0;
+    values[20] = -t4;
+    values[21] = s8*s9*orthoglide_2012_geo_d4;
+    values[22] = -1.0;
+    values[23] = -t3;
+    values[24] = -c8*s9*orthoglide_2012_geo_d4;
+    values[25] = -1.0;
+    values[26] = -orthoglide_2012_geo_d4*c9;
+    values[27] = -1.0;
+    values[28] = -orthoglide_2012_geo_d4*c11;
+    values[29] = -1.0;
+    values[30] = 1.0;
+    values[31] = -t6;
+    values[32] = s10*s11*orthoglide_2012_geo_d4;
+    values[33] = -1.0;
+    values[34] = -t5;
+    values[35] = -c10*s11*orthoglide_2012_geo_d4;
+    values[36] = c6;
+    values[37] = s6;
+    values[38] = c7;
+    values[39] = s7;
+    values[40] = c8;
+    values[41] = s8;
+    values[42] = c9;
+    values[43] = s9;
+    values[44] = c10;
+    values[45] = s10;
+    values[46] = c11;
+    values[47] = s11;
+}
+
+/* The independent equations.
+ * 19 additions, 15 multiplications. */
+void orthoglide_2012_tree_residual(const double *q, double *MODELER_RESTRICT f)
+{
+    double s6, c6;
+    modeler_sincos(q[6], &s6, &c6);
+    double s7, c7;
+    modeler_sincos(q[7], &s7, &c7);
+    double s8, c8;
+    modeler_sincos(q[8], &s8, &c8);
+    double s9, c9;
+    modeler_sincos(q[9], &s9, &c9);
+    double s10, c10;
+    modeler_sincos(q[10], &s10, &c10);
+    double s11, c11;
+    modeler_sincos(q[11], &s11, &c11);
+
+    f[0] = c6*c7*orthoglide_2012_geo_d4 - q[0];
+    f[1] = -(q[1] + orthoglide_2012_geo_d4*s7);
+    f[2] = q[3] - s6*c7*orthoglide_2012_geo_d4 + orthoglide_2012_geo_d6 - q[2];
+    const double t1 = orthoglide_2012_geo_a - q[4] + s8*c9*orthoglide_2012_geo_d4;
+    f[3] = orthoglide_2012_geo_d6 - t1 - q[0];
+    f[4] = c8*c9*orthoglide_2012_geo_d4 - q[1];
+    f[5] = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9 - q[2];
+    f[6] = -(q[0] + orthoglide_2012_geo_d4*s11);
+    const double t2 = orthoglide_2012_geo_a - q[5] + s10*c11*orthoglide_2012_geo_d4;
+    f[7] = orthoglide_2012_geo_d6 - t2 - q[1];
+    f[8] = orthoglide_2012_geo_a + c10*c11*orthoglide_2012_geo_d4 - q[2];
+}
+
+/* Factors of the solved columns of J: 1/pivots, then the rest.
+ * 8 additions, 22 multiplications. */
+void orthoglide_2012_tree_factor(const double *J, double *MODELER_RESTRICT lu)
+{
+    const double t1 = 1.0/J[1];
+    lu[0] = t1;
+    const double t2 = 1.0/J[4];
+    lu[1] = t2;
+    const double t3 = 1.0/J[14];
+    lu[2] = t3;
+    const double t4 = 1.0/J[17];
+    lu[3] = t4;
+    lu[4] = -1.0;
+    const double t5 = 1.0/J[25];
+    lu[5] = t5;
+    lu[6] = -1.0;
+    const double t6 = J[11]*t3;
+    const double t7 = (J[12] - J[15]*t6)*t4;
+    const double t8 = J[7]*t1;
+    const double t9 = J[19]*t8;
+    const double t10 = 1.0/(J[19] - t7*t9);
+    lu[7] = -t10;
+    const double t11 = (J[8] - J[2]*t8)*t2;
+    const double t12 = J[22]*t5;
+    const double t13 = t6 + t11*t7;
+    const double t14 = (J[23] - J[26]*t12 + t9*t12)*t10;
+    lu[8] = -1.0/(1.0 - t11*t12 - t13*t14);
+    lu[9] = J[2];
+    lu[10] = t8;
+    lu[11] = t11;
+    lu[12] = J[15];
+    lu[13] = t6;
+    lu[14] = t7;
+    lu[15] = J[19];
+    lu[16] = -t8;
+    lu[17] = J[26];
+    lu[18] = t12;
+    lu[19] = t11;
+    lu[20] = t9;
+    lu[21] = -t7;
+    lu[22] = -t12;
+    lu[23] = t13;
+    lu[24] = -t14;
+}
+
+/* Solution with the factors.
+ * 22 additions, 25 multiplications. */
+void orthoglide_2012_tree_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+{
+    const double t1 = right[2] - lu[10]*right[0] - lu[11]*right[1] - lu[16]*right[6];
+    const double t2 = lu[14]*right[5] - (right[3] - lu[13]*right[4]) + right[6] + lu[21]*t1;
+    const double t3 = lu[8]*(right[7] - lu[18]*right[8] - lu[22]*t1 + lu[24]*t2);
+    const double t4 = lu[7]*(t2 + lu[23]*t3);
+    const double t5 = lu[4]*(right[6] + lu[15]*t4);
+    x[0] = t5;
+    x[1] = t3;
+    const double t6 = lu[6]*(t1 - lu[19]*t3 + lu[20]*t4);
+    x[2] = t6;
+    const double t7 = lu[1]*(right[1] + t3);
+    x[3] = lu[0]*(right[0] + t5 - lu[9]*t7);
+    x[4] = t7;
+    const double t8 = lu[3]*(right[5] + t6);
+    x[5] = lu[2]*(right[4] + t3 - lu[12]*t8);
+    x[6] = t8;
+    x[7] = lu[5]*(right[8] + t6 + lu[17]*t4);
+    x[8] = -t4;
+}
+
+/* G from the factors.
+ * 16 additions, 48 multiplications. */
+void orthoglide_2012_tree_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+{
+    (void)J;
+
+    const double t1 = lu[8]*(lu[22] - lu[21]*lu[24]);
+    const double t2 = lu[7]*(lu[21] - lu[23]*t1);
+    const double t3 = lu[15]*t2*lu[4];
+    G[0] = -t3;
+    G[1] = t1;
+    const double t4 = lu[6]*(1.0 + lu[19]*t1 + lu[20]*t2);
+    G[2] = -t4;
+    const double t5 = lu[1]*t1;
+    G[3] = -lu[0]*(t3 + lu[9]*t5);
+    G[4] = t5;
+    const double t6 = lu[3]*t4;
+    G[5] = lu[2]*(t1 + lu[12]*t6);
+    G[6] = -t6;
+    G[7] = -lu[5]*(t4 + lu[17]*t2);
+    G[8] = t2;
+    const double t7 = lu[8]*lu[24];
+    const double t8 = lu[7]*(1.0 + lu[23]*t7);
+    const double t9 = lu[15]*t8*lu[4];
+    G[9] = t9;
+    G[10] = t7;
+    const double t10 = lu[6]*(lu[19]*t7 - lu[20]*t8);
+    G[11] = -t10;
+    const double t11 = lu[1]*t7;
+    G[12] = lu[0]*(t9 - lu[9]*t11);
+    G[13] = t11;
+    const double t12 = lu[3]*t10;
+    G[14] = lu[2]*(t7 + lu[12]*t12);
+    G[15] = -t12;
+    G[16] = -lu[5]*(t10 - lu[17]*t8);
+    G[17] = -t8;
+    const double t13 = lu[8]*lu[23]*lu[7];
+    const double t14 = lu[15]*t13*lu[4];
+    G[18] = -t14;
+    G[19] = -lu[8];
+    const double t15 = lu[6]*(lu[8]*lu[19] - lu[20]*t13);
+    G[20] = t15;
+    const double t16 = lu[1]*lu[8];
+    G[21] = -lu[0]*(t14 - lu[9]*t16);
+    G[22] = -t16;
+    const double t17 = lu[3]*t15;
+    G[23] = -lu[2]*(lu[8] + lu[12]*t17);
+    G[24] = t17;
+    G[25] = lu[5]*(t15 - lu[17]*t13);
+    G[26] = t13;
+}
+
+/* Bounds of the rows of J^-1 (K - J).
+ * 43 additions, 32 multiplications. */
+void orthoglide_2012_tree_turned(const double *J, const double *K, const double *lu,
+                                 double *MODELER_RESTRICT x)
+{
+    const double k1 = fabs(1.0);
+
+    const double t1 = fabs(J[19] - K[19]);
+    const double t2 = fabs(J[14] - K[14]) + fabs(J[15] - K[15]);
+    const double t3 = fabs(J[17] - K[17]);
+    const double t4 = fabs(J[11] - K[11]) + fabs(J[12] - K[12]) + t2*fabs(lu[13]);
+    const double t5 = fabs(J[1] - K[1]) + fabs(J[2] - K[2]);
+    const double t6 = fabs(J[4] - K[4]);
+    const double t7 = fabs(J[7] - K[7]) + fabs(J[8] - K[8]) + t5*fabs(lu[10]) + t6*fabs(lu[11]);
+    const double t8 = t7 + t1*fabs(lu[16]);
+    const double t9 = t4 + t3*fabs(lu[14]) + k1*t1 + t8*fabs(lu[21]);
+    const double t10 = fabs(J[25] - K[25]) + fabs(J[26] - K[26]);
+    const double t11 = fabs(J[22] - K[22]) + fabs(J[23] - K[23]) + t10*fabs(lu[18]);
+    const double t12 = (t11 + t8*fabs(lu[22]) + t9*fabs(lu[24]))*fabs(lu[8]);
+    const double t13 = (t9 + t12*fabs(lu[23]))*fabs(lu[7]);
+    const double t14 = (t1 + t13*fabs(lu[15]))*fabs(lu[4]);
+    x[0] = (1000000000000000.0/848528137423857.0)*t14;
+    x[1] = (1000000000000000.0/848528137423857.0)*t12;
+    const double t15 = (t8 + t12*fabs(lu[19]) + t13*fabs(lu[20]))*fabs(lu[6]);
+    x[2] = (1000000000000000.0/848528137423857.0)*t15;
+    const double t16 = k1*t12;
+    const double t17 = (t6 + t16)*fabs(lu[1]);
+    x[3] = (t5 + k1*t14 + t17*fabs(lu[9]))*fabs(lu[0]);
+    x[4] = t17;
+    const double t18 = k1*t15;
+    const double t19 = (t3 + t18)*fabs(lu[3]);
+    x[5] = (t2 + t16 + t19*fabs(lu[12]))*fabs(lu[2]);
+    x[6] = t19;
+    x[7] = (t10 + t18 + t13*fabs(lu[17]))*fabs(lu[5]);
+    x[8] = t13;
+}
+
+/* Sum of the squares of J^-1 (K - J).
+ * 122 additions, 188 multiplications. */
+void orthoglide_2012_tree_spread(const double *J, const double *K, const double *lu,
+                                 double *MODELER_RESTRICT x)
+{
+    const double t1 = J[1] - K[1];
+    const double t2 = J[7] - K[7] - lu[10]*t1;
+    const double t3 = lu[21]*t2;
+    const double t4 = lu[8]*(lu[22]*t2 - lu[24]*t3);
+    const double t5 = lu[7]*(t3 - lu[23]*t4);
+    const double t6 = lu[15]*t5*lu[4];
+    const double t7 = (1000000000000000.0/848528137423857.0)*t6;
+    const double t8 = (1000000000000000.0/848528137423857.0)*t4;
+    const double t9 = lu[6]*(t2 + lu[19]*t4 + lu[20]*t5);
+    const double t10 = (1000000000000000.0/848528137423857.0)*t9;
+    const double t11 = lu[1]*t4;
+    const double t12 = lu[0]*(t1 + t6 + lu[9]*t11);
+    const double t13 = lu[3]*t9;
+    const double t14 = lu[2]*(t4 + lu[12]*t13);
+    const double t15 = lu[5]*(t9 + lu[17]*t5);
+    const double t16 = t7*t7 + t8*t8 + t10*t10 + t12*t12 + t11*t11 + t14*t14 + t13*t13 + t15*t15;
+    const double t17 = J[2] - K[2];
+    const double t18 = J[4] - K[4];
+    const double t19 = J[8] - K[8] - lu[10]*t17 - lu[11]*t18;
+    const double t20 = lu[21]*t19;
+    const double t21 = lu[8]*(lu[22]*t19 - lu[24]*t20);
+    const double t22 = lu[7]*(t20 - lu[23]*t21);
+    const double t23 = lu[15]*t22*lu[4];
+    const double t24 = (1000000000000000.0/848528137423857.0)*t23;
+    const double t25 = (1000000000000000.0/848528137423857.0)*t21;
+    const double t26 = lu[6]*(t19 + lu[19]*t21 + lu[20]*t22);
+    const double t27 = (1000000000000000.0/848528137423857.0)*t26;
+    const double t28 = lu[1]*(t18 - t21);
+    const double t29 = lu[0]*(t17 + t23 - lu[9]*t28);
+    const double t30 = lu[3]*t26;
+    const double t31 = lu[2]*(t21 + lu[12]*t30);
+    const double t32 = t16 + t5*t5 + t24*t24 + t25*t25 + t27*t27 + t29*t29 + t28*t28 + t31*t31;
+    const double t33 = lu[5]*(t26 + lu[17]*t22);
+    const double t34 = J[14] - K[14];
+    const double t35 = J[11] - K[11] - lu[13]*t34;
+    const double t36 = lu[24]*t35*lu[8];
+    const double t37 = lu[7]*(t35 + lu[23]*t36);
+    const double t38 = lu[15]*t37*lu[4];
+    const double t39 = (1000000000000000.0/848528137423857.0)*t38;
+    const double t40 = (1000000000000000.0/848528137423857.0)*t36;
+    const double t41 = lu[6]*(lu[19]*t36 - lu[20]*t37);
+    const double t42 = (1000000000000000.0/848528137423857.0)*t41;
+    const double t43 = lu[1]*t36;
+    const double t44 = lu[0]*(t38 - lu[9]*t43);
+    const double t45 = t32 + t30*t30 + t33*t33 + t22*t22 + t39*t39 + t40*t40 + t42*t42 + t44*t44;
+    const double t46 = lu[3]*t41;
+    const double t47 = lu[2]*(t34 - t36 - lu[12]*t46);
+    const double t48 = lu[5]*(t41 - lu[17]*t37);
+    const double t49 = J[15] - K[15];
+    const double t50 = J[17] - K[17];
+    const double t51 = J[12] - K[12] - lu[13]*t49 - lu[14]*t50;
+    const double t52 = lu[24]*t51*lu[8];
+    const double t53 = lu[7]*(t51 + lu[23]*t52);
+    const double t54 = lu[15]*t53*lu[4];
+    const double t55 = (1000000000000000.0/848528137423857.0)*t54;
+    const double t56 = (1000000000000000.0/848528137423857.0)*t52;
+    const double t57 = lu[6]*(lu[19]*t52 - lu[20]*t53);
+    const double t58 = (1000000000000000.0/848528137423857.0)*t57;
+    const double t59 = t45 + t43*t43 + t47*t47 + t46*t46 + t48*t48 + t37*t37 + t55*t55 + t56*t56;
+    const double t60 = lu[1]*t52;
+    const double t61 = lu[0]*(t54 - lu[9]*t60);
+    const double t62 = lu[3]*(t50 + t57);
+    const double t63 = lu[2]*(t49 - t52 - lu[12]*t62);
+    const double t64 = lu[5]*(t57 - lu[17]*t53);
+    const double t65 = J[25] - K[25];
+    const double t66 = lu[8]*(J[22] - K[22] - lu[18]*t65);
+    const double t67 = lu[23]*t66*lu[7];
+    const double t68 = lu[15]*t67*lu[4];
+    const double t69 = (1000000000000000.0/848528137423857.0)*t68;
+    const double t70 = t59 + t58*t58 + t61*t61 + t60*t60 + t63*t63 + t62*t62 + t64*t64 + t53*t53;
+    const double t71 = (1000000000000000.0/848528137423857.0)*t66;
+    const double t72 = lu[6]*(lu[19]*t66 - lu[20]*t67);
+    const double t73 = (1000000000000000.0/848528137423857.0)*t72;
+    const double t74 = lu[1]*t66;
+    const double t75 = lu[0]*(t68 - lu[9]*t74);
+    const double t76 = lu[3]*t72;
+    const double t77 = lu[2]*(t66 + lu[12]*t76);
+    const double t78 = lu[5]*(t65 - t72 + lu[17]*t67);
+    const double t79 = t70 + t69*t69 + t71*t71 + t73*t73 + t75*t75 + t74*t74 + t77*t77 + t76*t76;
+    const double t80 = J[19] - K[19];
+    const double t81 = lu[16]*t80;
+    const double t82 = t80 - lu[21]*t81;
+    const double t83 = J[26] - K[26];
+    const double t84 = lu[8]*(J[23] - K[23] - lu[18]*t83 + lu[22]*t81 + lu[24]*t82);
+    const double t85 = lu[7]*(t82 + lu[23]*t84);
+    const double t86 = lu[4]*(t80 + lu[15]*t85);
+    const double t87 = (1000000000000000.0/848528137423857.0)*t86;
+    const double t88 = (1000000000000000.0/848528137423857.0)*t84;
+    const double t89 = lu[6]*(t81 + lu[19]*t84 - lu[20]*t85);
+    const double t90 = (1000000000000000.0/848528137423857.0)*t89;
+    const double t91 = lu[1]*t84;
+    const double t92 = lu[0]*(t86 - lu[9]*t91);
+    const double t93 = lu[3]*t89;
+    const double t94 = lu[2]*(t84 + lu[12]*t93);
+    const double t95 = t79 + t78*t78 + t67*t67 + t87*t87 + t88*t88 + t90*t90 + t92*t92 + t91*t91;
+    const double t96 = lu[5]*(t83 - t89 + lu[17]*t85);
+    x[0] = t95 + t94*t94 + t93*t93 + t96*t96 + t85*t85;
+}
+
+/* Factors of the solved columns of J: 1/pivots, then the rest.
+ * 0 additions, 11 multiplications. */
+void orthoglide_2012_tree_platform_factor(const double *J, double *MODELER_RESTRICT lu)
+{
+    const double t1 = 1.0/J[4];
+    lu[0] = t1;
+    const double t2 = 1.0/J[1];
+    lu[1] = t2;
+    lu[2] = 1.0;
+    lu[3] = 1.0;
+    lu[4] = 1.0/J[14];
+    lu[5] = 1.0/J[17];
+    const double t3 = 1.0/J[19];
+    lu[6] = t3;
+    lu[7] = 1.0;
+    lu[8] = 1.0/J[25];
+    lu[9] = J[2]*t1;
+    lu[10] = J[8]*t1;
+    lu[11] = J[7]*t2;
+    lu[12] = J[11];
+    lu[13] = J[12];
+    lu[14] = J[15];
+    lu[15] = J[23]*t3;
+    lu[16] = J[26]*t3;
+    lu[17] = J[22];
+}
+
+/* Solution with the factors.
+ * 9 additions, 18 multiplications. */
+void orthoglide_2012_tree_platform_solve(const double *lu, const double *right,
+                                         double *MODELER_RESTRICT x)
+{
+    const double t1 = right[0] - lu[9]*right[1];
+    x[0] = lu[2]*(right[2] - lu[10]*right[1] - lu[11]*t1);
+    const double t2 = lu[5]*right[5];
+    const double t3 = lu[4]*(right[4] - lu[14]*t2);
+    x[1] = lu[3]*(right[3] - lu[12]*t3 - lu[13]*t2);
+    const double t4 = lu[8]*(right[8] - lu[16]*right[6]);
+    x[2] = lu[7]*(right[7] - lu[15]*right[6] - lu[17]*t4);
+    x[3] = lu[1]*t1;
+    x[4] = lu[0]*right[1];
+    x[5] = t3;
+    x[6] = t2;
+    x[7] = t4;
+    x[8] = lu[6]*right[6];
+}
+
+/* G from the factors.
+ * 3 additions, 16 multiplications. */
+void orthoglide_2012_tree_platform_coupling(const double *J, const double *lu,
+                                            double *MODELER_RESTRICT G)
+{
+    (void)J;
+
+    G[0] = -lu[2]*lu[11];
+    G[1] = lu[3];
+    const double t1 = lu[8]*lu[16];
+    G[2] = -lu[7]*(lu[15] - lu[17]*t1);
+    G[3] = lu[1];
+    G[4] = -t1;
+    G[5] = lu[6];
+    G[6] = -lu[2]*(lu[10] - lu[9]*lu[11]);
+    G[7] = -lu[4]*lu[12]*lu[3];
+    G[8] = lu[7];
+    G[9] = -lu[1]*lu[9];
+    G[10] = lu[0];
+    G[11] = lu[4];
+    G[12] = lu[2];
+    const double t2 = lu[5]*lu[14]*lu[4];
+    G[13] = lu[3]*(lu[12]*t2 - lu[5]*lu[13]);
+    G[14] = -lu[8]*lu[17]*lu[7];
+    G[15] = -t2;
+    G[16] = lu[5];
+    G[17] = lu[8];
+}
+
+/* Bounds of the rows of J^-1 (K - J).
+ * 30 additions, 21 multiplications. */
+void orthoglide_2012_tree_platform_turned(const double *J, const double *K, const double *lu,
+                                          double *MODELER_RESTRICT x)
+{
+    const double t1 = fabs(J[4] - K[4]);
+    const double t2 = fabs(J[1] - K[1]) + fabs(J[2] - K[2]) + t1*fabs(lu[9]);
+    const double t3 = fabs(J[7] - K[7]) + fabs(J[8] - K[8]) + t1*fabs(lu[10]) + fabs(lu[11])*t2;
+    x[0] = fabs(lu[2])*t3*(1000000000000000.0/848528137423857.0);
+    const double t4 = fabs(J[17] - K[17])*fabs(lu[5]);
+    const double t5 = fabs(lu[4])*(fabs(J[14] - K[14]) + fabs(J[15] - K[15]) + fabs(lu[14])*t4);
+    const double t6 = fabs(J[11] - K[11]) + fabs(J[12] - K[12]) + fabs(lu[12])*t5;
+    x[1] = fabs(lu[3])*(t6 + fabs(lu[13])*t4)*(1000000000000000.0/848528137423857.0);
+    const double t7 = fabs(J[19] - K[19]);
+    const double t8 = fabs(lu[8])*(fabs(J[25] - K[25]) + fabs(J[26] - K[26]) + t7*fabs(lu[16]));
+    const double t9 = fabs(J[22] - K[22]) + fabs(J[23] - K[23]) + t7*fabs(lu[15]);
+    x[2] = fabs(lu[7])*(t9 + fabs(lu[17])*t8)*(1000000000000000.0/848528137423857.0);
+    x[3] = fabs(lu[1])*t2;
+    x[4] = t1*fabs(lu[0]);
+    x[5] = t5;
+    x[6] = t4;
+    x[7] = t8;
+    x[8] = t7*fabs(lu[6]);
+}
+
+/* Sum of the squares of J^-1 (K - J).
+ * 41 additions, 48 multiplications. */
+void orthoglide_2012_tree_platform_spread(const double *J, const double *K, const double *lu,
+                                          double *MODELER_RESTRICT x)
+{
+    const double t1 = J[1] - K[1];
+    const double t2 = lu[2]*(J[7] - K[7] - lu[11]*t1)*(1000000000000000.0/848528137423857.0);
+    const double t3 = lu[1]*t1;
+    const double t4 = J[4] - K[4];
+    const double t5 = J[2] - K[2] - lu[9]*t4;
+    const double t6 = lu[2]*(J[8] - K[8] - lu[10]*t4 - lu[11]*t5);
+    const double t7 = (1000000000000000.0/848528137423857.0)*t6;
+    const double t8 = lu[1]*t5;
+    const double t9 = lu[0]*t4;
+    const double t10 = lu[4]*(J[14] - K[14]);
+    const double t11 = lu[3]*(J[11] - K[11] - lu[12]*t10)*(1000000000000000.0/848528137423857.0);
+    const double t12 = lu[5]*(J[17] - K[17]);
+    const double t13 = lu[4]*(J[15] - K[15] - lu[14]*t12);
+    const double t14 = lu[3]*(J[12] - K[12] - lu[12]*t13 - lu[13]*t12);
+    const double t15 = (1000000000000000.0/848528137423857.0)*t14;
+    const double t16 = t2*t2 + t3*t3 + t7*t7 + t8*t8 + t9*t9 + t11*t11 + t10*t10 + t15*t15;
+    const double t17 = lu[8]*(J[25] - K[25]);
+    const double t18 = lu[7]*(J[22] - K[22] - lu[17]*t17)*(1000000000000000.0/848528137423857.0);
+    const double t19 = J[19] - K[19];
+    const double t20 = lu[8]*(J[26] - K[26] - lu[16]*t19);
+    const double t21 = lu[7]*(J[23] - K[23] - lu[15]*t19 - lu[17]*t20);
+    const double t22 = (1000000000000000.0/848528137423857.0)*t21;
+    const double t23 = lu[6]*t19;
+    x[0] = t16 + t13*t13 + t12*t12 + t18*t18 + t17*t17 + t22*t22 + t20*t20 + t23*t23;
 }
 
 /* Base parameters from standard ones: the grouping relations.

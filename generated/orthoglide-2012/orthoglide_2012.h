@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "729ce48eab0edb41"
+#define ORTHOGLIDE_2012_SIGNATURE "a1d90d71ee162fb1"
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196

@@ -23,9 +23,23 @@ void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const doub
                                    const double *beta, double *tau);
 void orthoglide_2012_tree_friction(const double *qd, const double *beta, double *tau);
 void orthoglide_2012_tree_forward_kinematics(const double *q, double *T);
-void orthoglide_2012_tree_closure(const double *q, double *values);
-void orthoglide_2012_tree_residual(const double *q, double *values);
 void orthoglide_2012_tree_drift(const double *q, const double *qd, double *values);
+void orthoglide_2012_tree_closure(const double *q, double *values);
+void orthoglide_2012_tree_residual(const double *q, double *f);
+void orthoglide_2012_tree_factor(const double *J, double *lu);
+void orthoglide_2012_tree_solve(const double *lu, const double *right, double *x);
+void orthoglide_2012_tree_coupling(const double *J, const double *lu, double *G);
+void orthoglide_2012_tree_turned(const double *J, const double *K, const double *lu, double *x);
+void orthoglide_2012_tree_spread(const double *J, const double *K, const double *lu, double *x);
+void orthoglide_2012_tree_platform_factor(const double *J, double *lu);
+void orthoglide_2012_tree_platform_solve(const double *lu, const double *right, double *x);
+void orthoglide_2012_tree_platform_coupling(const double *J, const double *lu, double *G);
+void orthoglide_2012_tree_platform_turned(const double *J, const double *K, const double *lu,
+                                          double *x);
+void orthoglide_2012_tree_platform_spread(const double *J, const double *K, const double *lu,
+                                          double *x);
+void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G, const double *lu,
+                               const double *v, const double *a, double *phi);
 
 #ifdef __cplusplus
 }

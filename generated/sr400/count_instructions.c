@@ -73,20 +73,24 @@ static uint32_t now(void)
 }
 
 /* Functions of one instruction, which the loop around a call is counted with. */
-__attribute__((noinline)) static void nothing_1(const double *a1, double *b)
+__attribute__((noinline))
+static void nothing_1(const double *a1, double *b)
 {
     (void)a1;
     (void)b;
     __asm__ volatile("" : : : "memory");
 }
-__attribute__((noinline)) static void nothing_2(const double *a1, const double *a2, double *b)
+__attribute__((noinline))
+static void nothing_2(const double *a1, const double *a2, double *b)
 {
     (void)a1;
     (void)a2;
     (void)b;
     __asm__ volatile("" : : : "memory");
 }
-__attribute__((noinline)) static void nothing_3(const double *a1, const double *a2, const double *a3, double *b)
+__attribute__((noinline))
+static void nothing_3(const double *a1, const double *a2, const double *a3,
+        double *b)
 {
     (void)a1;
     (void)a2;
@@ -94,7 +98,9 @@ __attribute__((noinline)) static void nothing_3(const double *a1, const double *
     (void)b;
     __asm__ volatile("" : : : "memory");
 }
-__attribute__((noinline)) static void nothing_4(const double *a1, const double *a2, const double *a3, const double *a4, double *b)
+__attribute__((noinline))
+static void nothing_4(const double *a1, const double *a2, const double *a3,
+        const double *a4, double *b)
 {
     (void)a1;
     (void)a2;
@@ -125,7 +131,8 @@ static void prepare(int state)
 static void keep(unsigned long *most, uint32_t before, uint32_t between, uint32_t after)
 {
     const uint32_t whole = (before - between) & 0xFFFFFFu, loop = (between - after) & 0xFFFFFFu;
-    const unsigned long found = 1 + ((unsigned long)(whole - loop) * PER_TICK + REPEAT / 2) / REPEAT;
+    const unsigned long all = (unsigned long)(whole - loop) * PER_TICK;
+    const unsigned long found = 1 + (all + REPEAT / 2) / REPEAT;
 
     if (found > *most)
         *most = found;
@@ -347,7 +354,8 @@ static unsigned long count_forward_kinematics(void)
 
 int main(void)
 {
-    say("/* Instructions of one call at most, counted in qemu: sr400 7c637234a0fa15eb. */\n");
+    say("/* Instructions of one call at most, counted in qemu:\n");
+    say(" * sr400 7c637234a0fa15eb. */\n");
     say("#define SR400_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -33,6 +33,9 @@ from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart
 from modeler.observation.findings import findings_of_fit
+from modeler.observation.log import LONG
+from modeler.observation.part import read_part
+from modeler.observation.source import source_of
 from modeler.observation.window import window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
@@ -150,8 +153,12 @@ def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
 
 def _read(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
     path, span = file_and_span(place)
-    log = read_log(path, spec, names)
-    return log if span is None else window(log, *span)
+    if span is None:
+        return read_log(path, spec, names)
+    source = source_of(Path(path), spec, names)
+    if source is not None and source.rows > LONG and source.exact:
+        return read_part(source, spec, *span)
+    return window(read_log(path, spec, names), *span)
 
 
 def file_and_span(

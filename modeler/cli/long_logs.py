@@ -13,9 +13,10 @@ from modeler.core.errors import DataError
 from modeler.derivation import Derivation
 from modeler.fit import IdentifiedModel
 from modeler.fit.long import OF_TRIANGLES
-from modeler.fit.streamed import Reducer, WholeNeeded
+from modeler.fit.streamed import Reducer
 from modeler.jobs import open_workers
 from modeler.observation import Observation, Processing
+from modeler.observation.survey import WholeNeeded
 
 
 def fit_if_long(

@@ -171,7 +171,6 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
     """
     closure, places = solving.closure, solving.pattern.places
     scales = [closure.size if long else 1.0 for long in closure.lengths]
-    every = range(len(closure.home))
     return {
         "home": ", ".join(repr(x) for x in closure.home),
         "scale": ", ".join(repr(x) for x in scales),
@@ -190,18 +189,21 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
         "turned_from": solving.turned_from,
         "factors": max(len(own.factors) for own in solving.eliminations.values()),
         "sets": [
-            {
-                "head": head,
-                "given": ", ".join(map(str, given)),
-                "solved": ", ".join(str(k) for k in every if k not in given),
-                "factors": len(own.factors),
-                "limits": layout.name_lines([repr(limit) for limit in own.limits]),
-                "couplings": len(own.coupling),
-                "coupling_row": layout.number_lines([k for k, _, _ in own.coupling]),
-                "coupling_column": layout.number_lines([j for _, j, _ in own.coupling]),
-            }
-            for (head, given), own in zip(
-                solving.sets.items(), solving.eliminations.values(), strict=True
-            )
+            _set_tables(head, solving.sets[head], own, len(closure.home))
+            for head, own in solving.eliminations.items()
         ],
+    }
+
+
+def _set_tables(head: str, given: Sequence[int], own: Elimination, unknowns: int) -> dict[str, Any]:
+    """Those of one set of given variables."""
+    return {
+        "head": head,
+        "given": ", ".join(map(str, given)),
+        "solved": ", ".join(str(k) for k in range(unknowns) if k not in given),
+        "factors": len(own.factors),
+        "limits": layout.name_lines([repr(limit) for limit in own.limits]),
+        "couplings": len(own.coupling),
+        "coupling_row": layout.number_lines([k for k, _, _ in own.coupling]),
+        "coupling_column": layout.number_lines([j for _, j, _ in own.coupling]),
     }

@@ -86,38 +86,40 @@ def elimination(
     assert closure is not None
     solved = [k for k in range(len(closure.home)) if k not in given]
     scale = np.array([closure.size if long else 1.0 for long in closure.lengths])
-    inner = J[:, :, solved] * scale[solved]
     size = 2.0 ** np.round(np.log2(np.max(np.linalg.norm(J * scale, axis=2), axis=0)))
-    order = _order(inner / size[:, None], {(i, solved.index(k)) for i, k in pattern.places
-                                           if k in solved})  # fmt: skip
+    places = {(i, solved.index(k)) for i, k in pattern.places if k in solved}
+    order = _order(J[:, :, solved] * scale[solved] / size[:, None], places)
     symbols = {
         (i, k): entry if graph.nodes[abs(entry.ref)].op == "num" else graph.symbol(f"J[{at}]")
         for at, ((i, k), entry) in enumerate(zip(pattern.places, pattern.entries, strict=True))
     }
-    changes = _changes(graph, pattern, solved)
-    lengths = [graph.constant(Fraction(repr(float(scale[k])))) for k in solved]
     factors = _Factors(graph, order, len(solved))
     factors.eliminate({(i, solved.index(k)): e for (i, k), e in symbols.items() if k in solved})
-    zero = graph.constant(0)
-    coupling = []
-    for j, k in enumerate(given):
-        right = [-symbols.get((i, k), zero) for i in range(len(solved))]
-        coupling += [
-            (solved[s], j, x) for s, x in enumerate(factors.solved(right)) if not x.is_zero
-        ]
+    changes = _changes(graph, pattern, solved)
+    lengths = [graph.constant(Fraction(repr(float(scale[k])))) for k in solved]
+    bounds = factors.bounds(_sums(graph, changes, lengths))
     return Elimination(
         limits=tuple(float(scale[solved[j]] / (SMALLEST * size[i])) for i, j in order),
         factors=tuple(factors.values),
         solution=tuple(factors.solved([graph.symbol(f"right[{i}]") for i in range(len(solved))])),
-        coupling=tuple(coupling),
-        turned=tuple(
-            bound / length
-            for bound, length in zip(
-                factors.bounds(_sums(graph, changes, lengths)), lengths, strict=True
-            )
-        ),
+        coupling=_coupling(factors, symbols, given, solved),
+        turned=tuple(bound / length for bound, length in zip(bounds, lengths, strict=True)),
         spread=_squares(factors, changes, lengths),
     )
+
+
+def _coupling(
+    factors: "_Factors",
+    symbols: Mapping[tuple[int, int], Expr],
+    given: Sequence[int],
+    solved: Sequence[int],
+) -> tuple[tuple[int, int, Expr], ...]:
+    """The nonzeros of G = -J_solved^-1 J_given."""
+    zero, found = factors.graph.constant(0), list[tuple[int, int, Expr]]()
+    for j, k in enumerate(given):
+        column = factors.solved([-symbols.get((i, k), zero) for i in range(len(solved))])
+        found += [(at, j, x) for at, x in zip(solved, column, strict=True) if not x.is_zero]
+    return tuple(found)
 
 
 def _changes(graph: Graph, pattern: Pattern, solved: Sequence[int]) -> dict[tuple[int, int], Expr]:

@@ -71,39 +71,61 @@ def fused_regressor(
         eliminated: the elimination of the others.
         turns: what stands in t.
     """
-    closure, graph = model.closure, model.graph
-    assert closure is not None
-    n, zero = len(closure.home), graph.constant(0)
-    shares: list[dict[int, Expr]] = [{} for _ in range(n)]
-    for j, k in enumerate(given):
-        shares[k][j] = graph.constant(1)
-    for at, (k, j, _) in enumerate(eliminated.coupling):
-        shares[k][j] = graph.symbol(f"G[{at}]")
-
-    def carried(name: str) -> list[Expr]:
-        return [
-            sum((share * graph.symbol(f"{name}[{j}]") for j, share in own.items()), zero)
-            for own in shares
-        ]
-
-    speeds = {f"qd[{k}]": value for k, value in enumerate(carried("v"))}
-    drift = replaced(graph, closure.drift, turns.symbols, speeds)
-    right = {f"right[{i}]": value for i, value in enumerate(drift)}
-    back = replaced(graph, eliminated.solution, {}, right)
-    accelerations = carried("a")
-    for k, value in zip([k for k in range(n) if k not in given], back, strict=True):
-        accelerations[k] = accelerations[k] - value
-    moving = speeds | {f"qdd[{k}]": value for k, value in enumerate(accelerations)}
+    graph = model.graph
+    shares = _shares(model, given, eliminated)
+    moving = _moving(model, given, eliminated, turns, shares)
     columns = base_columns(model, base)
     values = replaced(graph, list(columns.values()), turns.symbols, moving)
     phi: dict[int, Expr] = {}
     for (k, column), value in zip(columns, values, strict=True):
         for j, share in shares[k].items():
             at = j * base.rank + column
-            phi[at] = phi.get(at, zero) + share * value
+            phi[at] = phi.get(at, graph.constant(0)) + share * value
     # Column after column: what a column reads is done with before the next one.
     order = sorted(phi, key=lambda at: (at % base.rank, at))
     return tuple((at, phi[at]) for at in order if not phi[at].is_zero)
+
+
+def _shares(
+    model: SymbolicModel, given: Sequence[int], eliminated: Elimination
+) -> list[dict[int, Expr]]:
+    """Rows of G: {place among the given: entry} of each free variable."""
+    assert model.closure is not None
+    shares: list[dict[int, Expr]] = [{} for _ in model.closure.home]
+    for j, k in enumerate(given):
+        shares[k][j] = model.graph.constant(1)
+    for at, (k, j, _) in enumerate(eliminated.coupling):
+        shares[k][j] = model.graph.symbol(f"G[{at}]")
+    return shares
+
+
+def _moving(
+    model: SymbolicModel,
+    given: Sequence[int],
+    eliminated: Elimination,
+    turns: Turns,
+    shares: Sequence[Mapping[int, Expr]],
+) -> dict[str, Expr]:
+    """Speeds and accelerations of the free variables, by symbol."""
+    closure, graph = model.closure, model.graph
+    assert closure is not None
+
+    def carried(name: str) -> list[Expr]:
+        return [
+            sum((share * graph.symbol(f"{name}[{j}]") for j, share in own.items()),
+                graph.constant(0))
+            for own in shares
+        ]  # fmt: skip
+
+    speeds = {f"qd[{k}]": value for k, value in enumerate(carried("v"))}
+    drift = replaced(graph, closure.drift, turns.symbols, speeds)
+    right = {f"right[{i}]": value for i, value in enumerate(drift)}
+    back = replaced(graph, eliminated.solution, {}, right)
+    accelerations = carried("a")
+    solved = [k for k in range(len(shares)) if k not in given]
+    for k, value in zip(solved, back, strict=True):
+        accelerations[k] = accelerations[k] - value
+    return speeds | {f"qdd[{k}]": value for k, value in enumerate(accelerations)}
 
 
 def replaced(

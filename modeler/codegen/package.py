@@ -77,10 +77,19 @@ def package_files(
         "home": _home(spec),
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
-        "turn": next((f for f in values["functions"] if f.name == f"{prefix}_tree_closure"), None),
-        "solving": _solving(values["functions"], prefix),
+        **_counts(values["functions"], prefix),
     }
-    names = {
+    texts = {name: render(template, **given) for name, template in _names(prefix).items()}
+    for name in examples:
+        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
+    if count is not None:
+        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
+    return of_precision(spec.precision, texts)
+
+
+def _names(prefix: str) -> dict[str, str]:
+    """{file: template} of what every folder has."""
+    return {
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
@@ -89,12 +98,6 @@ def package_files(
         f"{SELF_CHECK}.c": "self_check.c",
         "README.md": "README.md",
     }
-    texts = {name: render(template, **given) for name, template in names.items()}
-    for name in examples:
-        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    if count is not None:
-        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
-    return of_precision(spec.precision, texts)
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
@@ -122,9 +125,17 @@ def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
     return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
 
 
-def _solving(functions: Sequence[Any], prefix: str) -> dict[str, int]:
-    """Operations of the factors of the loops' equations, and of a solution with them."""
-    own = [f for f in functions if f.name in (f"{prefix}_tree_factor", f"{prefix}_tree_solve")]
+def _counts(functions: Sequence[Any], prefix: str) -> dict[str, dict[str, int]]:
+    """Operations of closing loops: equations and derivatives, and the solution."""
+    return {
+        "turn": _operations(functions, f"{prefix}_tree_closure"),
+        "solving": _operations(functions, f"{prefix}_tree_factor", f"{prefix}_tree_solve"),
+    }
+
+
+def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
+    """Operations of the functions of these names together."""
+    own = [f for f in functions if f.name in names]
     return {
         "additions": sum(f.additions for f in own),
         "multiplications": sum(f.multiplications for f in own),

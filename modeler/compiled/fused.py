@@ -148,25 +148,23 @@ def products_of_samples(
     """
     library, lags = fused_library(), np.ascontiguousarray(last, dtype=np.intc)
     assert lags.max(initial=0) <= PAST and len(lags) == len(pattern.columns)
-    counts = [max(int(lag) - first + 1, 0) for lag in lags]
+    rows, counts = pattern.rows_of_entries, [max(int(lag) - first + 1, 0) for lag in lags]
     sizes = [count * size * size for count, size in zip(counts, pattern.sizes, strict=True)]
 
     def one(block: slice) -> np.ndarray:
-        out, past = np.zeros(sum(sizes)), min(PAST, block.start)
+        out, past, level = np.zeros(sum(sizes)), min(PAST, block.start), library.level()
         part = given.part(slice(block.start - past, block.stop))
-        library.products(
-            pattern.rows_of_entries, functions, part, past, library.level(), first, lags, out
-        )
+        library.products(rows, functions, part, past, level, first, lags, out)
         return out
 
     total = np.zeros(sum(sizes))
     for part in _mapped(one, _blocks(len(given.q), BLOCK)):
         total += part
-    ends = np.cumsum(sizes)
+    parts = np.split(total, np.cumsum(sizes)[:-1])
     return [
         part.reshape(count, size, size)[:, : len(own) + 1, : len(own) + 1]
         for part, count, size, own in zip(
-            np.split(total, ends[:-1]), counts, pattern.sizes, pattern.columns, strict=True
+            parts, counts, pattern.sizes, pattern.columns, strict=True
         )
     ]
 

@@ -55,10 +55,9 @@ def identify_long(
     observation = streamed.observation
     dead = dead_joints(observation)
     problem = _problem(streamed, dead, model)
-    data, alive = problem.data, problem.counted
-    estimate = method_of(method).estimate(problem)
+    data, estimate = problem.data, method_of(method).estimate(problem)
     essential = essential_parameters(data, estimate, method)
-    rows, every = rows_of(observation, alive), np.arange(len(data.names))
+    rows, every = rows_of(observation, problem.counted), np.arange(len(data.names))
     colour = _coloured(problem, rows, every, estimate, streamed.share)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
     return FitResult(
@@ -73,8 +72,7 @@ def identify_long(
         sentences=(*dead_sentences(observation, dead), *estimate.sentences,
                    *sentences_of(estimate, essential), *colour.sentences()),
         processing=observation.report.processing, own=estimate.sentences,
-        essential=_reduced(problem, rows, essential, streamed.share),
-        reading=streamed.reading,
+        essential=_reduced(problem, rows, essential, streamed.share), reading=streamed.reading,
     )  # fmt: skip
 
 

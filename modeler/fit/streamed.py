@@ -23,7 +23,7 @@ from modeler.observation.processing import Processing
 from modeler.observation.seen import Chosen
 from modeler.observation.source import Source
 from modeler.observation.streamed_report import Passes, streamed_report
-from modeler.observation.survey import Known, Survey, survey
+from modeler.observation.survey import Known, Survey, WholeNeeded, survey
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -194,10 +194,6 @@ def _repeats(model: "CompiledModel", j: int) -> bool:
     except LoopError:
         return True
     return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))
-
-
-class WholeNeeded(DataError):
-    """Only a log that is in memory as a whole can be fitted."""
 
 
 def _streamed(

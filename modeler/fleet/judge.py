@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.fleet.joint_fit import JointFit
-from modeler.fleet.layout import GAIN, Layout, Quantity
+from modeler.fleet.layout import GAIN, LOAD, Layout, Quantity
 from modeler.fleet.odd import Odd, odd_ones
 from modeler.fleet.series import Move, Scatter, Series, least_told, line_of, move_of, scatters
 from modeler.fleet.summary import LogSummary
@@ -30,6 +30,7 @@ class Judged:
         moves: (machine, quantity) of those that drift, and how.
         odd: (machine, quantity) of those apart from the others.
         scores: (machine, quantity) of the greatest change of every series, in sigmas.
+        loaded: machines whose deviations a load describes better than gains; None: not known yet.
     """
 
     quantities: tuple[Quantity, ...]
@@ -41,11 +42,16 @@ class Judged:
     moves: dict[tuple[int, int], Move] = dataclasses.field(default_factory=dict)
     odd: dict[tuple[int, int], Odd] = dataclasses.field(default_factory=dict)
     scores: dict[tuple[int, int], float] = dataclasses.field(default_factory=dict)
+    loaded: frozenset[int] | None = None
 
     @property
     def machines(self) -> int:
         """How many."""
         return int(self.machine.max()) + 1
+
+    def may(self, m: int, i: int) -> bool:
+        """False of a load in a machine that gains describe better: it would be told twice."""
+        return self.loaded is None or self.quantities[i].effect != LOAD or m in self.loaded
 
     def known(self, m: int, i: int) -> np.ndarray:
         """Indices of the logs of a machine that tell a quantity."""
@@ -119,20 +125,18 @@ def _with_loads(found: Judged, layout: Layout, fit: JointFit) -> Judged:
     tested = _tested(found, [load])
     suspects = {m for m, _ in (*tested.moves, *tested.odd)}
     values, sigmas = found.values.copy(), found.sigmas.copy()
-    first = len(layout.columns)
+    first, loaded = len(layout.columns), set[int]()
     for m in range(found.machines):
         own = np.flatnonzero(found.machine == m)
         gain, with_load = (sum(fits[k].misfit for k in own) for fits in (fit.logs, fit.loaded))
         if m not in suspects or gain <= with_load:
             continue
+        loaded.add(m)
         for k in own:
             values[k, :first] = fit.loaded[k].values[:first]
             sigmas[k, :first] = fit.loaded[k].sigmas[:first]
         values[own, first:load] = np.nan
-        suspects.discard(m)
-    for m in suspects:  # a gain describes it better: no load
-        values[found.machine == m, load] = np.nan
-    return dataclasses.replace(found, values=values, sigmas=sigmas)
+    return dataclasses.replace(found, values=values, sigmas=sigmas, loaded=frozenset(loaded))
 
 
 def _tested(found: Judged, places: Sequence[int]) -> Judged:
@@ -144,12 +148,13 @@ def _tested(found: Judged, places: Sequence[int]) -> Judged:
             move = move_of(found.series(m, i), found.scatters[i])
             if move is not None:
                 scores[m, i] = abs(move.score)
-            if move is not None and move.chance < level:
+            if move is not None and move.chance < level and found.may(m, i):
                 count = found.machines * families
                 moves[m, i] = dataclasses.replace(move, chance=min(1.0, move.chance * count))
         means, spreads = _means(found, moves, i)
         for each in odd_ones(means, spreads, 0.5 * FALSE_ALARM / families):
-            odd[each.machine, i] = each
+            if found.may(each.machine, i):
+                odd[each.machine, i] = each
     return dataclasses.replace(found, moves=moves, odd=odd, scores=scores)
 
 

@@ -85,10 +85,15 @@ def fleet_lines(found: Fleet) -> list[str]:
         f"finding where nothing drifts: {100 * found.false_alarm:.2g} %"
     )
     lines += [*found.notes, *_gain_note(found)]
-    lines += [f"left out: {place}: {why}" for place, why in found.left]
+    lines += left_lines(found)
     if found.aside:
         lines.append(f"not told by any log, taken as 0: {', '.join(found.aside)}")
     return lines
+
+
+def left_lines(found: Fleet) -> list[str]:
+    """Logs that were not used, and why; most reasons begin with the place already."""
+    return [f"left out: {why if place in why else f'{place}: {why}'}" for place, why in found.left]
 
 
 def rows_of(found: Fleet) -> list[list[str]]:

@@ -22,6 +22,9 @@ Columns = tuple[np.ndarray | None, ...]
 """Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
 
 
+_WIDE = 12
+"""Values per sample above which it is not worth the while to evaluate all samples at once."""
+
 Evaluate = Callable[[int, slice], np.ndarray]
 """Values over a window of the samples of a stretch, by its number."""
 
@@ -85,7 +88,8 @@ class Rows(Brief):
         """The columns of a candidate on these rows."""
         if candidate.local or candidate.effect.acts is Acts.POSITION:
             return self._together([candidate])
-        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w))
+        width = self.joints * len(candidate.form.columns)
+        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w), width)
 
     def many(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """The columns of several candidates of one effect on one joint."""
@@ -103,27 +107,35 @@ class Rows(Brief):
     def _together(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
         first, signals = candidates[0], self.signals
+        width = len(candidates) * len(first.form.columns)
         if first.local and first.form.memory is None:
-            return self._on(first.index, lambda i, w: own_columns_of(candidates, signals[i], w))
+            return self._on(
+                first.index, lambda i, w: own_columns_of(candidates, signals[i], w), width
+            )
         own = [own_columns_of(candidates, s) for s in signals]
         if first.local:
-            return self._on(first.index, lambda i, w: own[i][w])
+            return self._on(first.index, lambda i, w: own[i][w], 0)
         j, whole = first.index, first.effect.whole_axis
-        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w))
+        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w), self.joints * width)
 
-    def _on(self, j: int, evaluate: Evaluate) -> Columns:
+    def _on(self, j: int, evaluate: Evaluate, width: int) -> Columns:
         """Columns of one joint from its values (samples, k)."""
         found: list[np.ndarray | None] = [None] * self.joints
         found[j] = np.concatenate(
-            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks()]
+            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks(width)]
         )
         return tuple(found)
 
-    def spread(self, evaluate: Evaluate) -> Columns:
-        """Columns from values (samples, J, k); None on joints where they are 0 throughout."""
+    def spread(self, evaluate: Evaluate, width: int = 0) -> Columns:
+        """Columns from values (samples, J, k); None on joints where they are 0 throughout.
+
+        Args:
+            evaluate: gives the values.
+            width: values per sample.
+        """
         parts: list[list[np.ndarray]] = [[] for _ in range(self.joints)]
         shown = np.zeros(self.joints, dtype=bool)
-        for i, block in self._blocks():
+        for i, block in self._blocks(width):
             values = evaluate(i, block.window)
             shown |= values.any(axis=(0, 2))
             for j, weights in enumerate(block.filters):
@@ -132,8 +144,13 @@ class Rows(Brief):
             np.concatenate(own) if felt else None for own, felt in zip(parts, shown, strict=True)
         )
 
-    def _blocks(self) -> Iterator[tuple[int, Block]]:
-        return ((i, block) for i, blocks in enumerate(self.blocks) for block in blocks)
+    def _blocks(self, width: int) -> Iterator[tuple[int, Block]]:
+        """Stretch by stretch: small ones where many values are evaluated for each sample."""
+        for i, (blocks, filters) in enumerate(zip(self.blocks, self.filters, strict=True)):
+            if width > _WIDE:
+                yield from ((i, block) for block in blocks)
+            else:
+                yield i, Block(slice(0, len(self.signals[i].q)), filters)
 
 
 def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:

@@ -174,6 +174,7 @@ class Signals(Brief):
         The torque is quadratic in v and linear in a: there differences are exact.
         """
         if j not in self._slopes:
+            self._slopes.clear()  # those of one joint are remembered
             self._slopes[j] = tuple(self._slope(j, k) for k in range(3))
         return self._slopes[j]
 
@@ -222,20 +223,22 @@ class Signals(Brief):
         start, stop, _ = window.indices(len(dq))
         first = max(0, start - _BESIDE)
         dq, inside = dq[first : stop + _BESIDE], slice(start - first, stop - first)
-        torque = np.zeros((stop - start, self.q.shape[1], dq.shape[1]))
+        torque = np.zeros((self.q.shape[1], stop - start, dq.shape[1]))
         if not dq.any():
-            return torque
+            return torque.swapaxes(0, 1)
         dv = np.gradient(dq, self.step, axis=0)
         da = np.gradient(dv, self.step, axis=0)
         dq, dv, da = dq[inside], dv[inside], da[inside]
-        slopes = [slope[start:stop] for slope in self.slopes(j)]
+        slopes, part = [slope[start:stop] for slope in self.slopes(j)], np.empty_like(dq)
         for k in range(self.q.shape[1]):
             place, speed, acceleration = (slope[:, k, None] for slope in slopes)
-            torque[:, k] = place * dq + speed * dv + acceleration * da
+            np.multiply(place, dq, out=torque[k])
+            torque[k] += np.multiply(speed, dv, out=part)
+            torque[k] += np.multiply(acceleration, da, out=part)
         if whole:
             viscous, rotor = self.reference.drives[:, j]
-            torque[:, j] += viscous * dv + rotor * da
-        return torque
+            torque[j] += viscous * dv + rotor * da
+        return torque.swapaxes(0, 1)
 
 
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:

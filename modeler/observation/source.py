@@ -155,7 +155,7 @@ class MemorySource:
         return cut(self.log, slice(first, first + size))
 
 
-def source_of(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> Source | None:
+def source_of(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> FileSource | None:
     """The rows of a file that can be read in blocks; None of another format.
 
     Raises:

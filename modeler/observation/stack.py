@@ -140,7 +140,12 @@ def _stack(
 def _motion(part: Stretch) -> np.ndarray:
     """(rows, 3, joints) q, qd, qdd over all whole samples."""
     s = part.segment
-    return part.rows.means(np.stack([s.q, s.qd, s.qdd], axis=1), s.whole)
+    return np.concatenate(
+        [
+            rows.means(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
+            for rows, w, _ in part.parts()
+        ]
+    )
 
 
 def _torque(segment: Segment) -> Callable[[slice], np.ndarray]:

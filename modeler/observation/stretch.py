@@ -39,10 +39,11 @@ class Stretch(Brief):
         self, evaluate: Callable[[slice], np.ndarray], samples: int = _BLOCK
     ) -> Iterator[tuple[slice, np.ndarray]]:
         """The same, about so many samples at a time: which rows, and their values."""
-        for part, window, rows in self._blocks(samples):
+        for part, window, rows in self.parts(samples):
             yield rows, self._means(part, evaluate(window), window, self.used[rows])
 
-    def _blocks(self, samples: int) -> Iterator[tuple[RowFilter, slice, slice]]:
+    def parts(self, samples: int = _BLOCK) -> Iterator[tuple[RowFilter, slice, slice]]:
+        """Filters of a few rows each, the samples that they reach, and which rows they are."""
         centres = self.rows.centres
         decimation = int(centres[1] - centres[0]) if len(centres) > 1 else 1
         count = max(1, samples // decimation)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, LoopError
 from modeler.observation.chunk import chunk_rows, margin
 from modeler.observation.dry_friction import Shaft, shafts
 from modeler.observation.log import FINGER, Log
@@ -38,7 +38,14 @@ SECONDS = 8.0
 LONGEST = 65_536
 """... but no more rows than these."""
 
+_PLACES = (0.5, 0.25, 0.75, 0.1, 0.9, 0.4, 0.6)  # of a window in its part of a log
+_TRAVEL = 1e-3  # rad or m: less is rest
+
 Extremes = tuple[tuple[float, float], ...]
+
+
+class WholeNeeded(DataError):
+    """Only a log that is in memory as a whole can be fitted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,14 +99,18 @@ def survey(
         rows: of a chunk, at least.
 
     Raises:
-        DataError: as `observe` does, of the windows.
+        DataError: a log is damaged.
+        WholeNeeded: `observe` refuses the windows.
     """
     windows = [_windows(source, _count(sources, k)) for k, source in enumerate(sources)]
     looked = [k for k, own in enumerate(windows) if own]
     logs = [windows_joined(own) if own else None for own in windows]
     seen = [log for log in logs if log is not None]
-    prepared = prepare(model.spec, seen, processing)
-    observation = observed(model, seen, prepared)
+    try:
+        prepared = prepare(model.spec, seen, processing)
+        observation = observed(model, seen, prepared)
+    except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
+        raise WholeNeeded(f"{error}; so it is in all windows of a long log") from None
     chosen, parts = observation.report.processing, shafts(model)
     chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
@@ -132,10 +143,27 @@ def _windows(source: Source, count: int) -> list[Log]:
         return [source.window(0.0, max(size, min(source.rows, count * size)))]
     found: list[Log] = []
     for k in range(count):
-        log = source.window((k + 0.5) / count, size)
+        log = _moving(source, (k / count, (k + 1) / count), size)
         if not found or log.time[0] > found[-1].time[-1]:
             found.append(log)
     return found
+
+
+def _moving(source: Source, part: tuple[float, float], size: int) -> Log:
+    """A window in which something moves, in a part of a log; that in its middle if none does."""
+    middle: Log | None = None
+    for place in _PLACES:
+        log = source.window(part[0] + place * (part[1] - part[0]), size)
+        if _moves(log):
+            return log
+        middle = middle or log
+    assert middle is not None
+    return middle
+
+
+def _moves(log: Log) -> bool:
+    there = log.q[np.isfinite(log.q).all(axis=1)]
+    return bool(len(there) and np.ptp(there, axis=0).max() > _TRAVEL)
 
 
 def _chosen(

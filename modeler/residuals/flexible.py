@@ -88,13 +88,15 @@ def _crossed(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray
     grams = [x.T @ x for x in own]
     sides = [x.T @ y[r].astype(np.float32) for x, r in zip(own, rows, strict=True)]
     G, u = sum(grams), sum(sides)
-    found = np.zeros((len(rows), len(X), len(_RIDGES)))
+    theta = np.zeros((len(rows), len(rows), len(_RIDGES), X.shape[1]), dtype=np.float32)
     for f, g in combinations_with_replacement(range(len(rows)), 2):
         gram, side = G - grams[f] - (f != g) * grams[g], u - sides[f] - (f != g) * sides[g]
         for k, ridge in enumerate(_RIDGES):
-            theta = _solved(gram, ridge * X.shape[1], side)
-            found[f, rows[g], k] = own[g] @ theta
-            found[g, rows[f], k] = own[f] @ theta
+            theta[f, g, k] = theta[g, f, k] = _solved(gram, ridge * X.shape[1], side)
+    found = np.zeros((len(rows), len(X), len(_RIDGES)))
+    for g, x in enumerate(own):
+        said = x @ theta[:, g].reshape(-1, X.shape[1]).T
+        found[:, rows[g]] = said.reshape(len(x), len(rows), -1).swapaxes(0, 1)
     return found
 
 

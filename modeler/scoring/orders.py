@@ -1,6 +1,7 @@
 """The order spectrum of a state, and the ripples that it proposes."""
 
 from collections.abc import Callable, Set
+from typing import cast
 
 import numpy as np
 
@@ -14,6 +15,13 @@ from modeler.scoring.state import State, column_key
 
 def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
     """Of the moving samples of joint j, at full rate; None if it rests."""
+    key = "order spectrum", j
+    if key not in state.known:
+        state.known[key] = _order_spectrum(state, j)
+    return cast(OrderSpectrum | None, state.known[key])
+
+
+def _order_spectrum(state: State, j: int) -> OrderSpectrum | None:
     q, r = _samples(state, j)
     unit = state.data.compiled.spec.joints[j].unit
     return spectrum_of(q, r, unit, _reached(state, j)) if q.size else None

@@ -34,7 +34,8 @@ def proposals(
         return not ruled_out(effect, joint, without)
 
     found = candidates(spec, state.scales, temperature, present, known, allowed)
-    found = [c for c in found if only is not None or _lasts(state, c)]
+    span = float(np.ptp(state.data.observation.time))
+    found = [c for c in found if only is not None or _lasts(span, c)]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         found += ripple_candidates(state, allowed, waves)
@@ -53,10 +54,9 @@ def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
     return effect in without or f"{effect}@{joint}" in without
 
 
-def _lasts(state: State, candidate: Candidate) -> bool:
+def _lasts(span: float, candidate: Candidate) -> bool:
     """False for what fades much faster than the logs can show, or takes longer than they last."""
     times = [candidate.shapes[s.name] for s in candidate.form.shapes if s.scale == "seconds"]
-    span = float(np.ptp(state.data.observation.time))
     return all(0.1 * span <= time <= span for time in times)
 
 

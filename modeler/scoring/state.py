@@ -139,6 +139,8 @@ class State(Brief):
     def W(self) -> tuple[np.ndarray, ...]:
         """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
         sizes = [next(c.shape[1] for c in e if c is not None) for e in self.extra]
+        if not sizes and self.data.kept is None:
+            return self.rows.W
         found = []
         for j, base in enumerate(self.rows.W):
             parts = [base[:, self.data.free]]
@@ -215,6 +217,11 @@ class State(Brief):
         return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
 
     @cached_property
+    def known(self) -> dict[Any, Any]:
+        """What was made of it, by name."""
+        return {}
+
+    @cached_property
     def scales(self) -> list[JointScale]:
         """What is large on each joint."""
         signals = self.rows.signals
@@ -282,7 +289,8 @@ def all_columns_of(rows: Rows, candidates: Sequence[Candidate], cache: dict) -> 
             found[i] = cache[column_key(rows, candidate)]
         else:
             groups.setdefault((candidate.key, id(candidate.form)), []).append(i)
-    for places in groups.values():
+    # Joint after joint: the slopes along the motion of one joint serve all its effects.
+    for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
         every = [candidates[i] for i in places]
         if len(every) == 1 or every[0].effect.acts is Acts.GRAVITY:
             made = [columns_of(rows, candidate, cache) for candidate in every]
@@ -323,7 +331,7 @@ def _tilt(rows: Rows, cache: dict) -> Columns:
         return (None,) * rows.joints
     key = "frame slopes"
     if key not in cache:
-        cache[key] = rows.spread(partial(_frame_slopes, rows))
+        cache[key] = rows.spread(partial(_frame_slopes, rows), width=1000)
     return tuple(None if own is None else own @ weights for own in cache[key])
 
 
@@ -335,10 +343,11 @@ def _frame_slopes(rows: Rows, stretch: int, window: slice) -> np.ndarray:
 
 def visible(columns: Columns) -> bool:
     """True if the columns are finite and none of them is zero throughout."""
-    own = [c for c in columns if c is not None]
-    if not own or not own[0].shape[1] or not all(np.isfinite(c).all() for c in own):
+    own = [c.T for c in columns if c is not None]
+    if not own or not len(own[0]):
         return False
-    return bool(np.all(sum(np.abs(c).sum(axis=0) for c in own) > 0.0))
+    square = sum(np.einsum("ij,ij->i", c, c) for c in own)
+    return bool(np.isfinite(square).all() and np.all(square > 0.0))
 
 
 def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:

@@ -30,9 +30,9 @@ def test_fifty_fleets_without_drift_are_quiet() -> None:
 @pytest.mark.parametrize("daily", [0.0, 0.03])
 @pytest.mark.parametrize(("machines", "periods"), [(1, 8), (4, 6), (8, 3), (12, 1)])
 def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily: float) -> None:
-    """Of all sizes, with friction that scatters from day to day: 5 % and two sigma of 100."""
+    """Of all sizes, with friction that scatters from day to day: 5 % and two sigma of 60."""
     scene = Scene(machines=machines, periods=periods, daily=daily, apart=0.2)
-    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 700)) <= 5 + 4
+    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 660)) <= 3 + 3
 
 
 DAYS = 10
@@ -76,6 +76,15 @@ def test_a_load_is_no_gain(robot: str) -> None:
     [one] = found.findings
     assert one.change == pytest.approx(0.8, rel=0.2) and one.quantity.joint is None
     assert "machine r3: load on the last link leaps up by 0." in sentence(one, "periods")
+
+
+def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
+    """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
+    plans = (Planted(4, "gain2", (0.0,) * 5 + (0.05,) * 5),
+             Planted(2, "load", (0.0,) * 4 + (2.0,) * 6))  # fmt: skip
+    scene = Scene(machines=6, periods=DAYS, daily=0.02, duration=20.0, planted=plans)
+    found = fleet(scene, 5, "ur10e")
+    assert set(told(found)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}
 
 
 def test_friction_in_units_of_a_drifting_gain_does_not_drift() -> None:

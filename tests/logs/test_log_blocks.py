@@ -13,8 +13,10 @@ from modeler.core.errors import DataError
 from modeler.logs import map_from_table
 from modeler.logs.blocks import blocks_of
 from modeler.observation.log import finger, fingerprint, fingerprint_of
+from modeler.observation.part import read_part
 from modeler.observation.read import read_log
 from modeler.observation.source import joined, source_of
+from modeler.observation.window import window
 
 SIZE = 150
 
@@ -200,3 +202,32 @@ def test_joined_parts_keep_every_column(case, tmp_path):
         one, other = getattr(whole, field.name), getattr(log, field.name)
         if isinstance(one, np.ndarray):
             np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize("span", [(3.0, 9.0), (None, 2.0), (25.0, None), (2.0, 2.005)])
+def test_a_piece_of_a_long_log_is_that_of_the_whole(span, tmp_path, case, monkeypatch):
+    columns = log_columns(case.compiled)
+    columns["tau2"][100:104] = np.nan
+    del columns["note"], columns["temperature"]
+    path = written(tmp_path / "run.parquet", columns)
+    for where in ("part", "log"):
+        monkeypatch.setattr(f"modeler.observation.{where}.FINGER", 256)
+    monkeypatch.setattr("modeler.observation.log.LONG", 500)
+    spec = case.compiled.spec
+    whole = window(read_log(path, spec), *span)
+    piece = read_part(source_of(path, spec), spec, *span)
+    for name in ("name", "content", "notes", "missing", "torque_source"):
+        assert getattr(piece, name) == getattr(whole, name), name
+    for name in ("time", "q", "tau"):
+        np.testing.assert_array_equal(getattr(piece, name), getattr(whole, name))
+
+
+@pytest.mark.parametrize(
+    ("span", "line"),
+    [((50.0, 60.0), r"no rows from 50 to 60 s; its times go from 0 to 29\.99 s"),
+     ((5.0, 4.0), "window 5:4, which ends before it starts")],
+)  # fmt: skip
+def test_no_piece_is_one_line(span, line, tmp_path, case):
+    path = written(tmp_path / "run.parquet", log_columns(case.compiled))
+    with pytest.raises(DataError, match=line):
+        read_part(source_of(path, case.compiled.spec), case.compiled.spec, *span)

@@ -20,15 +20,31 @@ OUTWARD = np.array(
 
 def motion(reach, seconds=12.0):
     """(t, q, qd, qdd) of the five-bar; beyond about 0.945 rad it comes to where it cannot go."""
-    closure = compiled("five-bar").spec.closure
-    home = np.asarray(closure.home)[list(closure.given)]
     t = np.arange(0.0, seconds, 0.005)
     waves = ((reach, 4.4, 0.0, OUTWARD), (0.12, 8.2, 0.3, np.ones(2)))
     q, qd, qdd = (
         sum(np.outer(a * w**k * np.sin(w * t + p + 0.5 * k * np.pi), d) for a, w, p, d in waves)
         for k in range(3)
     )
-    return t, home + q, qd, qdd
+    return t, home() + q, qd, qdd
+
+
+def beyond():
+    """A log of positions that are all too far apart."""
+    log, _ = log_of(0.9)
+    t = log.time[:, None]
+    q, qd, qdd = (
+        np.sin(4.4 * t + 0.5 * k * np.pi) * 0.5 * 4.4**k * OUTWARD
+        + (home() + 2.0 * OUTWARD) * (not k)
+        for k in range(3)
+    )
+    return Log(log.name, log.joints, log.time, q, log.tau, qd, qdd)
+
+
+def home():
+    """(2,) positions at home."""
+    closure = compiled("five-bar").spec.closure
+    return np.asarray(closure.home)[list(closure.given)]
 
 
 def log_of(reach, noise=0.0):
@@ -87,10 +103,8 @@ def test_the_nearest_posture_that_closes_stands_in():
 
 def test_hardly_a_sample_that_closes_is_an_error():
     model = compiled("five-bar")
-    log, _ = log_of(0.95)
-    beyond = Log(log.name, log.joints, log.time, log.q + 2.0 * OUTWARD, log.tau, log.qd, log.qdd)
     with pytest.raises(LoopError, match=r"run: the loops of five-bar cannot be closed at \d+ of"):
-        observe(model, [beyond])
+        observe(model, [beyond()])
 
 
 def test_fit_compare_diagnose_and_free_run_go_through(tmp_path, capsys):
@@ -107,9 +121,7 @@ def test_fit_compare_diagnose_and_free_run_go_through(tmp_path, capsys):
 
 
 def test_all_samples_open_is_one_line(tmp_path, capsys):
-    log, _ = log_of(0.95)
-    beyond = Log(log.name, log.joints, log.time, log.q + 2.0 * OUTWARD, log.tau, log.qd, log.qdd)
-    data = str(written(tmp_path / "run.csv", beyond))
+    data = str(written(tmp_path / "run.csv", beyond()))
     assert main(["fit", "five-bar", data, "--out", str(tmp_path / "model.json")]) == 1
     said = capsys.readouterr().err.strip()
     assert ": run.csv: the loops of five-bar cannot be closed at" in said

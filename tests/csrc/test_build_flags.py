@@ -1,0 +1,71 @@
+"""The build files of an emitted folder take the flags that matter, and let the user's win."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from modeler.codegen import write_emitted
+from tests.modules import compiler, module
+
+TUNED = ["-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=fast"]
+CLEAN = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS")}
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    write_emitted(module("emps").emitted, tmp_path / "emps_c")
+    return tmp_path / "emps_c"
+
+
+def run(*command: object, where: Path) -> None:
+    subprocess.run([*map(str, command)], cwd=where, env=CLEAN, check=True, capture_output=True)
+
+
+def compiled_with(folder: Path, *words: str) -> list[list[str]]:
+    """The words of each compilation that `make` with these words carries out."""
+    log, wrapped = folder.parent / "log", folder.parent / "any-cc"
+    log.write_text("")
+    wrapped.write_text(
+        f'#!/bin/sh\ncase "$*" in *-fsyntax-only*-fno-math-errno*|*-fno-math-errno*-fsyntax-only*) '
+        f'exit 1;; *" -c "*) echo "$*" >>"{log}";; esac\nexec {compiler("gcc")} "$@"\n'
+    )
+    wrapped.chmod(0o755)
+    compiler("make")
+    run("make", f"CC={wrapped}", *words, where=folder)
+    return [line.split() for line in log.read_text().splitlines()]
+
+
+def test_make_takes_what_the_compiler_knows_and_compiles_anew_for_another_processor(folder) -> None:
+    first = compiled_with(folder)
+    assert first and all([w for w in words if w in TUNED] == TUNED[:1] + TUNED[2:]
+                         for words in first)  # fmt: skip
+    assert all("-O3" in words and "-march=native" not in words for words in first)
+    assert compiled_with(folder) == []
+    native = compiled_with(folder, "NATIVE=1")
+    assert len(native) == len(first)
+    assert compiled_with(folder, "NATIVE=1") == []
+    assert compiled_with(folder) == first
+    run("make", "clean", where=folder)
+    assert not list(folder.glob("known_flags*"))
+
+
+def test_flags_of_the_user_come_last(folder) -> None:
+    for words in compiled_with(folder, "CFLAGS=-O1 -ffp-contract=off"):
+        assert words.index("-ffp-contract=off") > words.index("-ffp-contract=fast")
+        assert "-O3" not in words
+
+
+def test_cmake_takes_the_same_before_those_of_the_user(folder) -> None:
+    compiler("cmake")
+    for native in (False, True):
+        run("cmake", "-S", ".", "-B", "b", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+            "-DCMAKE_C_FLAGS=-ffp-contract=off", f"-DEMPS_NATIVE={'ON' if native else 'OFF'}",
+            where=folder)  # fmt: skip
+        commands = json.loads((folder / "b" / "compile_commands.json").read_text())
+        for words in (entry["command"].split() for entry in commands):
+            assert [w for w in words if w in TUNED] == TUNED and "-O3" in words
+            assert words.index("-ffp-contract=off") > words.index("-ffp-contract=fast")
+            assert ("-march=native" in words) is native

@@ -1,0 +1,36 @@
+"""Steps that are listed once give what the operations one after the other give."""
+
+import itertools
+
+import numpy as np
+
+from modeler.symbolic import Graph
+
+
+def test_every_operation_with_every_sign() -> None:
+    graph = Graph()
+    x, y = graph.symbol("x"), graph.symbol("y")
+    values = {"x": np.array([0.3, 0.0, -2.0, 1e300]), "y": np.array([0.7, -0.0, 0.0, 1e-300])}
+    a, b = values["x"], values["y"]
+    with np.errstate(all="ignore"):
+        for s, t in itertools.product((1.0, -1.0), repeat=2):
+            u, v = (x if s > 0 else -x), (y if t > 0 else -y)
+            found = graph.evaluate([u + v, u * v, u / v, -(u + v)], values)
+            told = [s * a + t * b, (s * a) * (t * b), (s * a) / (t * b), -(s * a + t * b)]
+            for one, other in zip(found, told, strict=True):
+                np.testing.assert_array_equal(one, other)
+            for name in ("sin", "cos", "tan", "exp", "abs", "sign", "tanh", "sqrt"):
+                function = getattr(np, name)
+                (one,) = graph.evaluate([graph.call(name, u)], values)
+                np.testing.assert_array_equal(one, function(s * a))
+
+
+def test_what_is_asked_for_again_is_listed_once_and_forgotten_at_last() -> None:
+    graph = Graph()
+    x = graph.symbol("x")
+    powers = [x**k for k in range(1, 40)]
+    for _ in range(2):
+        for k, power in enumerate(powers, start=1):
+            assert graph.evaluate([power, 1, x - x][:1], {"x": 2.0}) == [2.0**k]
+    assert len(graph._plans) < 30
+    assert graph.evaluate([x - x, graph.constant(3)], {}) == [0.0, 3.0]
