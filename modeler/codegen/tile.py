@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from modeler.codegen.block import make_block
+from modeler.codegen.block import Block, make_block
 from modeler.codegen.functions import Function
 from modeler.codegen.target import TILE
 
@@ -25,7 +25,6 @@ class Tile:
     Attributes:
         lines: of the function of one vector.
         steps: statements that take the inputs to the next samples.
-        unread: inputs that are not read.
         symbols: names of the graph's symbols that are read.
         additions: for each sample.
         multiplications: the same, divisions included.
@@ -34,7 +33,6 @@ class Tile:
 
     lines: tuple[str, ...]
     steps: tuple[str, ...]
-    unread: tuple[str, ...]
     symbols: frozenset[str]
     additions: int
     multiplications: int
@@ -63,29 +61,36 @@ def tile_of(
     outputs = [(f"MODELER_PUT({index})", value) for index, value in entries]
     block = make_block(outputs, {s: _lane(place) for s, place in places.items()}, target=TILE)
     lengths = {argument.name: argument.shape[0] for argument in function.inputs}
-    read = {
-        name: [i for i in range(length) if f"{name}[{i}]" in block.symbols]
-        for name, length in lengths.items()
-    }
-    loads = [
-        f"const modeler_lanes {name}_{i} = {_load(name, lengths[name], i)};"
-        for name, places_read in read.items()
-        for i in places_read
-    ]
-    unread = [name for name in ("q", "qd", "qdd", "s") if not read.get(name)]
-    parts = [[f"(void){name};" for name in unread], block.constants, loads, block.calls, block.body]
-    lines = [line for part in parts if part for line in ("", *part)][1:]
+    loads = _loads(lengths, block)
+    unread = tuple(name for name in ("q", "qd", "qdd", "s") if not loads.get(name))
+    parts = [
+        [f"(void){name};" for name in unread], block.constants,
+        [line for lines in loads.values() for line in lines], block.calls, block.body,
+    ]  # fmt: skip
     return Tile(
-        lines=tuple(lines),
+        lines=tuple([line for part in parts if part for line in ("", *part)][1:]),
         steps=tuple(
-            f"{name} += {lengths[name]}*MODELER_WIDTH;" for name in lengths if name not in unread
+            f"{name} += {length}*MODELER_WIDTH;"
+            for name, length in lengths.items()
+            if name not in unread
         ),
-        unread=tuple(unread),
         symbols=block.symbols,
         additions=block.additions,
         multiplications=block.multiplications,
         signals=lengths.get("s", 0),
     )
+
+
+def _loads(lengths: Mapping[str, int], block: Block) -> dict[str, list[str]]:
+    """Of each input, the statements that take what is read of it."""
+    return {
+        name: [
+            f"const modeler_lanes {name}_{i} = {_load(name, length, i)};"
+            for i in range(length)
+            if f"{name}[{i}]" in block.symbols
+        ]
+        for name, length in lengths.items()
+    }
 
 
 def _lane(place: str) -> str:
