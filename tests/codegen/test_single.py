@@ -70,7 +70,7 @@ def test_closing_loops_has_no_bound_below_the_rounding_of_floats():
     text = (resource_dir("csrc") / "modeler_closure.c").read_text()
     numbers = r"(?<![\w.])\d+\.?\d*e-\d+"
     assert min(map(float, re.findall(numbers, text))) < 1e-10
-    assert min(map(float, re.findall(numbers, single_text(text)))) > 1e-5
+    assert min(map(float, re.findall(numbers, single_text(text)))) > 1e-6
 
 
 def sines(x: np.ndarray, folder, *flags: str) -> tuple[np.ndarray, np.ndarray]:
