@@ -1,14 +1,27 @@
 """Every line, in the order of the report."""
 
-from benchmarks import answers, callgrind, folder, least_squares, memory, regressor, start, streams
+from benchmarks import (
+    answers,
+    callgrind,
+    cortex,
+    folder,
+    least_squares,
+    loops,
+    memory,
+    regressor,
+    start,
+    streams,
+)
 
 LINES = (
     *start.LINES,
     *regressor.LINES,
     *callgrind.LINES,
+    *cortex.LINES,
     *folder.LINES,
     *memory.LINES,
     *least_squares.LINES,
+    *loops.LINES,
     *streams.LINES,
     *answers.LINES,
 )

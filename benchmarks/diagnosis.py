@@ -8,6 +8,7 @@ once for every new robot file.
 
 import dataclasses
 import os
+import subprocess
 import sys
 import tempfile
 import time
@@ -96,6 +97,45 @@ def parts(text: str, train: Log) -> dict[str, float]:
         else:
             os.environ["MODELER_CACHE"] = before
     return seconds
+
+
+def diagnose_times(
+    robots: tuple[str, ...] = ("demo-arm", "panda"), duration: float = 40.0
+) -> dict[str, dict[str, float]]:
+    """Of `modeler diagnose` as a process of its own, by robot: seconds, CPU seconds, peak MB.
+
+    Args:
+        robots: built-in ones.
+        duration: of the log that a model is fitted to and asked about, s, at 1 kHz.
+    """
+    found = {}
+    for name in robots:
+        with tempfile.TemporaryDirectory() as folder:
+            log, model = Path(folder) / "log.parquet", Path(folder) / "model.json"
+            hide = SimulationSettings(
+                duration=duration, hidden=(hidden_from_text(f"{EFFECT}@{JOINT}"),)
+            )
+            write_log(log, simulate(load(name), hide))
+            _command("fit", name, log, "--out", model)
+            found[name] = _command("diagnose", model, log)
+    return found
+
+
+def _command(*words: str | Path) -> dict[str, float]:
+    """What a command of the program took."""
+    start = time.perf_counter()
+    child = subprocess.Popen(
+        [sys.executable, "-m", "modeler.cli", "-q", *map(str, words)], stdout=subprocess.DEVNULL
+    )
+    _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode:
+        raise RuntimeError(f"modeler {words[0]} ended with {child.returncode}")
+    return {
+        "seconds": time.perf_counter() - start,
+        "cpu_seconds": used.ru_utime + used.ru_stime,
+        "peak_mb": used.ru_maxrss / 1024.0,
+    }
 
 
 def main(words: list[str]) -> None:

@@ -1,16 +1,15 @@
 """Robots with loops: seconds to derive, emit and compile; microseconds per regressor in C.
 
-    python benchmarks/loops.py [ROBOT ...]
-
 `from home` closes the loops from the home posture for every sample, `from the last` from the sample
 before, as a controller does.
 """
 
-import sys
 import time
+from collections.abc import Mapping
 
 import numpy as np
 
+from benchmarks.line import Key, Line
 from modeler.base.numeric import random_states
 from modeler.compiled import CompiledModel, load
 from modeler.derivation import derive, generate
@@ -33,7 +32,7 @@ def motion(derivation, samples: int) -> list[np.ndarray]:
     return [np.ascontiguousarray(q + 0.01 * way), qd + 0 * way, qdd + 0 * way]
 
 
-def best(call, repeats: int = 3) -> float:
+def best(call, repeats: int = 7) -> float:
     """Shortest time of a call, s."""
     times = []
     for _ in range(repeats):
@@ -67,16 +66,28 @@ def loop_times(name: str) -> dict[str, float]:
     }
 
 
-def measure(name: str) -> None:
-    """One line of the table."""
-    t = loop_times(name)
-    print(
-        f"{name:<16} {t['base']:>4} {t['derive_s']:>9.2f} {t['emit_s']:>8.2f} "
-        f"{t['compile_s']:>10.2f} {t['home_us']:>10.2f} {t['last_us']:>14.2f}"
-    )
+MUST = {"orthoglide-2003": (0.85, 1.03), "stewart": (3.75, 4.35), "evra": (4.1, 4.7)}
+"""A quarter of what the dense solver took on the machine that it was measured on: last, home."""
 
 
-if __name__ == "__main__":
-    print(f"{'robot':<16} base  derive, s  emit, s  compile, s  from home, us  from the last, us")
-    for wanted in sys.argv[1:] or ROBOTS:
-        measure(wanted)
+def _measure(quick: bool) -> Mapping[str, float]:
+    found = {}
+    for name in ROBOTS[-3:] if quick else ROBOTS:
+        times = loop_times(name)
+        found |= {f"loops_us.{name}": times["last_us"], f"loops_home_us.{name}": times["home_us"]}
+    return found
+
+
+def _keys() -> tuple[Key, ...]:
+    keys = []
+    for name in ROBOTS:
+        last, home = MUST.get(name, (None, None))
+        what = f"One sample of the base regressor of {name}, loops closed from"
+        keys += [
+            Key(f"loops_us.{name}", "us", f"{what} the sample before.", last, last and last / 2),
+            Key(f"loops_home_us.{name}", "us", f"{what} home.", home, home and home / 2),
+        ]
+    return tuple(keys)
+
+
+LINES = (Line(_keys(), _measure, 40),)

@@ -79,7 +79,17 @@ def package_files(
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         **_counts(values["functions"], prefix),
     }
-    names = {
+    texts = {name: render(template, **given) for name, template in _names(prefix).items()}
+    for name in examples:
+        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
+    if count is not None:
+        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
+    return of_precision(spec.precision, texts)
+
+
+def _names(prefix: str) -> dict[str, str]:
+    """{file: template} of what every folder has."""
+    return {
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
@@ -88,12 +98,6 @@ def package_files(
         f"{SELF_CHECK}.c": "self_check.c",
         "README.md": "README.md",
     }
-    texts = {name: render(template, **given) for name, template in names.items()}
-    for name in examples:
-        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    if count is not None:
-        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
-    return of_precision(spec.precision, texts)
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:

@@ -54,9 +54,10 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
 
 
 def _unwanted(emitted: Emitted) -> set[str]:
-    """Files that hold a model's values, or need them, and are not emitted now."""
+    """Files that hold a model's values, or need them, or CUDA, and are not emitted now."""
     stems = (f"{emitted.spec.prefix}_fitted", *EXAMPLES)
-    return {f"{stem}{kind}" for stem in stems for kind in (".c", ".h")} - emitted.files.keys()
+    names = {f"{stem}{kind}" for stem in stems for kind in (".c", ".h")}
+    return (names | {f"{emitted.spec.prefix}.cu"}) - emitted.files.keys()
 
 
 def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:

@@ -73,21 +73,31 @@ def coloured(
     """
     if isinstance(W, Neighbours):
         return _passing(W, estimate, at)
-    C, own_way = estimate.covariance, estimate.influence
+    return _at_once(observation, W, y, counted, estimate)
+
+
+def _at_once(
+    observation: Observation, W: np.ndarray, y: np.ndarray, counted: np.ndarray, estimate: Estimate
+) -> Colour:
+    """As `coloured`, of rows that are there."""
+    own_way = estimate.influence
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
-    extra, memory = np.zeros(len(C)), []  # diagonal of C (B - C^-1) C
+    extra, memory = np.zeros(len(estimate.beta)), []  # diagonal of C (B - C^-1) C
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
         r = remembered(observation, residual[own], sample)
-        rms = np.sqrt(np.mean(residual[own] ** 2))
-        rows = W[own] @ C / estimate.sigma[j] if own_way is None else own_way.of(W)[own] * rms
+        pull = estimate.covariance / estimate.sigma[j]
+        rows = W[own] @ pull if own_way is None else own_way.of(W)[own] * _rms(residual[own])
         extra += repeated(rows, r, sample, observation.segment)
-        told = int(np.sum(r > _TOLD)) - 1
-        if told:
+        if told := int(np.sum(r > _TOLD)) - 1:
             memory.append((joint.name, told * _spacing(observation)))
-    return Colour(_factors(C, extra), tuple(memory))
+    return Colour(_factors(estimate.covariance, extra), tuple(memory))
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _factors(C: np.ndarray, extra: np.ndarray) -> np.ndarray:
@@ -115,7 +125,7 @@ def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -
                 A[places] = estimate.covariance / estimate.sigma[j]
             else:
                 assert own_way.bread is not None  # others ask for W
-                A[places] = own_way.bread * np.sqrt(np.mean(left**2))
+                A[places] = own_way.bread * _rms(left)
             if told := int(np.sum(r > _TOLD)) - 1:
                 memory.append((joint.name, told * _spacing(observation)))
         matrices.append(A)

@@ -73,8 +73,7 @@ def identify_long(
         sentences=(*dead_sentences(observation, dead), *estimate.sentences,
                    *sentences_of(estimate, essential), *colour.sentences()),
         processing=observation.report.processing, own=estimate.sentences,
-        essential=_reduced(problem, rows, essential, streamed.share),
-        reading=streamed.reading,
+        essential=_reduced(problem, rows, essential, streamed.share), reading=streamed.reading,
     )  # fmt: skip
 
 

@@ -87,7 +87,7 @@ def stream(
     _check_memory(model, sources)
     known, reducer = Known(), reducer or by_threads
     for number in range(1, PASSES + 1):
-        found = survey(model, sources, processing or Processing(), known, rows)
+        found = _surveyed(model, sources, processing or Processing(), known, rows)
         every = list(_all_logs(model, sources, found, reducer, progress))
         facts = tuple(partial.facts for partial in every)
         again = _again(facts, found, known)
@@ -97,6 +97,20 @@ def stream(
     passes = Passes(found, facts, number)
     _check(model, sources, facts)
     return _streamed(model, sources, passes, [partial.data for partial in every])
+
+
+def _surveyed(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    processing: Processing,
+    known: Known,
+    rows: int,
+) -> Survey:
+    """What the windows show; what is wrong in all of them may be right elsewhere."""
+    try:
+        return survey(model, sources, processing, known, rows)
+    except DataError as error:
+        raise WholeNeeded(f"{error}; so it is in all windows of a long log") from None
 
 
 def by_threads(model: "CompiledModel", source: Source, chosen: Chosen) -> Iterator[Partial]:

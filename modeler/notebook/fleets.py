@@ -6,10 +6,10 @@ from functools import partial
 from modeler.core.presented import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, Table
 from modeler.fleet import Fleet
-from modeler.fleet.result import Finding
+from modeler.fleet.result import Followed
 from modeler.fleet.text import effect_title, fleet_lines
 from modeler.notebook.figures import picture_figure
-from modeler.pages.fleet import finding_picture
+from modeler.pages.fleet import map_pictures, quantity_picture
 from modeler.pictures.draw_matplotlib import Drawing
 
 
@@ -63,11 +63,14 @@ def _quantities(found: Fleet) -> Table:
 
 
 def _figures(found: Fleet) -> Figures:
-    drawn: dict[str, Callable[[], Drawing]] = {}
-    for k, one in enumerate(found.findings, start=1):
-        drawn[f"finding {k}"] = partial(_drawn, found, one)
+    drawn: dict[str, Callable[[], Drawing]] = {
+        "changes" if not k else f"changes {k + 1}": partial(picture_figure, picture)
+        for k, picture in enumerate(map_pictures(found))
+    }
+    for k, each in enumerate(found.followed, start=1):
+        drawn[f"quantity {k}"] = partial(_drawn, found, each)
     return drawn
 
 
-def _drawn(found: Fleet, one: Finding) -> Drawing:
-    return picture_figure(finding_picture(found, one))
+def _drawn(found: Fleet, each: Followed) -> Drawing:
+    return picture_figure(quantity_picture(found, each))

@@ -38,6 +38,9 @@ SECONDS = 8.0
 LONGEST = 65_536
 """... but no more rows than these."""
 
+_PLACES = (0.5, 0.25, 0.75, 0.1, 0.9, 0.4, 0.6)  # of a window in its part of a log
+_TRAVEL = 1e-3  # rad or m: less is rest
+
 Extremes = tuple[tuple[float, float], ...]
 
 
@@ -132,10 +135,27 @@ def _windows(source: Source, count: int) -> list[Log]:
         return [source.window(0.0, max(size, min(source.rows, count * size)))]
     found: list[Log] = []
     for k in range(count):
-        log = source.window((k + 0.5) / count, size)
+        log = _moving(source, (k / count, (k + 1) / count), size)
         if not found or log.time[0] > found[-1].time[-1]:
             found.append(log)
     return found
+
+
+def _moving(source: Source, part: tuple[float, float], size: int) -> Log:
+    """A window in which something moves, in a part of a log; that in its middle if none does."""
+    middle: Log | None = None
+    for place in _PLACES:
+        log = source.window(part[0] + place * (part[1] - part[0]), size)
+        if _moves(log):
+            return log
+        middle = middle or log
+    assert middle is not None
+    return middle
+
+
+def _moves(log: Log) -> bool:
+    there = log.q[np.isfinite(log.q).all(axis=1)]
+    return bool(len(there) and np.ptp(there, axis=0).max() > _TRAVEL)
 
 
 def _chosen(

@@ -21,7 +21,7 @@ from modeler.pages.sheet import (
     Verdicts,
     write_page,
 )
-from modeler.pictures.picture import BLUE, GREY, Curve, Heat, Means, Panel, Picture, Style
+from modeler.pictures.picture import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
@@ -113,6 +113,21 @@ def finding_picture(found: Fleet, one: Finding) -> Picture:
     )
     place = found.findings.index(one) + 1
     return Picture(f"finding_{place}", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+
+
+def quantity_picture(found: Fleet, each: Followed) -> Picture:
+    """One quantity of all machines over their periods."""
+    series = tuple(
+        Means(name, own.at, own.values, 2.0 * own.sigmas, Style(COLORS[k % len(COLORS)], 1.3))
+        for k, (name, own) in enumerate(each.machines.items())
+    )
+    label = f"{each.quantity.parameter} [{each.quantity.unit}]"
+    panel = Panel("", f"time [{found.unit}]", label, series)
+    caption = (
+        f"{effect_title(each.quantity)} of {each.quantity.whose}, log by log, one line a machine; "
+        "whiskers: two standard deviations, scatter from period to period included."
+    )
+    return Picture("quantity", label, caption, ((panel,),), (1.0,), (1.0,), 320)
 
 
 def _background(others: Sequence[Values]) -> Curve:

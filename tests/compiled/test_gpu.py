@@ -160,6 +160,9 @@ def test_the_command(tmp_path, capsys):
     assert main(words) == 0
     assert "  two_link.cu" in capsys.readouterr().out
     assert "two_link_nonzeros_kernel" in (tmp_path / "two_link.cu").read_text()
+    assert main(["generate", "two-link", "--out", str(tmp_path)]) == 0
+    assert not (tmp_path / "two_link.cu").exists()  # of an earlier generate: it goes
+    capsys.readouterr()
     assert main(["generate", "five-bar", "--cuda", "--out", str(tmp_path / "b")]) == 1
     assert "has no CUDA form" in capsys.readouterr().err and not (tmp_path / "b").exists()
 

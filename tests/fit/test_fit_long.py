@@ -2,8 +2,12 @@
 
 import dataclasses
 import pickle
+import subprocess
+import sys
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet
 import pytest
 from scipy.signal import lfilter
 from stand_in import planar_arm
@@ -193,6 +197,25 @@ def test_a_joint_that_rests_where_windows_are_is_not_left_out(small_windows):
     assert long.data.rows[1] > 10
 
 
+def test_windows_look_for_motion_in_a_log_that_mostly_rests(small_windows):
+    log = noisy_log(seconds=120.0)
+    moving = (np.arange(log.rows) // 700) % 6 == 1  # 3.5 s of every 21 s; no window's middle
+    turn = np.cumsum(moving) * log.step
+    like = noisy_log(seconds=float(turn[-1]) + 0.1)
+    at = np.cumsum(moving).clip(0, like.rows - 1)
+    resting = dataclasses.replace(log, q=like.q[at], tau=like.tau[at])
+    long = stream(ARM, [MemorySource(resting)], rows=ROWS)
+    assert long.observation.used.sum() > 20
+
+
+def test_windows_that_all_rest_need_the_whole_log(small_windows):
+    log = noisy_log(seconds=120.0)
+    q = np.tile(log.q[:1], (log.rows, 1))
+    q[400:480] = log.q[400:480]
+    with pytest.raises(WholeNeeded, match="in all windows of a long log"):
+        stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
+
+
 def test_another_zero_of_an_encoder_needs_the_whole_log():
     log = noisy_log()
     q = log.q.copy()
@@ -263,3 +286,40 @@ def test_uneven_stamps_fit_as_well_in_chunks():
     assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
     assert told_chunked.logs[0].resampled == 1
     assert told_chunked.logs[0].jitter == pytest.approx(told.logs[0].jitter, rel=0.05)
+
+
+def written_in_parts(path, rows, part=100_000):
+    """Noise on a motion that no fit has to like, at 1 kHz."""
+    random, writer = np.random.default_rng(1), None
+    for first in range(0, rows, part):
+        time = np.arange(first, first + part) * 1e-3
+        noise = random.normal(scale=0.1, size=(2, part))
+        q = np.stack([np.sin(0.7 * time), np.cos(1.1 * time)]) + 1e-4 * noise
+        table = pa.table({"time": time, "q1": q[0], "q2": q[1], "tau1": 5.0 * q[0] + noise[0],
+                          "tau2": 2.0 * q[1] + noise[1]})  # fmt: skip
+        writer = writer or pa.parquet.ParquetWriter(path, table.schema)
+        writer.write_table(table)
+    writer.close()
+
+
+_MEMORY = """
+import resource, sys
+from modeler.cli import main
+main(["fit", "two-link", sys.argv[1], "--out", sys.argv[2]])
+print("peak:", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stderr)
+"""
+
+
+@pytest.mark.slow
+def test_memory_does_not_grow_with_the_log(tmp_path):
+    """Peak memory of a fit of 300 000 and of 1 200 000 rows: within 30 MB; read, they are 48 MB."""
+    peaks = []
+    for rows in (300_000, 1_200_000):
+        path = tmp_path / f"run{rows}.parquet"
+        written_in_parts(path, rows)
+        words = [sys.executable, "-c", _MEMORY, str(path), str(tmp_path / "m.json")]
+        done = subprocess.run(words, capture_output=True, text=True, timeout=600)
+        assert done.returncode == 0, done.stderr
+        assert "chunks" in done.stdout
+        peaks.append(int(done.stderr.rsplit("peak:", 1)[1]) / 1024)
+    assert peaks[1] - peaks[0] < 30.0, peaks

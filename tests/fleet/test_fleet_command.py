@@ -136,7 +136,7 @@ def test_from_python(plant: Path, tmp_path: Path) -> None:
     assert [f.machine for f in found.findings] == ["r2"] == [f.machine for f in by_name.findings]
     assert found.findings[0].change == pytest.approx(by_name.findings[0].change, rel=1e-12)
     assert len(found.table("findings").rows) == 1 and len(found.table("values").rows) == 70
-    assert found.plot("finding 1") is not None and "Fs2" in found.summary()
+    assert found.plot("quantity 4") is not None and "Fs2" in found.summary()
     place = write_report(found, tmp_path / "f.html", ["of a test"])
     assert "of a test" in place.read_text()
     with pytest.raises(DataError, match="fleet: got the text"):

@@ -1,0 +1,89 @@
+"""What a diagnosis evaluates a window at a time, and what it lets go of."""
+
+import gc
+import weakref
+
+import numpy as np
+import pytest
+
+from modeler.api import compile_model, derive, generate, load
+from modeler.core.expression import parse
+from modeler.diagnose.analyse import analysed
+from modeler.hypotheses import rows as rows_module
+from modeler.hypotheses import signals as signals_module
+from modeler.observation import Processing, read_log
+from modeler.observation.prepare import Mending
+from modeler.scoring.propose import proposals
+from modeler.scoring.state import Data, all_columns_of, state_of
+from modeler.simulate import SimulationSettings, simulate, write_log
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return compile_model(generate(derive(load("demo-arm"))))
+
+
+@pytest.fixture(scope="module")
+def log(arm, tmp_path_factory):
+    place = tmp_path_factory.mktemp("windows") / "log.parquet"
+    write_log(place, simulate(load("demo-arm"), SimulationSettings(duration=8.0, rate=400.0)))
+    return read_log(place, arm.spec)
+
+
+def columns(arm, observation):
+    """Of everything that could be missing, and those of the model."""
+    data = Data(arm, observation)
+    beta = np.linspace(-1.0, 2.0, len(arm.spec.base))
+    state = state_of(data, (), beta)
+    return state.rows.W, all_columns_of(state.rows, proposals(state), {})
+
+
+def test_columns_do_not_depend_on_the_windows(arm, log, monkeypatch) -> None:
+    """Differences of differences, states with a memory and filters reach across every border."""
+    observation = analysed(arm, [log], Processing())
+    whole = columns(arm, observation)
+    for module in (rows_module, signals_module):
+        monkeypatch.setattr(module, "WINDOW", 101)
+    monkeypatch.setattr(rows_module, "_WIDE", 0)
+    parts = columns(arm, observation)
+    assert len(whole[1]) == len(parts[1]) > 100
+    np.testing.assert_equal(parts, whole)
+
+
+def test_logs_are_mended_once_for_any_filters(arm, log) -> None:
+    mending = Mending([log], arm.spec)
+    for cutoff in (15.0, 25.0):
+        processing = Processing(position_cutoff=40.0, parallel_cutoff=cutoff)
+        shared = analysed(arm, [log], processing, chosen=True, mending=mending)
+        alone = analysed(arm, [log], processing, chosen=True)
+        np.testing.assert_array_equal(shared.torque, alone.torque)
+        np.testing.assert_array_equal(shared.qdd, alone.qdd)
+    assert mending.mended is mending.mended
+
+
+def test_an_expression_lets_go_of_its_values() -> None:
+    """Without the collection of garbage: columns of a long log are large."""
+    expression, gone = parse("x*abs(x) + x**2"), []
+    functions = {"abs": np.abs}
+    gc.disable()
+    try:
+        values = np.ones(3)
+        gone.append(weakref.ref(values))
+        expression.fold({"x": values}, functions, np.pi, float)
+        del values
+        assert gone[0]() is None
+    finally:
+        gc.enable()
+
+
+def test_a_state_lets_go_of_its_rows(arm, log) -> None:
+    data = Data(arm, analysed(arm, [log], Processing()))
+    state = state_of(data, (), np.zeros(len(arm.spec.base)))
+    state.sifted([(np.ones((len(state.y[0]), 1)), None, None)])
+    first = weakref.ref(state.base.columns[0])
+    gc.disable()
+    try:
+        del state
+        assert first() is None
+    finally:
+        gc.enable()

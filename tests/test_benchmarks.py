@@ -1,0 +1,75 @@
+"""The benchmarks' front: keys that stay, what cannot be measured, one line that is."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from benchmarks import __main__ as front
+from benchmarks.all import LINES
+from benchmarks.line import Key, Line, Missing
+from benchmarks.markdown import markdown
+
+DOCS = Path(__file__).resolve().parents[1] / "docs" / "benchmarks.md"
+KEYS = [key for line in LINES for key in line.keys]
+
+
+def test_every_key_is_there_once_and_documented() -> None:
+    names = [key.name for key in KEYS]
+    assert len(set(names)) == len(names) > 80
+    told = set(re.findall(r"`([a-z0-9_.-]+)`", DOCS.read_text(encoding="utf-8")))
+    assert not (set(names) - told), "docs/benchmarks.md is made by --markdown"
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["scalar_vs_pinocchio_gcc.puma560", "batch_vs_pinocchio_gcc.puma560",
+     "dense_w_vs_stream_fill.puma560", "fused_r_vs_lstsq", "instructions.puma560",
+     "fit_seconds_per_1e6", "fit_peak_mb.1e7", "loops_us.evra", "help_seconds"],
+)  # fmt: skip
+def test_keys_that_others_read_stay(name: str) -> None:
+    assert name in {key.name for key in KEYS}
+
+
+def test_goals_point_the_right_way() -> None:
+    for key in KEYS:
+        if key.must is not None and key.aim is not None:
+            assert (key.aim >= key.must) == (key.better == "more"), key.name
+
+
+def test_list_says_what_each_key_means(capsys: pytest.CaptureFixture[str]) -> None:
+    assert front.main(["--list"]) == 0
+    said = capsys.readouterr().out
+    assert all(f"{key.name} " in said and key.meaning in said for key in KEYS)
+
+
+def test_help_is_timed(tmp_path: Path) -> None:
+    place = tmp_path / "b.json"
+    assert front.main(["--quick", "--only", "help_seconds", "--json", str(place)]) == 0
+    report = json.loads(place.read_text(encoding="utf-8"))
+    assert 0.0 < report["values"]["help_seconds"] < 60.0
+    assert report["machine"]["cores"] >= 1 and report["machine"]["processor"]
+    assert "`help_seconds`" in markdown(report)
+
+
+def test_a_line_that_cannot_be_measured_says_why_and_stops_no_other() -> None:
+    def without_tool(quick: bool) -> dict[str, float]:
+        raise Missing("no such tool")
+
+    def broken(quick: bool) -> dict[str, float]:
+        return {"c": 1.0 / 0.0}
+
+    lines = [
+        Line((Key("a", "s", ""),), without_tool, 0),
+        Line((Key("c", "s", ""),), broken, 0),
+        Line((Key("b", "s", ""),), lambda quick: {"b": 2.0}, 0),
+    ]
+    report = front.measured(lines, quick=True)
+    assert report["values"] == {"a": None, "c": None, "b": 2.0}
+    assert report["missing"]["a"] == "no such tool" and "ZeroDivision" in report["missing"]["c"]
+
+
+def test_an_unknown_key_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert front.main(["--only", "nothing_like_it"]) == 1
+    assert "no line matches nothing_like_it; see --list" in capsys.readouterr().err
