@@ -119,8 +119,7 @@ def survey(
         log = logs[k] if k in looked else source.window(0.5, WINDOW)
         assert log is not None
         every.append(_chosen((k, log), (prepared, at), chosen, parts, known.extremes.get(k), rows))
-    count = sum(len(own) for own in windows)
-    rows_seen = sum(log.rows for log in seen)
+    count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
     prepared = dataclasses.replace(prepared, segments=(), pieces=())  # memory for the chunks
     return Survey(observation, prepared, tuple(every), places, count, rows_seen)
 
