@@ -52,7 +52,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "c859d9743802c6cb";
+    return "5a5147c5811ced2c";
 }
 
 #else /* for one instruction set */

@@ -12,9 +12,10 @@
 extern "C" {
 #endif
 
-/* The entries of orthoglide_leg_tree_base_regressor_nonzeros, by the best instructions of this processor.
- * They are equal to its values but for roundings: where one fuses a multiplication and an addition
- * and the other does not. */
+/* The entries of this robot's base regressor, by the best instructions of this processor. They are
+ * those of the scalar function
+ *     orthoglide_leg_tree_base_regressor_nonzeros
+ * but for roundings, where one fuses a multiplication and an addition and the other does not. */
 const modeler_tiled *orthoglide_leg_tree_tiled(void);
 
 /* Tells whether this code belongs to a manifest. */

@@ -68,7 +68,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "e419ca378d352141";
+    return "f2624e61ab392c0b";
 }
 
 #else /* for one instruction set */

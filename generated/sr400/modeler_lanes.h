@@ -146,12 +146,14 @@ MODELER_INLINE modeler_lanes modeler_lanes_pow(modeler_lanes x, modeler_lanes y)
 
 MODELER_INLINE modeler_lanes modeler_lanes_spread(double x)
 {
-    return x - (modeler_lanes){0.0}; /* - 0.0 changes nothing, not even -0.0 */
+    const modeler_lanes zero = {0.0};
+
+    return x - zero; /* changes nothing, not even -0.0 */
 }
 
 MODELER_INLINE modeler_lanes modeler_lanes_fabs(modeler_lanes x)
 {
-    const modeler_lanes minus = -(modeler_lanes){0.0};
+    const modeler_lanes minus = modeler_lanes_spread(-0.0);
 
     return (modeler_lanes)((modeler_bits)x & ~(modeler_bits)minus);
 }
@@ -159,7 +161,7 @@ MODELER_INLINE modeler_lanes modeler_lanes_fabs(modeler_lanes x)
 /* 1 with the sign of x, where |x| > 0. A comparison gives all bits or none in each lane. */
 MODELER_INLINE modeler_lanes modeler_lanes_sign(modeler_lanes x)
 {
-    const modeler_bits minus = (modeler_bits)-(modeler_lanes){0.0};
+    const modeler_bits minus = (modeler_bits)modeler_lanes_spread(-0.0);
     const modeler_bits one = (modeler_bits)modeler_lanes_spread(1.0) | ((modeler_bits)x & minus);
 
     return (modeler_lanes)(one & (modeler_lanes_fabs(x) > 0.0));
@@ -191,7 +193,7 @@ MODELER_INLINE void modeler_lanes_sincos(modeler_lanes x, modeler_lanes *sine,
     /* Turn by n quarters: an odd one swaps the two, the next bit turns the sign. */
     const modeler_bits k = (modeler_bits)turned, odd = k << 63 >> 63, turn = k >> 1 << 63;
     const modeler_bits S = (modeler_bits)s, C = (modeler_bits)c, both = S ^ C;
-    const modeler_bits minus = (modeler_bits)-(modeler_lanes){0.0};
+    const modeler_bits minus = (modeler_bits)modeler_lanes_spread(-0.0);
     *sine = (modeler_lanes)(S ^ (both & odd) ^ turn);
     *cosine = (modeler_lanes)(C ^ ((both ^ minus) & odd) ^ turn);
 

@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.31843.29236.41210) only what has the signature 7c637234a0fa15eb.
-set(PACKAGE_VERSION 1.31843.29236.41210)
+# find_package(sr400 1.2529.65496.64281) only what has the signature 09e1ffd8fb190074.
+set(PACKAGE_VERSION 1.2529.65496.64281)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

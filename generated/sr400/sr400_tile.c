@@ -65,7 +65,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "7c637234a0fa15eb";
+    return "09e1ffd8fb190074";
 }
 
 #else /* for one instruction set */

@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.1215.37484.12990) only what has the signature 04bf926c32be58c4.
-set(PACKAGE_VERSION 1.1215.37484.12990)
+# find_package(wrist 1.63569.39904.22575) only what has the signature f8519be0582fc4b0.
+set(PACKAGE_VERSION 1.63569.39904.22575)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

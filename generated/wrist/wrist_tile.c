@@ -46,7 +46,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "04bf926c32be58c4";
+    return "f8519be0582fc4b0";
 }
 
 #else /* for one instruction set */
