@@ -71,11 +71,10 @@ def test_text_json_and_page(capsys, plant: Path, tmp_path: Path) -> None:
     assert "All machines" in text and "What was looked at" in text
 
 
-def test_processes_patterns_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) -> None:
+def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) -> None:
     places = [str(path) for path in sorted(plant.glob("*/*.parquet"))]
     whole = run(capsys, *places)
     assert run(capsys, str(plant), "--workers", "2") == whole
-    assert run(capsys, *places, "--name", "{machine}/{period}.parquet") == whole
     table = plant / "logs.csv"
     rows = (f"{Path(p).parent.name},{Path(p).stem},{Path(p).relative_to(plant)}" for p in places)
     table.write_text("machine,period,log\n" + "\n".join(rows) + "\n")
