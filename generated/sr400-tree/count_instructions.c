@@ -6,6 +6,12 @@
  * `make count` compiles and runs it; it is no part of the library.
  * Emitted by modeler, which writes over a file that was edited only with --force.
  */
+#if !defined(__arm__) || !defined(__GNUC__)
+int main(void)
+{
+    return 2; /* it runs on a Cortex-M alone */
+}
+#else
 #include <stddef.h>
 #include <stdint.h>
 
@@ -388,3 +394,4 @@ int main(void)
     say("\n");
     return 0;
 }
+#endif

@@ -116,8 +116,7 @@ def survey(
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
     every = []
     for k, (source, at) in enumerate(zip(sources, places, strict=True)):
-        log = logs[k] if k in looked else source.window(0.5, WINDOW)
-        assert log is not None
+        log = logs[k] or source.window(0.5, WINDOW)
         every.append(_chosen((k, log), (prepared, at), chosen, parts, known.extremes.get(k), rows))
     count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
     prepared = dataclasses.replace(prepared, segments=(), pieces=())  # memory for the chunks
