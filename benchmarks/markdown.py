@@ -15,7 +15,7 @@ def markdown(report: Mapping[str, Any]) -> str:
         f"cores, {about['memory_gb']} GB; {about['gcc']}; Python {about['python']}."
     )
     rows = [
-        _row(key, report["values"].get(key.name), report["missing"].get(key.name, ""))
+        _row(key, report["values"].get(key.name), report["missing"].get(key.name, "not measured"))
         for line in LINES
         for key in line.keys
     ]
