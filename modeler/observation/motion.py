@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.observation.butterworth import forwards_and_backwards
 from modeler.observation.processing import Processing
 from modeler.observation.segments import SHORT, Piece, longer_runs
 
@@ -156,9 +157,7 @@ def low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
     """`values` (n, ...) through the zero-phase Butterworth low-pass; as they are for cutoff 0."""
     if cutoff == 0.0:
         return values
-    from scipy.signal import butter, sosfiltfilt  # it takes long to load
-
-    sections = butter(4, cutoff, fs=1.0 / step, output="sos")
     # Odd extension over the start-up time; scipy's default is too short for a low cut-off.
     padding = min(len(values) - 1, max(15, round(2.0 / (cutoff * step))))
-    return sosfiltfilt(sections, values, axis=0, padlen=padding)
+    flat = values.reshape(len(values), -1)
+    return forwards_and_backwards(flat, step, cutoff, padding).reshape(values.shape)

@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from modeler.observation.log import Log
 from modeler.observation.saturation import saturated
@@ -134,6 +133,8 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     def on_grid(values: np.ndarray) -> np.ndarray:
         if uniform:
             return values[rows]
+        from scipy.interpolate import CubicSpline, PchipInterpolator  # they take long to load
+
         moved = PchipInterpolator(measured, values[rows])(time)
         if short.any():
             moved[short] = CubicSpline(measured, values[rows])(time[short])
