@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import nnls
 
 from modeler.core.choices import Method
 from modeler.estimate.coloured import autocorrelation, repeated
@@ -117,6 +116,8 @@ def _deviations(
     """(rows,) from squares of residuals, by one step of scoring."""
     weight = 1.0 / deviation**2
     scale = float(np.mean(squares * weight)) or 1.0
+    from scipy.optimize import nnls  # it takes long to load
+
     found, _ = nnls(sources * weight[:, None], squares * weight / scale)
     least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
     return np.asarray(np.sqrt(np.maximum(sources @ found * scale, least)))

@@ -30,13 +30,15 @@ try:
     status = main()
 except SystemExit as stop:
     status = stop.code
-print("loaded:", *sorted({name.split(".")[0] for name in sys.modules}), file=sys.stderr)
+found = {name.split(".")[0] for name in sys.modules}
+found |= {name for name in sys.modules if name.startswith("scipy.") and name.count(".") == 1}
+print("loaded:", *sorted(found), file=sys.stderr)
 sys.exit(status)
 """
 
 
 def loaded(*words: str) -> tuple[int, str, set[str]]:
-    """Exit status, stdout and top-level packages of a run of its own."""
+    """Exit status, stdout, top-level packages and those of scipy of a run of its own."""
     command = [sys.executable, "-c", _TRACED, *words]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     *_, last = done.stderr.splitlines()
@@ -67,6 +69,7 @@ def test_what_answers_at_once_loads_nothing_long(words, status) -> None:
 
 
 PICTURES = {"matplotlib", "rich", "h5py", "rosbags", "cvxpy", "IPython"}
+SLOW = {"scipy.signal", "scipy.stats", "scipy.interpolate", "scipy.optimize", "scipy.io"}
 NUMBERS = {"scipy", "pyarrow", "cffi", "pandas", "threadpoolctl", "clarabel"}
 SYMBOLS = {"sympy", "casadi", "jinja2", "flint"}
 
@@ -88,7 +91,7 @@ LONGER = {
     "show": ("show wrist --out {}/w.html", PICTURES | NUMBERS | SYMBOLS - {"jinja2"}),
     "home": ("home five-bar", PICTURES | NUMBERS),
     "log": ("log {}/run.parquet", PICTURES | {"pandas", "casadi", "clarabel", "threadpoolctl"}),
-    "fit": ("fit emps {0}/run.parquet --out {0}/n.json", PICTURES | {"pandas", "casadi"}),
+    "fit": ("fit emps {0}/run.parquet --out {0}/n.json", PICTURES | SLOW | {"pandas", "casadi"}),
     "compare": ("compare {0}/m.json {0}/run.parquet", PICTURES | {"pandas", "casadi"}),
     "diagnose": ("diagnose {0}/m.json {0}/run.parquet", PICTURES | {"pandas", "casadi"}),
 }
