@@ -100,21 +100,33 @@ def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
 
 def _welch(pieces: list[np.ndarray], period: float) -> tuple[np.ndarray, np.ndarray]:
     """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
-    from scipy import signal  # it takes long to load
-
     # a quarter of the longest segment: about seven windows to average over
     window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
     total, weight = np.zeros(window // 2 + 1), 0.0
-    frequency = total
     for piece in pieces:
         counts = float(np.isfinite(piece).sum())
-        frequency, density = signal.welch(
-            np.nan_to_num(piece),
-            fs=1.0 / period,
-            nperseg=min(window, piece.size),
-            nfft=window,
-            detrend=False,
-        )
+        density = welch(np.nan_to_num(piece), min(window, piece.size), window, period)
         total = total + density * piece.size  # = counts * (density scaled by size / counts)
         weight += counts
-    return frequency[1:], total[1:] / weight
+    return np.fft.rfftfreq(window, period)[1:], total[1:] / weight
+
+
+def welch(values: np.ndarray, length: int, size: int, period: float) -> np.ndarray:
+    """(size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
+
+    That of scipy.signal.welch without detrending; scipy.signal takes long to load.
+
+    Args:
+        values: (n,).
+        length: of a window, at most n.
+        size: to which windows are filled with zeros.
+        period: s.
+    """
+    hann = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(length) / length)
+    frames = np.lib.stride_tricks.sliding_window_view(values, length)[:: length - length // 2]
+    power = np.mean(np.abs(np.fft.rfft(frames * hann, size)) ** 2, axis=0)
+    power *= 2.0 * period / np.sum(hann**2)
+    power[0] *= 0.5
+    if size % 2 == 0:
+        power[-1] *= 0.5
+    return np.asarray(power)
