@@ -1,11 +1,9 @@
 """Triangles without W: against numpy's QR, the law R^T R = W^T W, and rows that are left out."""
 
-import os
-
 import numpy as np
 import pytest
 
-from modeler.compiled import fused
+from modeler.compiled import fused, threads
 from modeler.compiled.bind_fused import fused_library
 from modeler.core.errors import ShapeError
 from tests.modules import compiled, states
@@ -145,8 +143,8 @@ def test_threads_and_blocks_give_the_same_bits(monkeypatch):
     tau = np.random.default_rng(7).normal(size=q.shape)
     monkeypatch.setattr(fused, "BLOCK", 64)
     found = []
-    for threads in (1, 2, 7):
-        monkeypatch.setattr(os, "cpu_count", lambda threads=threads: threads)
+    for count in (1, 2, 7):
+        monkeypatch.setattr(threads, "processors", lambda count=count: count)
         found.append(wrist.triangles(q, qd, qdd, tau))
     for own in found[1:]:
         np.testing.assert_array_equal(own.packed, found[0].packed)
