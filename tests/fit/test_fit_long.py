@@ -21,6 +21,8 @@ from modeler.fit.streamed import stream
 from modeler.observation import Processing, observe
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass
+from modeler.observation.row_filter import spacing
+from modeler.observation.segments import split
 from modeler.observation.source import MemorySource, cut
 from modeler.observation.survey import Known, WholeNeeded, survey
 
@@ -166,6 +168,40 @@ def test_windows_choose_for_all_rows(small_windows):
     fit = identify_long(long)
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
     assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
+
+
+@pytest.mark.parametrize("zero", [-450.0, 0.5, 1000.0, 1.7e9])
+def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
+    """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
+    for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
+        monkeypatch.setattr(f"modeler.observation.survey.{name}", value)
+    log = noisy_log(seconds=90.0)
+    fast = log.time > 45.0  # half of the windows: their median must not hang on a digit
+    q = np.where(fast[:, None], np.sin(7.0 * log.time)[:, None] * [0.5, 0.4], log.q)
+    log = dataclasses.replace(log, q=q)
+    moved = dataclasses.replace(log, time=log.time + zero)
+    one, other = (stream(ARM, [MemorySource(each)], rows=ROWS) for each in (log, moved))
+    assert one.observation.report.choices == other.observation.report.choices
+    assert one.samples == other.samples and one.reading == other.reading
+    assert one.data.rows.tolist() == pytest.approx(other.data.rows.tolist(), abs=2)
+    first, second = identify_long(one), identify_long(other)
+    sigma = np.array([parameter.sigma for parameter in first.parameters])
+    assert np.abs((first.beta - second.beta) / sigma).max() < 1e-3
+
+
+def test_steps_of_a_coarse_clock_are_those_of_a_fine_one():
+    """Of 16 384 rows of 1 ms, the median step since 1970 would make 16 385."""
+    time = np.arange(16_384) * 1e-3
+    log = dataclasses.replace(noisy_log(seconds=5.0), time=time + 1.7e9)
+    assert (len(time) - 1) * log.step == pytest.approx(time[-1], abs=1e-6)
+    late = dataclasses.replace(log, time=np.concatenate([time, time + 100.0]) + 1.7e9)
+    assert late.step == pytest.approx(1e-3, rel=1e-7)
+    q = np.column_stack([np.sin(time), np.cos(time)])
+    pieces, _ = split(dataclasses.replace(log, q=q, tau=q), 0, False)
+    assert [len(piece.time) for piece in pieces] == [len(time)] and not pieces[0].resampled
+    assert pieces[0].step == pytest.approx(1e-3, rel=1e-7)  # inertias go with its square
+    for rounding in (1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.0 + 1e-8):  # 62.5 samples
+        assert spacing(1e-3 * rounding, 6.4, None) == 63
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
