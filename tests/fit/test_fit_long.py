@@ -14,7 +14,9 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.fit import identify, streamed
+from modeler.fit import identify, streamed, with_verdict
+from modeler.fit.crossed import Crossed
+from modeler.fit.doubts import unshown
 from modeler.fit.long import identify_long
 from modeler.fit.partial import merge_all, reduce_chunk
 from modeler.fit.streamed import stream
@@ -202,6 +204,53 @@ def test_steps_of_a_coarse_clock_are_those_of_a_fine_one():
     assert pieces[0].step == pytest.approx(1e-3, rel=1e-7)  # inertias go with its square
     for rounding in (1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.0 + 1e-8):  # 62.5 samples
         assert spacing(1e-3 * rounding, 6.4, None) == 63
+
+
+@pytest.fixture
+def any_machine(monkeypatch):
+    """A stand-in has no reach to judge the unit of the time by, and values of no real machine."""
+    for name in ("time_doubts", "_impossible"):
+        monkeypatch.setattr(f"modeler.fit.verdict.{name}", lambda *given: [])
+
+
+def verdict_of(log):
+    """Of the fit in chunks, and the fit."""
+    long = stream(ARM, [MemorySource(log)], rows=ROWS)
+    fit = identify_long(long)
+    return with_verdict(ARM, long.observation, fit, data=long.data).verdict, fit
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_the_windows_do_not_show_makes_a_fit_not_usable(seed, small_windows, any_machine):
+    """A torque wrong by half, in a thirtieth of the log, between two windows."""
+    log = noisy_log(seconds=60.0, seed=seed)
+    clean, _ = verdict_of(log)
+    assert clean.usable and not [line for line in clean.doubts if "windows" in line]
+    tau = log.tau.copy()
+    tau[2400:2800, 0] *= 1.5
+    wrong, fit = verdict_of(dataclasses.replace(log, tau=tau))
+    assert fit.joints[0].relative_error > 0.03 and not wrong.usable
+    assert "joint 1: all rows are described to" in wrong.line and "the windows to" in wrong.line
+
+
+def test_no_verdict_promises_better_than_the_error_on_all_rows(small_windows, any_machine):
+    log = noisy_log(seconds=60.0)
+    tau = log.tau.copy()
+    tau[2400:2800, 0] *= 1.01
+    verdict, fit = verdict_of(dataclasses.replace(log, tau=tau))
+    assert verdict.usable
+    promised = float(verdict.line.split(" % on every joint")[0].rsplit(" ", 1)[1])
+    most = max(joint.relative_error for joint in fit.joints)
+    assert promised >= float(f"{100.0 * most:.2g}")
+
+
+def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
+    """Fast in the windows, slow between them: four times the relative error, the same in N m."""
+    long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
+    fit = identify_long(long)
+    errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
+    assert not unshown(fit, Crossed(errors, 1.0, 9), np.array([0.25, 0.25]))
+    assert len(unshown(fit, Crossed(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
