@@ -20,6 +20,10 @@ HALF = 0.5**0.5
 WIDE = 2.0
 """Ratio of the error on left-out motion to that on fitted motion above which rows are too few."""
 
+ELSEWHERE = 3.0
+"""Ratio of the error on all rows to that in windows of them above which other rows differ; where
+logs are all of one kind it is 0.6 to 1.3."""
+
 STRUCTURE = 0.1
 """Rms of what is left and lasts, over that of the torque, above which values carry some of it."""
 
@@ -152,6 +156,33 @@ def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
             certain=True,
         )
     ]
+
+
+def unshown(result: FitResult, seen: Crossed, scale: np.ndarray) -> list[Doubt]:
+    """Joints whose torques are described worse on all rows than windows of them let expect.
+
+    Relatively, and in N m too: where the windows show a faster motion, noise alone is a larger
+    share of the other torques.
+
+    Args:
+        result: of all rows.
+        seen: in the windows.
+        scale: (n,) rms torque of all rows over that of the windows.
+    """
+    found = []
+    for joint, error, torque in zip(result.joints, seen.errors, scale, strict=True):
+        own = joint.relative_error
+        if own is None or not own * min(1.0, float(torque)) > ELSEWHERE * error:
+            continue
+        found.append(
+            Doubt(
+                f"joint {joint.name}: all rows are described to {100.0 * own:.2g} %, the windows "
+                f"to {100.0 * error:.2g} %: some rows hold what the windows do not show; fit "
+                "pieces, FILE@START:END, to find them",
+                certain=True,
+            )
+        )
+    return found
 
 
 def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> list[Doubt]:

@@ -27,6 +27,7 @@ from modeler.fit.doubts import (
     systematic,
     undescribed,
     undetermined,
+    unshown,
 )
 from modeler.fit.identify import dead_joints
 from modeler.fit.result import FitResult, Verdict
@@ -69,17 +70,37 @@ def with_verdict(
     """
     rows = _rows(observation, bare)
     sigma = np.array([joint.sigma for joint in result.joints])
+    whole = data is not None
     if data is None:
         data = compressed(observation, rows)
     seen = crossed(observation, rows, sigma, refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
     found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
+    if whole:
+        found += unshown(result, seen, _scale(data, observation, rows))
+        seen = dataclasses.replace(seen, errors=np.fmax(seen.errors, _errors(result)))
     found += systematic(result, _lasting(observation, rows, result))
     found += undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
     directions = friction_by_direction(model.spec, result)
     return dataclasses.replace(result, verdict=_verdict(found, result, seen), directions=directions)
+
+
+def _errors(result: FitResult) -> np.ndarray:
+    """(n,) relative errors on all rows of the fit; nan without any."""
+    return np.array([np.nan if j.relative_error is None else j.relative_error
+                     for j in result.joints])  # fmt: skip
+
+
+def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.ndarray:
+    """(n,) rms torque of all rows over that of the observation's; 1 where either has none."""
+    count = len(data.rows)
+    joint, y = observation.row_joint[rows], observation.y[rows]
+    here = np.sqrt(np.bincount(joint, y**2, count) / np.fmax(np.bincount(joint, None, count), 1))
+    there = data.torque_norms() / np.sqrt(np.fmax(data.rows, 1))
+    both = (here > 0.0) & (there > 0.0)
+    return np.where(both, there / np.where(both, here, 1.0), 1.0)
 
 
 def _with_poor(found: list[Doubt], poor: list[Doubt]) -> list[Doubt]:

@@ -11,6 +11,8 @@ from modeler.core.presented import Presented
 
 _NONE: Mapping = MappingProxyType({})
 
+_FINE = 1e-7  # of a step; over the rows of a block, less than a row
+
 
 @dataclass(frozen=True, eq=False)
 class Log(Presented):
@@ -58,8 +60,17 @@ class Log(Presented):
 
     @property
     def step(self) -> float:
-        """Median time step, s."""
-        return float(np.median(np.diff(self.time)))
+        """Median time step, s.
+
+        Large times are coarse: seconds since 1970 come in steps of 2.4e-7 s. Where the median is
+        such a step, it is the mean of those that differ from it by no more than that.
+        """
+        steps = np.diff(self.time)
+        step = float(np.median(steps))
+        resolution = float(np.spacing(np.abs(self.time).max()))
+        if resolution < _FINE * step:
+            return step
+        return float(np.mean(steps[np.abs(steps - step) <= 1.5 * resolution]))
 
 
 FINGER = 32_768

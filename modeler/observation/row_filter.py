@@ -15,6 +15,7 @@ RATE = 2.5
 """Rows per period of the cut-off: neighbours then correlate by 0.1."""
 
 _REACH = 3.0  # standard deviations
+_UP = 1.0 + 1e-6  # a step may be off by so much where its clock counts from 1970
 _NONE = 0.02  # samples; neighbours' weights are 0 in double precision below
 LEAST_WEIGHT = 0.5
 """A row is used if at least this share of its weights falls on usable samples."""
@@ -97,9 +98,9 @@ def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | 
 
 
 def spacing(step: float, cutoff: float, decimation: int | None) -> int:
-    """Samples from one row to the next; see `row_filter`."""
+    """Samples from one row to the next; see `row_filter`. Halves go up, whatever their rounding."""
     if decimation is None:
-        return max(1, round(1.0 / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+        return max(1, round(_UP / (RATE * cutoff * step))) if cutoff > 0.0 else 1
     return decimation
 
 

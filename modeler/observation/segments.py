@@ -123,7 +123,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     measured = log.time[rows]
     samples = max(_LEAST, round((measured[-1] - measured[0]) / log.step) + 1)
     time = np.linspace(measured[0], measured[-1], samples)
-    step = float(time[1] - time[0])
+    step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse
     uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
 
     near = np.arange(samples) if uniform else _nearest(measured, time)

@@ -136,7 +136,7 @@ def _windows(source: Source, count: int) -> list[Log]:
     if not count:
         return []
     first = source.window(0.5 / count, WINDOW)
-    size = int(np.clip(SECONDS / first.step, WINDOW, LONGEST)) if first.rows > 1 else WINDOW
+    size = int(np.clip(round(SECONDS / first.step), WINDOW, LONGEST)) if first.rows > 1 else WINDOW
     if count * size > 0.7 * source.rows:
         return [source.window(0.0, max(size, min(source.rows, count * size)))]
     found: list[Log] = []

@@ -14,13 +14,17 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.fit import identify, streamed
+from modeler.fit import identify, streamed, with_verdict
+from modeler.fit.crossed import Crossed
+from modeler.fit.doubts import unshown
 from modeler.fit.long import identify_long
 from modeler.fit.partial import merge_all, reduce_chunk
 from modeler.fit.streamed import stream
 from modeler.observation import Processing, observe
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass
+from modeler.observation.row_filter import spacing
+from modeler.observation.segments import split
 from modeler.observation.source import MemorySource, cut
 from modeler.observation.survey import Known, WholeNeeded, survey
 
@@ -166,6 +170,87 @@ def test_windows_choose_for_all_rows(small_windows):
     fit = identify_long(long)
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
     assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
+
+
+@pytest.mark.parametrize("zero", [-450.0, 0.5, 1000.0, 1.7e9])
+def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
+    """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
+    for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
+        monkeypatch.setattr(f"modeler.observation.survey.{name}", value)
+    log = noisy_log(seconds=90.0)
+    fast = log.time > 45.0  # half of the windows: their median must not hang on a digit
+    q = np.where(fast[:, None], np.sin(7.0 * log.time)[:, None] * [0.5, 0.4], log.q)
+    log = dataclasses.replace(log, q=q)
+    moved = dataclasses.replace(log, time=log.time + zero)
+    one, other = (stream(ARM, [MemorySource(each)], rows=ROWS) for each in (log, moved))
+    assert one.observation.report.choices == other.observation.report.choices
+    assert one.samples == other.samples and one.reading == other.reading
+    assert one.data.rows.tolist() == pytest.approx(other.data.rows.tolist(), abs=2)
+    first, second = identify_long(one), identify_long(other)
+    sigma = np.array([parameter.sigma for parameter in first.parameters])
+    assert np.abs((first.beta - second.beta) / sigma).max() < 1e-3
+
+
+def test_steps_of_a_coarse_clock_are_those_of_a_fine_one():
+    """Of 16 384 rows of 1 ms, the median step since 1970 would make 16 385."""
+    time = np.arange(16_384) * 1e-3
+    log = dataclasses.replace(noisy_log(seconds=5.0), time=time + 1.7e9)
+    assert (len(time) - 1) * log.step == pytest.approx(time[-1], abs=1e-6)
+    late = dataclasses.replace(log, time=np.concatenate([time, time + 100.0]) + 1.7e9)
+    assert late.step == pytest.approx(1e-3, rel=1e-7)
+    q = np.column_stack([np.sin(time), np.cos(time)])
+    pieces, _ = split(dataclasses.replace(log, q=q, tau=q), 0, False)
+    assert [len(piece.time) for piece in pieces] == [len(time)] and not pieces[0].resampled
+    assert pieces[0].step == pytest.approx(1e-3, rel=1e-7)  # inertias go with its square
+    for rounding in (1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.0 + 1e-8):  # 62.5 samples
+        assert spacing(1e-3 * rounding, 6.4, None) == 63
+
+
+@pytest.fixture
+def any_machine(monkeypatch):
+    """A stand-in has no reach to judge the unit of the time by, and values of no real machine."""
+    for name in ("time_doubts", "_impossible"):
+        monkeypatch.setattr(f"modeler.fit.verdict.{name}", lambda *given: [])
+
+
+def verdict_of(log):
+    """Of the fit in chunks, and the fit."""
+    long = stream(ARM, [MemorySource(log)], rows=ROWS)
+    fit = identify_long(long)
+    return with_verdict(ARM, long.observation, fit, data=long.data).verdict, fit
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_the_windows_do_not_show_makes_a_fit_not_usable(seed, small_windows, any_machine):
+    """A torque wrong by half, in a thirtieth of the log, between two windows."""
+    log = noisy_log(seconds=60.0, seed=seed)
+    clean, _ = verdict_of(log)
+    assert clean.usable and not [line for line in clean.doubts if "windows" in line]
+    tau = log.tau.copy()
+    tau[2400:2800, 0] *= 1.5
+    wrong, fit = verdict_of(dataclasses.replace(log, tau=tau))
+    assert fit.joints[0].relative_error > 0.03 and not wrong.usable
+    assert "joint 1: all rows are described to" in wrong.line and "the windows to" in wrong.line
+
+
+def test_no_verdict_promises_better_than_the_error_on_all_rows(small_windows, any_machine):
+    log = noisy_log(seconds=60.0)
+    tau = log.tau.copy()
+    tau[2400:2800, 0] *= 1.01
+    verdict, fit = verdict_of(dataclasses.replace(log, tau=tau))
+    assert verdict.usable
+    promised = float(verdict.line.split(" % on every joint")[0].rsplit(" ", 1)[1])
+    most = max(joint.relative_error for joint in fit.joints)
+    assert promised >= float(f"{100.0 * most:.2g}")
+
+
+def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
+    """Fast in the windows, slow between them: four times the relative error, the same in N m."""
+    long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
+    fit = identify_long(long)
+    errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
+    assert not unshown(fit, Crossed(errors, 1.0, 9), np.array([0.25, 0.25]))
+    assert len(unshown(fit, Crossed(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
