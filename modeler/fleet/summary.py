@@ -12,10 +12,12 @@ from modeler.core.errors import DataError, LoopError
 from modeler.estimate.coloured import remembered, repeated_whole
 from modeler.estimate.compressed import Compressed, compress
 from modeler.estimate.least_squares import least_squares
+from modeler.fit import contradictions, identify
 from modeler.fit.identify import dead_joints
 from modeler.fleet.naming import Named
 from modeler.logs import LogMap
 from modeler.observation import Observation, Processing, observe
+from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import Log
 from modeler.observation.read import read_log
 from modeler.observation.window import window
@@ -101,7 +103,7 @@ def summary(
     """The summary of a log that was read.
 
     Raises:
-        ModelerError: it has no usable rows.
+        ModelerError: it has no usable rows, or contradicts the robot beyond doubt.
     """
     observation = observe(model, [log], processing)
     dead = dead_joints(observation)
@@ -111,6 +113,7 @@ def summary(
         raise DataError(f"{log.name}: {len(y)} rows for {W.shape[1]} parameters; record more")
     free = [j for j, each in enumerate(observation.joints) if not each.actuated]
     data = compress(W, y, joint, len(observation.joints), observation.names, free)
+    _check_fits(model, observation, data)
     residual = y - W @ least_squares(data).beta
     doubts = [f"joint {observation.joints[j].name}: its torque is 0 throughout" for j in dead]
     return LogSummary(
@@ -124,6 +127,16 @@ def summary(
         processing=observation.report.processing,
         doubts=(*observation.report.doubts(), *doubts),
     )
+
+
+def _check_fits(model: CompiledModel, observation: Observation, data: Compressed) -> None:
+    """Refuses a log whose own fit is certainly not usable: its deviations would say anything."""
+    result = identify(observation, "weighted", model)
+    told = findings_of_fit(model, observation, result.beta)
+    against = contradictions(model, observation, result, told, data)
+    if against:
+        raise DataError(f"{', '.join(observation.logs)}: does not fit {model.spec.robot}: "
+                        f"{against[0]}")  # fmt: skip
 
 
 def _repeats(
