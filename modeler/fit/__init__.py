@@ -24,4 +24,5 @@ from modeler.fit.result import FitResult as FitResult
 from modeler.fit.result import JointFit as JointFit
 from modeler.fit.result import ParameterEstimate as ParameterEstimate
 from modeler.fit.result import Verdict as Verdict
+from modeler.fit.verdict import contradictions as contradictions
 from modeler.fit.verdict import with_verdict as with_verdict

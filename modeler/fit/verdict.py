@@ -103,6 +103,32 @@ def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.n
     return np.where(both, there / np.where(both, here, 1.0), 1.0)
 
 
+def contradictions(
+    model: "CompiledModel",
+    observation: Observation,
+    result: FitResult,
+    told: Sequence[Told] = (),
+    data: Compressed | None = None,
+) -> list[str]:
+    """Why a fit is certainly not usable, other than for want of data.
+
+    A log that is too short for a fit of its own may still say something beside others.
+
+    Args:
+        model: the robot.
+        observation: that was fitted.
+        result: of the fit.
+        told: findings of other stages about the logs.
+        data: all rows that were fitted; None: those of the observation.
+    """
+    if data is None:
+        data = compressed(observation, _rows(observation, None))
+    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
+    found = _with_poor([*found, *time_doubts(model, observation, result)], undescribed(result))
+    found += _impossible(model.spec, result, data)
+    return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))
+
+
 def _with_poor(found: list[Doubt], poor: list[Doubt]) -> list[Doubt]:
     """With torques that are badly described; where it is known why, that stands in their place."""
     if not any(doubt.explains for doubt in found):

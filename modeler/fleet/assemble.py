@@ -6,6 +6,7 @@ import numpy as np
 
 from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
+from modeler.fleet.foreign import of_another_robot
 from modeler.fleet.joint_fit import joint_fit
 from modeler.fleet.judge import FALSE_ALARM, Judged, judged
 from modeler.fleet.layout import layout_of
@@ -35,7 +36,9 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
     """
     used = [each for each in given if isinstance(each, LogSummary)]
-    left = tuple((each.named.place, each.why) for each in given if isinstance(each, Left))
+    used, foreign, said = of_another_robot(used)
+    apart = [*(each for each in given if isinstance(each, Left)), *foreign]
+    left = tuple((each.named.place, each.why) for each in apart)
     _check(used, left)
     logs, at, unit = in_time(used)
     layout = layout_of(spec)
@@ -55,7 +58,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         aside=fit.aside,
         left=left,
         doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
-        notes=(*_processed(used[0]), *_notes(found, machines)),
+        notes=(*_processed(used[0]), *_notes(found, machines), *said, *_unseen(apart, machines)),
     )
 
 
@@ -107,6 +110,7 @@ def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
                 score=move.score,
                 chance=move.chance,
                 warmth=warmth_of(both[0], quantity.joint, line, both[1:]),
+                since=len(own) - move.begin,
             )
         )
     return findings
@@ -131,6 +135,7 @@ def _apart(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
                 score=odd.score,
                 chance=0.5 * FALSE_ALARM,
                 warmth=None,
+                since=len(own),
             )
         )
     return findings
@@ -165,6 +170,12 @@ def _processed(first: LogSummary) -> list[str]:
         f"all logs are filtered alike, as chosen from {first.named.place}: positions below "
         f"{position:.4g} Hz, torques and columns below {chosen.parallel_cutoff:.4g} Hz"
     ]
+
+
+def _unseen(left: Sequence[Left], machines: dict[str, tuple[str, ...]]) -> list[str]:
+    """Machines of which no log was used."""
+    gone = dict.fromkeys(e.named.machine for e in left if e.named.machine not in machines)
+    return [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
 
 
 def _notes(found: Judged, machines: dict[str, tuple[str, ...]]) -> list[str]:

@@ -48,6 +48,7 @@ class Finding(Brief):
         score: change in sigmas.
         chance: that a fleet in which nothing drifts shows this, all that was looked at counted.
         warmth: None where no temperature was logged.
+        since: periods from begin on; a jump stays if it is in two.
     """
 
     machine: str
@@ -62,6 +63,7 @@ class Finding(Brief):
     score: float
     chance: float
     warmth: Warmth | None = None
+    since: int = 0
 
     @property
     def percent(self) -> float | None:
@@ -183,6 +185,7 @@ def _finding(found: Finding) -> dict[str, Any]:
         "shape": found.shape,
         "from": found.begin,
         "to": found.end,
+        "periods_since": found.since,
         "before": _number(found.before),
         "change": _number(found.change),
         "change_percent": None if found.percent is None else _number(found.percent),

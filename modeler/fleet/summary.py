@@ -1,6 +1,6 @@
 """One log of a fleet, read once: triangles and what its residuals remember, no rows."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,10 +12,12 @@ from modeler.core.errors import DataError, LoopError
 from modeler.estimate.coloured import remembered, repeated_whole
 from modeler.estimate.compressed import Compressed, compress
 from modeler.estimate.least_squares import least_squares
+from modeler.fit import contradictions, identify
 from modeler.fit.identify import dead_joints
 from modeler.fleet.naming import Named
 from modeler.logs import LogMap
 from modeler.observation import Observation, Processing, observe
+from modeler.observation.adapted import faults_of_fit
 from modeler.observation.log import Log
 from modeler.observation.read import read_log
 from modeler.observation.window import window
@@ -57,6 +59,7 @@ class LogSummary:
         temperatures: mean of each column, by the joint that its name ends in; "" for all.
         processing: with all choices filled in.
         doubts: what is wrong with the measurements.
+        beyond: joints with a position and a torque that the robot has not.
     """
 
     named: Named
@@ -68,6 +71,7 @@ class LogSummary:
     temperatures: Mapping[str, float] = field(default_factory=dict)
     processing: Processing | None = None
     doubts: tuple[str, ...] = ()
+    beyond: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -101,7 +105,7 @@ def summary(
     """The summary of a log that was read.
 
     Raises:
-        ModelerError: it has no usable rows.
+        ModelerError: it has no usable rows, or contradicts the robot beyond doubt.
     """
     observation = observe(model, [log], processing)
     dead = dead_joints(observation)
@@ -111,6 +115,7 @@ def summary(
         raise DataError(f"{log.name}: {len(y)} rows for {W.shape[1]} parameters; record more")
     free = [j for j, each in enumerate(observation.joints) if not each.actuated]
     data = compress(W, y, joint, len(observation.joints), observation.names, free)
+    _check_fits(model, observation, data, named.place)
     residual = y - W @ least_squares(data).beta
     doubts = [f"joint {observation.joints[j].name}: its torque is 0 throughout" for j in dead]
     return LogSummary(
@@ -123,7 +128,19 @@ def summary(
         temperatures=_temperatures(log),
         processing=observation.report.processing,
         doubts=(*observation.report.doubts(), *doubts),
+        beyond=_joints_beyond(log.extra),
     )
+
+
+def _check_fits(
+    model: CompiledModel, observation: Observation, data: Compressed, place: str
+) -> None:
+    """Refuses a log whose own fit is certainly not usable: its deviations would say anything."""
+    result = identify(observation, "weighted", model)
+    told = faults_of_fit(model, observation, result.beta)
+    against = contradictions(model, observation, result, told, data)
+    if against:
+        raise DataError(f"{place}: does not fit {model.spec.robot}: {against[0]}")
 
 
 def _repeats(
@@ -148,3 +165,9 @@ def _temperatures(log: Log) -> dict[str, float]:
         for name, values in log.extra.items()
         if name.startswith(TEMPERATURE)
     }
+
+
+def _joints_beyond(columns: Iterable[str]) -> tuple[str, ...]:
+    """Joints with a position and a torque among columns that are none of the robot's."""
+    names = set(columns)
+    return tuple(sorted(name[1:] for name in names if name[0] == "q" and f"tau{name[1:]}" in names))

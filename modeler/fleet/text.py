@@ -54,9 +54,15 @@ def _happens(found: Finding, unit: Unit) -> str:
         span = f"{found.length:.3g} {unit}"
         return f"{verb} by {size} over {span}, from {after} ({abs(found.score):.1f} sigma)"
     verb = "leaps up" if up else "leaps down"
-    stays = "and stays" if found.shape == "jump" else "and is back after it"
     told = f"from {after} ({abs(found.score):.1f} sigma)"
-    return f"{verb} by {size} at {found.begin} {stays}, {told}"
+    return f"{verb} by {size} at {found.begin}{_stays(found)}, {told}"
+
+
+def _stays(found: Finding) -> str:
+    """What is known of the time after a leap: of one in the last period, nothing."""
+    if found.shape != "jump":
+        return " and is back after it"
+    return " and stays" if found.since > 1 else ", the last period (whether it stays is not known)"
 
 
 def _size(found: Finding) -> str:
@@ -68,10 +74,13 @@ def _size(found: Finding) -> str:
 def headline_of(found: Fleet) -> tuple[str, str]:
     """A figure and what it is."""
     machines = f"{len(found.machines)} machine{'s' * (len(found.machines) != 1)}"
+    less = ""
+    if found.left:
+        less = f"; {len(found.left)} log{'s' * (len(found.left) > 1)} left out"
     if not found.findings:
-        return "nothing", f"drifts beyond doubt on {machines} in {found.logs} logs"
+        return "nothing", f"drifts beyond doubt on {machines} in {found.logs} logs{less}"
     hit = len({one.machine for one in found.findings})
-    return f"{hit} of {machines}", "drift or are apart from the others, beyond doubt"
+    return f"{hit} of {machines}", f"drift or are apart from the others, beyond doubt{less}"
 
 
 def fleet_lines(found: Fleet) -> list[str]:

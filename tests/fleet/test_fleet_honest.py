@@ -1,0 +1,98 @@
+"""What a fleet must not say: of logs that do not fit, of leaps at the end, of what it cannot see."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import DataError
+from modeler.fleet import Fleet, Left, LogSummary, Named, fleet_of
+from modeler.fleet.summary import summary
+from modeler.fleet.text import fleet_lines, sentence
+from modeler.observation import Log, Processing
+from tests.fleet.machines import Planted, Scene, compiled, logs, summaries
+
+GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
+
+
+def reduced(pairs: list[tuple[Named, Log]], robot: str = "two-link") -> list[LogSummary | Left]:
+    found: list[LogSummary | Left] = []
+    for named, log in pairs:
+        try:
+            found.append(summary(compiled(robot), log, named, GIVEN))
+        except DataError as error:
+            found.append(Left(named, str(error)))
+    return found
+
+
+def judged(pairs: list[tuple[Named, Log]], robot: str = "two-link") -> Fleet:
+    return fleet_of(compiled(robot).spec, reduced(pairs, robot))
+
+
+def exchanged(log: Log) -> Log:
+    return dataclasses.replace(log, tau=log.tau[:, [1, 0, *range(2, log.tau.shape[1])]])
+
+
+@pytest.mark.parametrize("robot", ["two-link", "demo-arm"])
+def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) -> None:
+    """A whole machine, and one day of another: neither drifts, nor is it well."""
+    pairs = logs(Scene(machines=3, periods=3), 41, robot)
+    wrong = [
+        (named, exchanged(log) if named.machine == "r2" or named.place == "r1/day3.csv" else log)
+        for named, log in pairs
+    ]
+    found = judged(wrong, robot)
+    assert found.findings == ()
+    assert [place for place, _ in found.left] == [
+        "r1/day3.csv", "r2/day1.csv", "r2/day2.csv", "r2/day3.csv"
+    ]  # fmt: skip
+    text = "\n".join(fleet_lines(found))
+    assert "on 2 machines in 5 logs; 4 logs left out" in text
+    told = f"left out: r2/day1.csv: does not fit {robot}: joints 1 and 2: their torques look exch"
+    assert told in text and "r2: none of its logs could be used: nothing is known" in text
+
+
+def test_short_logs_are_still_compared() -> None:
+    """Too short for a fit of their own, by far: the fleet's inertia is that of all logs."""
+    found = judged(logs(Scene(machines=3, periods=4, duration=2.0), 5))
+    assert found.left == () and found.logs == 12
+
+
+@pytest.mark.parametrize(
+    ("seed", "plan"),
+    [(71, ("gain1", -0.5)), (72, ("Fv1", -0.9)), (73, ("Fs2", 4.0)), (74, ("load", 5.0))],
+)
+def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> None:
+    name, size = plan
+    scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))
+    found = judged(logs(scene, seed))
+    assert found.left == ()
+    assert [(f.machine, f.shape, f.begin) for f in found.findings][0] == ("r1", "jump", "day3")
+
+
+def test_logs_of_more_joints_are_of_another_robot() -> None:
+    """One among others without is left out; where all have them, it is told."""
+    pairs = logs(Scene(machines=2, periods=2), 8)
+
+    def wider(log: Log) -> Log:
+        more = {name: np.zeros(len(log.time)) for name in ("q3", "tau3", "q4", "tau4", "q5")}
+        return dataclasses.replace(log, extra=more)
+
+    one = judged([(named, wider(log) if k == 1 else log) for k, (named, log) in enumerate(pairs)])
+    [(place, why)] = one.left
+    assert place == "r1/day2.csv" and "has joints 3, 4 besides, which most logs have not" in why
+    every = judged([(named, wider(log)) for named, log in pairs])
+    assert every.left == ()
+    [line] = [note for note in every.notes if "of joints besides those of the robot (3, 4)" in note]
+    assert line.startswith("r1/day1.csv and 3 more: ")
+
+
+def test_a_leap_in_the_last_period_is_not_said_to_stay() -> None:
+    for plan, told in [
+        ((0.0,) * 5 + (0.5,), "at day6, the last period (whether it stays is not known), from"),
+        ((0.0,) * 4 + (0.5,) * 2, "at day5 and stays, from"),
+    ]:
+        [one] = fleet_of(
+            compiled().spec, summaries(Scene(planted=(Planted(0, "Fs2", plan),)), 3)
+        ).findings
+        assert told in sentence(one, "periods")
