@@ -131,14 +131,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     short = bridged & ~longer_runs(bridged, SHORT)
 
     def on_grid(values: np.ndarray) -> np.ndarray:
-        if uniform:
-            return values[rows]
-        from scipy.interpolate import CubicSpline, PchipInterpolator  # they take long to load
-
-        moved = PchipInterpolator(measured, values[rows])(time)
-        if short.any():
-            moved[short] = CubicSpline(measured, values[rows])(time[short])
-        return np.asarray(moved)
+        return values[rows] if uniform else _moved(measured, values[rows], time, short)
 
     def smooth(values: np.ndarray | None) -> np.ndarray | None:
         return on_grid(values) if values is not None and logged_motion else None
@@ -160,6 +153,18 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
         resampled=not uniform,
         commanded=_commanded(log, rows, on_grid),
     )
+
+
+def _moved(
+    measured: np.ndarray, values: np.ndarray, time: np.ndarray, short: np.ndarray
+) -> np.ndarray:
+    """Values at other times: monotone cubics, and within short bridges cubic splines."""
+    from scipy.interpolate import CubicSpline, PchipInterpolator  # they take long to load
+
+    moved = PchipInterpolator(measured, values)(time)
+    if short.any():
+        moved[short] = CubicSpline(measured, values)(time[short])
+    return np.asarray(moved)
 
 
 def _commanded(
