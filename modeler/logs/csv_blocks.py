@@ -24,7 +24,7 @@ class CsvBlocks:
             check_csv(path)
             with path.open("rb") as file:
                 header = file.readline()
-                while not header.strip():
+                while header and not header.strip():
                     header = file.readline()
                 self._start = file.tell()
                 lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
