@@ -297,8 +297,19 @@ def test_windows_that_all_rest_need_the_whole_log(small_windows):
     log = noisy_log(seconds=120.0)
     q = np.tile(log.q[:1], (log.rows, 1))
     q[400:480] = log.q[400:480]
-    with pytest.raises(WholeNeeded, match="in all windows of a long log"):
+    with pytest.raises(WholeNeeded, match="found in the 4 windows by which long"):
         stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
+
+
+def test_what_is_wrong_in_one_window_is_not_said_of_all(small_windows):
+    """One value that cannot be, in the first of four windows."""
+    log = noisy_log(seconds=60.0)
+    tau = log.tau.copy()
+    tau[1600, 0] = 1e15
+    with pytest.raises(WholeNeeded, match=r"tau of joint 1 is 1e\+15 at 8 s") as told:
+        stream(ARM, [MemorySource(dataclasses.replace(log, tau=tau))],
+               Processing(keep_damaged=True), rows=ROWS)  # fmt: skip
+    assert "all windows" not in str(told.value)
 
 
 def test_another_zero_of_an_encoder_needs_the_whole_log():
