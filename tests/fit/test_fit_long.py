@@ -312,6 +312,25 @@ def test_what_is_wrong_in_one_window_is_not_said_of_all(small_windows):
     assert "all windows" not in str(told.value)
 
 
+@pytest.mark.parametrize("factor", [1e3, 1e-3])
+def test_a_time_that_changes_its_unit_is_told_by_the_windows(factor, small_windows, monkeypatch):
+    log = noisy_log(seconds=60.0)
+    time = log.time.copy()
+    time[6000:] = time[6000] + factor * (time[6000:] - time[6000])
+    monkeypatch.setattr(streamed, "reduce_chunk", None)  # no row is reduced
+    with pytest.raises(DataError, match=r"column time: a row every 0\.005 s at 7\.5 s and every"):
+        stream(ARM, [MemorySource(dataclasses.replace(log, time=time))], rows=ROWS)
+
+
+def test_a_logger_that_is_slow_while_the_robot_rests_has_one_unit(small_windows):
+    log = noisy_log(seconds=60.0)
+    time, q = log.time.copy(), log.q.copy()
+    time[9000:] = time[9000] + 200.0 * (time[9000:] - time[9000])
+    q[9000:] = q[9000]
+    slow = dataclasses.replace(log, time=time, q=q)
+    assert survey(ARM, [MemorySource(slow)], Processing(), Known(), ROWS).windows == 4
+
+
 def test_another_zero_of_an_encoder_needs_the_whole_log():
     log = noisy_log()
     q = log.q.copy()
