@@ -23,16 +23,19 @@ static const double home[N] = { 2.2, 0.9 };
 static double difference(int state)
 {
     double q[N], qd[N], qdd[N], beta[C], phi[N * C], M[N * N], tau[N], g[N], c[N], f[N];
+    const double at = (double)state;
     double worst = 0.0;
     int status = 0;
 
     for (int i = 0; i < N; i++) {
-        q[i] = home[i] + SPREAD * state * sin(1.0 + i);
-        qd[i] = (i % 2 ? -1.0 : 1.0) * (1.0 + 0.1 * i + 0.2 * state);
-        qdd[i] = 3.0 * cos(2.0 * i + state);
+        const double own = (double)i;
+
+        q[i] = home[i] + SPREAD * at * sin(1.0 + own);
+        qd[i] = (i % 2 ? -1.0 : 1.0) * (1.0 + 0.1 * own + 0.2 * at);
+        qdd[i] = 3.0 * cos(2.0 * own + at);
     }
     for (int k = 0; k < C; k++)
-        beta[k] = 1.0 + 0.1 * k;
+        beta[k] = 1.0 + 0.1 * (double)k;
     status |= five_bar_base_regressor(q, qd, qdd, phi);
     status |= five_bar_inverse_dynamics(q, qd, qdd, beta, tau);
     status |= five_bar_inertia_matrix(q, beta, M);

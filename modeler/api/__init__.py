@@ -16,6 +16,7 @@ figure (`plot(name)`), and HTML for a notebook; docs/python.md lists them. The f
 that a stage has too are that stage's, with the usual choices; use the stages for others.
 """
 
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import modeler.notebook as notebook
@@ -39,6 +40,8 @@ else:
             import modeler.api.door as door
 
             found = door.checked(getattr(chain, name))
+        elif name == "__all__":
+            found = _offered()
         elif name.startswith("__"):
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         else:
@@ -47,6 +50,13 @@ else:
             found = getattr(entries, name)
         globals()[name] = found
         return found
+
+    def _offered() -> list[str]:
+        """What `from modeler.api import *` brings: all that `entries` offers."""
+        import modeler.api.entries as entries
+
+        names = vars(entries).items()
+        return sorted(n for n, it in names if n[0] != "_" and not isinstance(it, ModuleType))
 
     def __dir__() -> list[str]:
         import modeler.api.entries as entries

@@ -5,18 +5,14 @@ in the order of the blocks: results depend on nothing but the samples, however m
 are.
 """
 
-import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 
 from modeler.compiled.bind_fused import Functions, FusedLibrary, Samples, fused_library
-
-T = TypeVar("T")
+from modeler.compiled.threads import mapped
 
 BLOCK = 16384
 """Samples that are reduced by themselves."""
@@ -125,7 +121,7 @@ def of_samples(
         )
         return Triangles(pattern, own.packed, own.rows, bad)
 
-    return _merged(library, pattern, _mapped(one, _blocks(len(given.q), BLOCK)), state)
+    return _merged(library, pattern, mapped(one, _blocks(len(given.q), BLOCK)), state)
 
 
 def products_of_samples(
@@ -158,7 +154,7 @@ def products_of_samples(
         return out
 
     total = np.zeros(sum(sizes))
-    for part in _mapped(one, _blocks(len(given.q), BLOCK)):
+    for part in mapped(one, _blocks(len(given.q), BLOCK)):
         total += part
     parts = np.split(total, np.cumsum(sizes)[:-1])
     return [
@@ -197,7 +193,7 @@ def of_dense(
         own = of_rows(pattern, phi, tau, use & ~left[:, None])
         return Triangles(pattern, own.packed, own.rows, left)
 
-    return _merged(library, pattern, _mapped(one, _blocks(len(given.q), _DENSE)), state)
+    return _merged(library, pattern, mapped(one, _blocks(len(given.q), _DENSE)), state)
 
 
 def of_rows(
@@ -248,13 +244,3 @@ def _merged(
 
 def _blocks(samples: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, samples)) for i in range(0, samples, size)]
-
-
-def _mapped(function: Callable[[slice], T], blocks: list[slice]) -> Iterator[T]:
-    """The function of each block, in their order; in threads where there are several."""
-    threads = min(len(blocks), os.cpu_count() or 1)
-    if threads < 2:
-        yield from map(function, blocks)
-        return
-    with ThreadPoolExecutor(threads) as pool:
-        yield from pool.map(function, blocks)

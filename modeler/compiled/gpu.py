@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.checks import as_mask, as_samples, same_samples
+from modeler.core.checks import as_mask, as_samples, no_signals, same_samples
 from modeler.core.contract import CUDA_THREADS, Emitted, ModuleSpec
 from modeler.core.errors import BuildError, ManifestError, ShapeError
 
@@ -104,7 +104,9 @@ class GpuModel:
     def _states(self, arrays: dict[str, Any], s: Any) -> list[Any]:
         """The arrays on the processor, then the signals if there are any."""
         joints, signals = len(self.spec.joints), len(self.spec.signals)
-        if signals and s is None:
+        if not signals:
+            no_signals(s, self.spec.robot)
+        elif s is None:
             raise ShapeError(f"{self.spec.robot}: its effects read signals; give s")
         wanted = {name: (array, joints) for name, array in arrays.items()}
         wanted |= {"s": (s, signals)} if signals else {}

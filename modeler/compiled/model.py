@@ -10,7 +10,7 @@ from modeler.compiled.bind import Library, check_names
 from modeler.compiled.build import build_library
 from modeler.compiled.reducing import Reducing
 from modeler.compiled.tiling import Tiling, checked_out
-from modeler.core.checks import as_samples, as_vector, same_samples
+from modeler.core.checks import as_samples, as_vector, no_signals, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import LoopError, ManifestError, ShapeError
 from modeler.core.presented import Presented
@@ -116,12 +116,12 @@ class CompiledModel(Tiling, Reducing, Presented):
                 )
             return self._evaluate("friction", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
         if self.spec.closure is None:
-            return self._evaluate("friction", {"qd": qd}, beta)
+            return self._evaluate("friction", {"qd": qd}, beta, s)
         if q is None:
             raise ShapeError(
                 f"{self.spec.robot} has loops: its friction depends on the positions; give q"
             )
-        return self._evaluate("friction", {"q": q, "qd": qd}, beta)
+        return self._evaluate("friction", {"q": q, "qd": qd}, beta, s)
 
     def close(self, q: Any) -> np.ndarray:
         """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.
@@ -206,9 +206,10 @@ class CompiledModel(Tiling, Reducing, Presented):
         return out[0]
 
     def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
-        """(n, m) signals of effects; None where the robot has none."""
+        """(n, m) signals of effects; None where the robot has none, and must be given none."""
         wanted = len(self.spec.signals)
         if not wanted:
+            no_signals(s, self.spec.robot)
             return None
         if s is None:
             names = ", ".join(f"{x.kind} {x.joint}".strip() for x in self.spec.signals)
@@ -226,14 +227,14 @@ class CompiledModel(Tiling, Reducing, Presented):
         function: FunctionSpec = self._functions[role]
         given = self._states(states)
         samples = len(next(iter(given.values())))
-        if beta is not None:
+        names = [argument.name for argument in function.inputs]
+        if "beta" in names:
             given["beta"] = as_vector(beta, "beta", len(self.spec.base))
-        if any(argument.name == "s" for argument in function.inputs):
-            signals = self._signals(s, samples)
-            assert signals is not None
+        signals = self._signals(s, samples) if "s" in names or s is not None else None
+        if signals is not None:
             given["s"] = signals
         out = np.empty((samples, *function.outputs[0].shape))
-        inputs = [given[argument.name] for argument in function.inputs]
+        inputs = [given[name] for name in names]
         if role == "base_regressor" and self._fill(inputs, out, dense=True):
             return out
         status = self._no_status(samples) if function.status else None

@@ -4,17 +4,15 @@ What a sample gives depends on nothing but that sample, so neither do results de
 of threads. They are equal to those of the scalar functions but for roundings.
 """
 
-import os
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from modeler.compiled.bind import Library
 from modeler.compiled.bind_tile import TileLibrary, tile_library
+from modeler.compiled.threads import mapped, shares
 from modeler.core.contract import FunctionSpec, ModuleSpec
 from modeler.core.errors import ManifestError, ShapeError
 
@@ -72,11 +70,8 @@ class Tiling:
         def part(piece: slice) -> None:
             tiles.fill([array[piece] for array in inputs], rows[piece], dense)
 
-        threads = max(1, min(_processors(), samples // _SLICE))
-        borders = [samples * k // threads for k in range(threads + 1)]
-        pieces = [slice(a, b) for a, b in pairwise(borders)]
-        with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(part, pieces))
+        for _ in mapped(part, shares(samples, _SLICE)):
+            pass
         return True
 
     def _tile(self, samples: int) -> int:
@@ -94,13 +89,6 @@ class Tiling:
 
     def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
         raise NotImplementedError
-
-
-def _processors() -> int:
-    """How many this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:

@@ -5,11 +5,11 @@ import shlex
 import shutil
 import subprocess
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+from modeler.compiled.threads import mapped
 from modeler.core.errors import BuildError
 
 _INSTALL = (
@@ -149,8 +149,7 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
         return result
 
     # Threads only wait here: each for a compiler that is a process of its own.
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        objects = list(pool.map(compile_one, sources))
+    objects = list(mapped(compile_one, sources))
     _checked(tools, ["-shared", "-o", str(output), *objects, "-lm"])
 
 

@@ -50,6 +50,16 @@ def as_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
     return np.ascontiguousarray(array)
 
 
+def no_signals(value: Any, robot: str) -> None:
+    """Nothing, for a robot whose effects read no signals: `value` must hold none.
+
+    Raises:
+        ShapeError: it holds some.
+    """
+    if value is not None and np.size(value):
+        raise ShapeError(f"{robot}: got s, but its effects read no signals; leave s out")
+
+
 def as_vector(value: Any, name: str, length: int) -> np.ndarray:
     """`value` as a C-contiguous float64 array (length,).
 

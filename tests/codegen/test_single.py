@@ -117,7 +117,7 @@ def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_pat
     made = emitted(name)
     for file, text in made.files.items():
         (tmp_path / file).write_text(text)
-    flags = " ".join([*STRICT[1:4], "-Wshadow", "-Werror", *FLOATS])
+    flags = " ".join([*STRICT[1:], *FLOATS])
     make = ["make", "-s", "-C", str(tmp_path), f"CC={compiler(cc)}", f"CFLAGS={flags} -O1"]
     said = subprocess.run([*make, "check", "examples"], capture_output=True, text=True, check=False)
     assert said.returncode == 0, said.stdout + said.stderr

@@ -1,11 +1,9 @@
 """Triangles without W: against numpy's QR, the law R^T R = W^T W, and rows that are left out."""
 
-import os
-
 import numpy as np
 import pytest
 
-from modeler.compiled import fused
+from modeler.compiled import fused, threads
 from modeler.compiled.bind_fused import fused_library
 from modeler.core.errors import ShapeError
 from tests.modules import compiled, states
@@ -145,8 +143,8 @@ def test_threads_and_blocks_give_the_same_bits(monkeypatch):
     tau = np.random.default_rng(7).normal(size=q.shape)
     monkeypatch.setattr(fused, "BLOCK", 64)
     found = []
-    for threads in (1, 2, 7):
-        monkeypatch.setattr(os, "cpu_count", lambda threads=threads: threads)
+    for count in (1, 2, 7):
+        monkeypatch.setattr(threads, "processors", lambda count=count: count)
         found.append(wrist.triangles(q, qd, qdd, tau))
     for own in found[1:]:
         np.testing.assert_array_equal(own.packed, found[0].packed)
@@ -221,3 +219,56 @@ def test_wrong_arrays_are_refused_by_name():
         wrist.triangles(q, qd, qdd, q, use=np.ones((5, 3), dtype=np.int64))
     with pytest.raises(ShapeError, match="different numbers of samples"):
         wrist.triangles(q, qd, qdd, np.ones((4, 3)))
+
+
+def test_every_array_but_weights_is_needed():
+    wrist = compiled("wrist")
+    motion = states(3, 5)
+    for name, place in (("q", 0), ("qd", 1), ("qdd", 2), ("tau", 3)):
+        given = [*motion, motion[0]]
+        given[place] = None
+        with pytest.raises(ShapeError, match=f"^{name}: got no array of real numbers"):
+            wrist.triangles(*given)
+        with pytest.raises(ShapeError, match=f"^{name}: got no array of real numbers"):
+            wrist.products(*given, [1, 1, 1])
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -0.5])
+def test_weights_in_use_are_finite_and_not_negative(value):
+    q, qd, qdd = states(3, 5)
+    weight, use = np.zeros((5, 3)), np.ones((5, 3), dtype=bool)
+    weight[4, 1] = value
+    for name in ("wrist", "orthoglide-2003"):
+        with pytest.raises(ShapeError, match=f"weight: got {value} in row 4, column 1"):
+            compiled(name).triangles(q, qd, qdd, q, weight=weight)
+    use[4, 1] = False
+    assert compiled("wrist").triangles(q, qd, qdd, q, use=use, weight=weight).rows[1] == 4
+
+
+def test_a_state_is_of_the_same_robot():
+    wrist, other = compiled("wrist"), compiled("two-link")
+    motion = states(2, 5)
+    state = other.triangles(*motion, motion[0])
+    q, qd, qdd = states(3, 5)
+    with pytest.raises(ShapeError, match=r"state: got triangles of another robot \(2 joints"):
+        wrist.triangles(q, qd, qdd, q, state=state)
+    with pytest.raises(ShapeError, match="state: got str, expected what `triangles` gave"):
+        wrist.triangles(q, qd, qdd, q, state="x")
+
+
+@pytest.mark.parametrize(
+    ("last", "first", "says"),
+    [
+        (None, 0, "last: got None, expected 3 whole numbers"),
+        ([1, 1], 0, r"last: got \[1, 1\], expected 3 whole numbers"),
+        ([0.5, 1.0, 1.0], 0, "last: got .* expected 3 whole numbers"),
+        ([1, 1, fused.PAST + 1], 0, f"expected numbers from 0 to {fused.PAST}"),
+        ([1, -1, 1], 0, "expected numbers from 0"),
+        ([1, 1, 1], -1, "first: got -1, expected a whole number"),
+        ([1, 1, 1], None, "first: got None, expected a whole number"),
+    ],
+)
+def test_products_are_asked_for_by_whole_numbers(last, first, says):
+    q, qd, qdd = states(3, 5)
+    with pytest.raises(ShapeError, match=says):
+        compiled("wrist").products(q, qd, qdd, q, last, first=first)

@@ -108,6 +108,10 @@ def test_what_is_refused(gpu):
         model.nonzeros(there, qd, qdd)
     with pytest.raises(ShapeError, match=r"q: got shape \(5, 2\), expected \(samples, 3\)"):
         model.nonzeros(on_device(q[:, :2]), qd, qdd)
+    with pytest.raises(ShapeError, match="got s, but its effects read no signals; leave s out"):
+        model.nonzeros(q, qd, qdd, s=np.zeros((5, 1)))
+    with pytest.raises(ShapeError, match="tau: got no array of real numbers"):
+        model.gram(q, qd, qdd, None)
     assert model.nonzeros(on_device(q), qd, qdd).shape == (len(model.spec.nonzeros), 5)
 
 

@@ -155,3 +155,35 @@ def test_threads_may_share_a_model(wrist):
     for thread in threads:
         thread.join()
     assert not wrong
+
+
+@pytest.mark.parametrize("name", ["wrist", "five-bar"])
+def test_signals_that_no_effect_reads_are_refused(name):
+    """They would change nothing; whoever gives them thinks of another robot."""
+    model = compiled(name)
+    q, qd, qdd = (np.zeros((4, len(model.spec.joints))) for _ in range(3))
+    if model.spec.closure is not None:
+        q += [model.spec.closure.home[i] for i in model.spec.closure.given]
+    beta, s = np.ones(len(model.spec.base)), np.zeros((4, 1))
+    calls = {
+        "base_regressor": (q, qd, qdd),
+        "regressor": (q, qd, qdd),
+        "observation": (q, qd, qdd),
+        "inverse_dynamics": (q, qd, qdd, beta),
+        "friction": (qd, beta, q, qdd),
+        "triangles": (q, qd, qdd, q),
+    }
+    if model.spec.closure is None:
+        ones = np.ones(len(model.spec.joints), dtype=int)
+        calls |= {"nonzeros": (q, qd, qdd), "products": (q, qd, qdd, q, ones)}
+    for function, given in calls.items():
+        getattr(model, function)(*given, s=np.zeros((4, 0)))  # none at all
+        with pytest.raises(ShapeError, match="got s, but its effects read no signals; leave s out"):
+            getattr(model, function)(*given, s=s)
+
+
+def test_parameters_are_needed(wrist):
+    q = np.zeros((2, 3))
+    for call in (wrist.gravity, lambda q, beta: wrist.inverse_dynamics(q, q, q, beta)):
+        with pytest.raises(ShapeError, match="beta: got no array of real numbers"):
+            call(q, None)

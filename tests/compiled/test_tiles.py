@@ -8,6 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
+import modeler.compiled.threads as threads
 import modeler.compiled.tiling as tiling
 from modeler.codegen import write_emitted
 from modeler.compiled import load, load_folder
@@ -136,8 +137,8 @@ def test_results_do_not_depend_on_place_number_or_threads(tiled, monkeypatch):
     for begin in (1, 3, 8, 50):
         part = model.nonzeros(*(array[begin:] for array in motion))
         np.testing.assert_array_equal(part, whole[begin:])
-    for threads in (1, 2, 5):
-        monkeypatch.setattr(tiling, "_processors", lambda threads=threads: threads)
+    for count in (1, 2, 5):
+        monkeypatch.setattr(threads, "processors", lambda count=count: count)
         np.testing.assert_array_equal(model.nonzeros(*motion), whole)
 
 

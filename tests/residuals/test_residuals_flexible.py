@@ -1,12 +1,12 @@
 """The flexible rival, where it is known how much of a residual is noise."""
 
-import time
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+import modeler.residuals.flexible as rival
 from modeler.residuals.features import Measured, functions
 from modeler.residuals.flexible import flexible, stretches
 
@@ -93,12 +93,25 @@ def test_the_set_that_suffices_is_told_and_the_answer_is_the_same_twice() -> Non
     np.testing.assert_array_equal(found.prediction, flexible(functions(m), y, fold()).prediction)
 
 
-def test_seven_joints_take_less_than_a_second() -> None:
-    residuals = [noise(j) + np.sin(3.0 * measured(0).q[:, 1]) for j in range(JOINTS)]
-    start = time.process_time()
-    for j, residual in enumerate(residuals):
-        flexible(functions(measured(0, j)), residual, fold())
-    assert time.process_time() - start < 1.0
+@pytest.mark.parametrize(("rows", "joints"), [(800, 7), (1600, 7), (1600, 3)])
+def test_work_does_not_grow_with_rows_or_pairs_of_joints(
+    rows: int, joints: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two ridges of each set, once for every two folds that are left out, of 150 columns at most:
+    rows enter products alone, another joint adds one set."""
+    sizes: list[int] = []
+    solved = rival._solved
+
+    def counted(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
+        sizes.append(len(gram))
+        return solved(gram, ridge, side)
+
+    monkeypatch.setattr(rival, "_solved", counted)
+    sets = functions(measured(0, 0, rows, joints))
+    flexible(sets, noise(0, rows=rows), fold(rows))
+    assert len(sets) <= 4 + joints
+    assert len(sizes) == 2 * 36 * len(sets)
+    assert max(sizes) <= 150
 
 
 def test_many_rows_are_all_predicted() -> None:
