@@ -114,8 +114,8 @@ def survey(
         observation = observed(model, seen, prepared)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         count = sum(len(own) for own in windows)
-        known = "the window" if count == 1 else f"the {count} windows"
-        raise WholeNeeded(f"{error}; found in {known} by which long logs are judged") from None
+        where = "the window" if count == 1 else f"the {count} windows"
+        raise WholeNeeded(f"{error}; found in {where} by which long logs are judged") from None
     chosen, parts = observation.report.processing, shafts(model)
     chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
