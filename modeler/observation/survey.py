@@ -113,8 +113,7 @@ def survey(
         prepared = prepare(model.spec, seen, processing)
         observation = observed(model, seen, prepared)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
-        count = sum(len(own) for own in windows)
-        where = "the window" if count == 1 else f"the {count} windows"
+        where = f"the {sum(len(own) for own in windows)} windows"
         raise WholeNeeded(f"{error}; found in {where} by which long logs are judged") from None
     chosen, parts = observation.report.processing, shafts(model)
     chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
