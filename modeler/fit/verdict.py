@@ -69,28 +69,25 @@ def with_verdict(
         data: all rows that were fitted, where the observation has a part of them only.
     """
     rows = _rows(observation, bare)
-    sigma = np.array([joint.sigma for joint in result.joints])
-    whole = data is not None
-    if data is None:
-        data = compressed(observation, rows)
-    seen = crossed(observation, rows, sigma, refit)
+    part, data = data is not None, data or compressed(observation, rows)
+    seen = crossed(observation, rows, np.array([joint.sigma for joint in result.joints]), refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
     found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
-    if whole:
+    if part:
         found += unshown(result, seen, _scale(data, observation, rows))
-        seen = dataclasses.replace(seen, errors=np.fmax(seen.errors, _errors(result)))
+        seen = _no_better(seen, result)
     found += systematic(result, _lasting(observation, rows, result))
     found += undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
-    directions = friction_by_direction(model.spec, result)
-    return dataclasses.replace(result, verdict=_verdict(found, result, seen), directions=directions)
+    verdict, directions = _verdict(found, result, seen), friction_by_direction(model.spec, result)
+    return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 
-def _errors(result: FitResult) -> np.ndarray:
-    """(n,) relative errors on all rows of the fit; nan without any."""
-    return np.array([np.nan if j.relative_error is None else j.relative_error
-                     for j in result.joints])  # fmt: skip
+def _no_better(seen: Crossed, result: FitResult) -> Crossed:
+    """What windows promise, but no better than the errors on all rows of the fit."""
+    errors = [np.nan if j.relative_error is None else j.relative_error for j in result.joints]
+    return dataclasses.replace(seen, errors=np.fmax(seen.errors, errors))
 
 
 def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.ndarray:

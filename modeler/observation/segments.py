@@ -125,7 +125,6 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     time = np.linspace(measured[0], measured[-1], samples)
     step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse
     uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
-
     near = np.arange(samples) if uniform else _nearest(measured, time)
     bridged = np.abs(time - measured[near]) > _NEAR * step
     short = bridged & ~longer_runs(bridged, SHORT)

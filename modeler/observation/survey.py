@@ -38,6 +38,9 @@ SECONDS = 8.0
 LONGEST = 65_536
 """... but no more rows than these."""
 
+UNIT = 100.0
+"""Ratio of time steps of two motions in a log that another unit of time makes: it is 1000 or so."""
+
 _PLACES = (0.5, 0.25, 0.75, 0.1, 0.9, 0.4, 0.6)  # of a window in its part of a log
 _TRAVEL = 1e-3  # rad or m: less is rest
 
@@ -110,7 +113,8 @@ def survey(
         prepared = prepare(model.spec, seen, processing)
         observation = observed(model, seen, prepared)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
-        raise WholeNeeded(f"{error}; so it is in all windows of a long log") from None
+        where = f"the {sum(len(own) for own in windows)} windows"
+        raise WholeNeeded(f"{error}; found in {where} by which long logs are judged") from None
     chosen, parts = observation.report.processing, shafts(model)
     chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
@@ -144,7 +148,28 @@ def _windows(source: Source, count: int) -> list[Log]:
         log = _moving(source, (k / count, (k + 1) / count), size)
         if not found or log.time[0] > found[-1].time[-1]:
             found.append(log)
+    _check_unit(found)
     return found
+
+
+def _check_unit(windows: Sequence[Log]) -> None:
+    """Refuse a log whose time changes its unit: at one rate, its second part is gaps or years.
+
+    A logger may be slow while the robot rests; windows of motion count.
+
+    Raises:
+        DataError: rows of two windows come at rates that no logger has both of.
+    """
+    moving = [log for log in windows if log.rows > 1 and _moves(log)]
+    for log in moving[1:]:
+        first, ratio = moving[0], log.step / moving[0].step
+        if max(ratio, 1.0 / ratio) > UNIT:
+            raise DataError(
+                f"{log.name}: column time: a row every {first.step:.3g} s at {first.time[0]:.6g} s "
+                f"and every {log.step:.3g} s at {log.time[0]:.6g} s; expected one unit, seconds, "
+                "and about one rate; write the time of all rows in seconds, or split the file "
+                "where it changes"
+            )
 
 
 def _moving(source: Source, part: tuple[float, float], size: int) -> Log:

@@ -297,8 +297,38 @@ def test_windows_that_all_rest_need_the_whole_log(small_windows):
     log = noisy_log(seconds=120.0)
     q = np.tile(log.q[:1], (log.rows, 1))
     q[400:480] = log.q[400:480]
-    with pytest.raises(WholeNeeded, match="in all windows of a long log"):
+    with pytest.raises(WholeNeeded, match="found in the 4 windows by which long"):
         stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
+
+
+def test_what_is_wrong_in_one_window_is_not_said_of_all(small_windows):
+    """One value that cannot be, in the first of four windows."""
+    log = noisy_log(seconds=60.0)
+    tau = log.tau.copy()
+    tau[1600, 0] = 1e15
+    with pytest.raises(WholeNeeded, match=r"tau of joint 1 is 1e\+15 at 8 s") as told:
+        stream(ARM, [MemorySource(dataclasses.replace(log, tau=tau))],
+               Processing(keep_damaged=True), rows=ROWS)  # fmt: skip
+    assert "all windows" not in str(told.value)
+
+
+@pytest.mark.parametrize("factor", [1e3, 1e-3])
+def test_a_time_that_changes_its_unit_is_told_by_the_windows(factor, small_windows, monkeypatch):
+    log = noisy_log(seconds=60.0)
+    time = log.time.copy()
+    time[6000:] = time[6000] + factor * (time[6000:] - time[6000])
+    monkeypatch.setattr(streamed, "reduce_chunk", None)  # no row is reduced
+    with pytest.raises(DataError, match=r"column time: a row every 0\.005 s at 7\.5 s and every"):
+        stream(ARM, [MemorySource(dataclasses.replace(log, time=time))], rows=ROWS)
+
+
+def test_a_logger_that_is_slow_while_the_robot_rests_has_one_unit(small_windows):
+    log = noisy_log(seconds=60.0)
+    time, q = log.time.copy(), log.q.copy()
+    time[9000:] = time[9000] + 200.0 * (time[9000:] - time[9000])
+    q[9000:] = q[9000]
+    slow = dataclasses.replace(log, time=time, q=q)
+    assert survey(ARM, [MemorySource(slow)], Processing(), Known(), ROWS).windows == 4
 
 
 def test_another_zero_of_an_encoder_needs_the_whole_log():
