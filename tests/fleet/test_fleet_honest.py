@@ -1,4 +1,4 @@
-"""What a fleet must not say: of logs that do not fit, of leaps at the end, of what it cannot see."""
+"""What a fleet must not say of logs that do not fit, of leaps at the end, of what it cannot see."""
 
 import dataclasses
 
@@ -68,7 +68,8 @@ def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> N
     scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))
     found = judged(logs(scene, seed))
     assert found.left == ()
-    assert [(f.machine, f.shape, f.begin) for f in found.findings][0] == ("r1", "jump", "day3")
+    first = found.findings[0]
+    assert (first.machine, first.shape, first.begin) == ("r1", "jump", "day3")
 
 
 def test_logs_of_more_joints_are_of_another_robot() -> None:
@@ -116,7 +117,7 @@ def test_a_machine_that_hides_a_parameter_is_told() -> None:
 
 def still(log: Log, model: CompiledModel, rng: np.random.Generator) -> Log:
     """The same with joint 2 held still but for a tenth of a degree."""
-    t, q, qd, qdd = motion(rng, 2, 12.0)
+    _, q, qd, qdd = motion(rng, 2, 12.0)
     for own in (q, qd, qdd):
         own[:, 1] *= 2e-3
     exact = model.base_regressor(q, qd, qdd) @ parameters(4, model)
