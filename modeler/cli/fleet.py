@@ -74,6 +74,8 @@ def _files(places: Sequence[str]) -> list[str]:
     found = []
     for place in places:
         folder = Path(place)
+        if not Path(file_and_at(place)[0]).exists():
+            raise DataError(f"{place}: no such file or folder; expected logs, or folders of logs")
         if not folder.is_dir() or (folder / "metadata.yaml").is_file():  # a ROS 2 bag is a log
             found.append(place)
             continue

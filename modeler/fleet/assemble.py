@@ -15,6 +15,7 @@ from modeler.fleet.result import Finding, Fleet, Followed, Values
 from modeler.fleet.series import line_of
 from modeler.fleet.summary import Left, LogSummary
 from modeler.fleet.times import in_time
+from modeler.fleet.unseen import not_seen, scatter_known
 from modeler.fleet.warmth import warmth_of
 
 
@@ -45,9 +46,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
     fit = joint_fit(layout, logs)
     found = judged(layout, fit, logs, at)
     findings = [*_drifting(found, logs), *_apart(found, logs)]
-    machines: dict[str, tuple[str, ...]] = {}
-    for each in logs:
-        machines[each.named.machine] = (*machines.get(each.named.machine, ()), each.named.period)
+    machines = _machines(logs)
     return Fleet(
         robot=spec.robot,
         unit=unit,
@@ -58,7 +57,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         aside=fit.aside,
         left=left,
         doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
-        notes=(*_processed(used[0]), *_notes(found, machines), *said, *_unseen(apart, machines)),
+        notes=(*_processed(used[0]), *_notes(found, logs), *said, *_unseen(apart, machines)),
     )
 
 
@@ -66,11 +65,12 @@ def _check(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> None:
     if not used:
         raise DataError(f"fleet: none of {len(left)} logs can be used; the first: {left[0][1]}")
     machines = sorted({each.named.machine for each in used})
+    gone = f" (left out: {len(left)}, the first: {left[0][1]})" if left else ""
     if len(machines) == len(used) and len(machines) < LEAST:
         raise DataError(
-            f"fleet: got one log each of {', '.join(machines)}; expected two periods of a machine, "
-            f"or {LEAST} machines; the folder of a log is its machine unless --name or --list says "
-            "otherwise"
+            f"fleet: got one log each of {', '.join(machines)}{gone}; expected two periods of a "
+            f"machine, or {LEAST} machines; the folder of a log is its machine unless --name or "
+            "--list says otherwise"
         )
     for k, each in enumerate(used):
         for other in used[:k]:
@@ -178,8 +178,17 @@ def _unseen(left: Sequence[Left], machines: dict[str, tuple[str, ...]]) -> list[
     return [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
 
 
-def _notes(found: Judged, machines: dict[str, tuple[str, ...]]) -> list[str]:
-    said = []
+def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:
+    """Periods by machine."""
+    machines: dict[str, tuple[str, ...]] = {}
+    for each in logs:
+        machines[each.named.machine] = (*machines.get(each.named.machine, ()), each.named.period)
+    return machines
+
+
+def _notes(found: Judged, logs: Sequence[LogSummary]) -> list[str]:
+    machines = _machines(logs)
+    said = [*not_seen(found, logs), *scatter_known(found, len(logs))]
     single = [name for name, periods in machines.items() if len(periods) < 2]
     if single:
         said.append(

@@ -113,6 +113,10 @@ def _expression(pattern: str) -> str:
             f"--name {pattern}: neither {{machine}} nor {{period}} stands in it; expected a "
             f"pattern such as {PATTERN}"
         )
+    if "{period}" not in seen:
+        raise DataError(
+            f"--name {pattern}: no {{period}} stands in it; expected one, as in {PATTERN}"
+        )
     return f"(?:^|/){''.join(parts)}$" if not pattern.startswith("/") else f"^{''.join(parts)}$"
 
 

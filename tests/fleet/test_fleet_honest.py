@@ -1,16 +1,17 @@
-"""What a fleet must not say: of logs that do not fit, of leaps at the end, of what it cannot see."""
+"""What a fleet must not say of logs that do not fit, of leaps at the end, of what it cannot see."""
 
 import dataclasses
 
 import numpy as np
 import pytest
 
+from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.fleet import Fleet, Left, LogSummary, Named, fleet_of
 from modeler.fleet.summary import summary
 from modeler.fleet.text import fleet_lines, sentence
 from modeler.observation import Log, Processing
-from tests.fleet.machines import Planted, Scene, compiled, logs, summaries
+from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters, summaries
 
 GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
 
@@ -67,7 +68,8 @@ def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> N
     scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))
     found = judged(logs(scene, seed))
     assert found.left == ()
-    assert [(f.machine, f.shape, f.begin) for f in found.findings][0] == ("r1", "jump", "day3")
+    first = found.findings[0]
+    assert (first.machine, first.shape, first.begin) == ("r1", "jump", "day3")
 
 
 def test_logs_of_more_joints_are_of_another_robot() -> None:
@@ -96,3 +98,42 @@ def test_a_leap_in_the_last_period_is_not_said_to_stay() -> None:
             compiled().spec, summaries(Scene(planted=(Planted(0, "Fs2", plan),)), 3)
         ).findings
         assert told in sentence(one, "periods")
+
+
+def test_a_machine_that_hides_a_parameter_is_told() -> None:
+    """Joint 2 of r2 hardly moves: its friction may have risen or not."""
+    pairs, model = [], compiled()
+    rng = np.random.default_rng(4)
+    for named, log in logs(Scene(machines=3, periods=4, noise=0.02), 4):
+        if named.machine == "r2":
+            log = still(log, model, rng)
+        pairs.append((named, log))
+    found = judged(pairs)
+    [line] = [note for note in found.notes if note.startswith("machine ")]
+    assert line.startswith("machine r2: its logs tell ") and "Fv2 (" in line
+    plain = judged(logs(Scene(machines=3, periods=4, noise=0.02), 4))
+    assert not [note for note in plain.notes if note.startswith("machine ")]
+
+
+def still(log: Log, model: CompiledModel, rng: np.random.Generator) -> Log:
+    """The same with joint 2 held still but for a tenth of a degree."""
+    _, q, qd, qdd = motion(rng, 2, 12.0)
+    for own in (q, qd, qdd):
+        own[:, 1] *= 2e-3
+    exact = model.base_regressor(q, qd, qdd) @ parameters(4, model)
+    noise = 0.1 * rng.normal(size=exact.shape)
+    return dataclasses.replace(log, q=q + 1e-5 * rng.normal(size=q.shape), tau=exact + noise)
+
+
+def test_few_logs_say_little_of_scatter() -> None:
+    spec = compiled().spec
+    for scene, few in [(Scene(machines=1, periods=3), True), (Scene(machines=2, periods=6), False)]:
+        notes = fleet_of(spec, summaries(scene, 2)).notes
+        assert any("too few to know how values scatter" in note for note in notes) == few
+
+
+def test_one_log_besides_those_left_out_says_why() -> None:
+    [one] = summaries(Scene(machines=1, periods=1), 2)
+    gone = Left(Named("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check the path")
+    with pytest.raises(DataError, match=r"left out: 1, the first: r1/b.csv: there is no such file"):
+        fleet_of(compiled().spec, [one, gone])

@@ -38,7 +38,6 @@ def test_windows_of_one_file_are_periods() -> None:
         ("{machine}/logs/*_{period}.csv", "p/r1/logs/run_7.csv", "r1", "7"),
         ("/{machine}/{period}.csv", "/r1/3.csv", "r1", "3"),
         ("day{period}.csv", "r5/day3.csv", "r5", "3"),
-        ("{machine}.csv", "x/r1.csv", "r1", "r1"),
     ],
 )
 def test_patterns(pattern: str, place: str, machine: str, period: str) -> None:
@@ -50,6 +49,7 @@ def test_patterns(pattern: str, place: str, machine: str, period: str) -> None:
     [
         ("{robot}.csv", "--name {robot}.csv: got {robot}, which says nothing; expected {machine}"),
         ("{machine}{machine}", "got {machine}, twice; expected {machine} and {period}, each once"),
+        ("{machine}.csv", "--name {machine}.csv: no {period} stands in it; expected one, as in"),
         ("run.csv", "--name run.csv: neither {machine} nor {period} stands in it; expected"),
         ("{machine}_{period}.csv", "r1/a.csv: does not fit --name {machine}_{period}.csv"),
     ],
