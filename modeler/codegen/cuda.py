@@ -19,7 +19,7 @@ from modeler.core.contract import CUDA_THREADS, ModuleSpec
 from modeler.core.errors import EmitError
 
 CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
-"""CUDA has all functions of <math.h>, and one of its own for both."""
+"""CUDA has all functions of math.h, and one of its own for both."""
 
 _SHARED = 48 * 1024
 """Bytes that the threads of a block may share on every device."""

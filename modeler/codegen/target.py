@@ -11,7 +11,7 @@ from types import MappingProxyType
 from modeler.core.choices import Precision
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "tanh", "abs", "pow")
-"""Functions of the graph that <math.h> has; `sign` is written with comparisons."""
+"""Functions of the graph that math.h has; `sign` is written with comparisons."""
 
 _MATH = {name: name for name in FUNCTIONS} | {"abs": "fabs"}
 

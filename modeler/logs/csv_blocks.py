@@ -28,7 +28,7 @@ class CsvBlocks:
                     header = file.readline()
                 self._start = file.tell()
                 lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
-            self._names = pa.csv.read_csv(pa.py_buffer(header + b"".join(lines))).column_names
+            self._names = pa.csv.read_csv(pa.py_buffer(header)).column_names
         self._line = max(1.0, sum(map(len, lines)) / max(1, len(lines)))  # bytes
 
     @property

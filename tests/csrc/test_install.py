@@ -222,7 +222,7 @@ def test_a_destination_goes_before_the_prefix(folder, tmp_path):
 def test_the_users_compiler_and_flags_win(folder):
     told = run("make", "shared", f"CC={compiler('clang')}", "CFLAGS=-O1 -g", where=folder)
     commands = re.findall(r"^clang .*", told, flags=re.MULTILINE)
-    assert len(commands) == 5 and all("-O1 -g" in c and "-O2" not in c for c in commands)
+    assert len(commands) == 7 and all("-O1 -g" in c and "-O2" not in c for c in commands)
 
 
 def test_the_check_of_the_folder_notices_a_library_that_is_not_its_own(folder):
