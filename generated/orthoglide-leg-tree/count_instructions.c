@@ -361,7 +361,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * orthoglide_leg_tree 5a5147c5811ced2c. */\n");
+    say(" * orthoglide_leg_tree d803ee67f7da5910. */\n");
     say("#define ORTHOGLIDE_LEG_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "5a5147c5811ced2c";
+    return "d803ee67f7da5910";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

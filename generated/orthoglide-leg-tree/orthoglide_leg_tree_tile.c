@@ -1,6 +1,7 @@
 /* One leg of the Orthoglide, cut open
  *
- * Functions of orthoglide_leg_tree_tile.h. This file includes itself once for every instruction set.
+ * Functions of orthoglide_leg_tree_tile.h.
+ * This file includes itself once for every instruction set.
  * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef MODELER_VERSION
@@ -52,7 +53,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "5a5147c5811ced2c";
+    return "d803ee67f7da5910";
 }
 
 #else /* for one instruction set */

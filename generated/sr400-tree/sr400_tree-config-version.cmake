@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 1) any of this C interface,
-# find_package(sr400_tree 1.62050.20065.43833) only what has the signature f2624e61ab392c0b.
-set(PACKAGE_VERSION 1.62050.20065.43833)
+# find_package(sr400_tree 1.43596.25006.18036) only what has the signature aa4c61ae46747914.
+set(PACKAGE_VERSION 1.43596.25006.18036)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

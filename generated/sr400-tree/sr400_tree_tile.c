@@ -1,6 +1,7 @@
 /* SR400, 6R arm with a parallelogram, cut open
  *
- * Functions of sr400_tree_tile.h. This file includes itself once for every instruction set.
+ * Functions of sr400_tree_tile.h.
+ * This file includes itself once for every instruction set.
  * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef MODELER_VERSION
@@ -68,7 +69,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "f2624e61ab392c0b";
+    return "aa4c61ae46747914";
 }
 
 #else /* for one instruction set */

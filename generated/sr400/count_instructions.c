@@ -361,7 +361,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * sr400 09e1ffd8fb190074. */\n");
+    say(" * sr400 1824337a0a8e22cb. */\n");
     say("#define SR400_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -1,6 +1,7 @@
 /* SR400, 6R arm with a parallelogram
  *
- * Functions of sr400_tile.h. This file includes itself once for every instruction set.
+ * Functions of sr400_tile.h.
+ * This file includes itself once for every instruction set.
  * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef MODELER_VERSION
@@ -65,7 +66,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "09e1ffd8fb190074";
+    return "1824337a0a8e22cb";
 }
 
 #else /* for one instruction set */

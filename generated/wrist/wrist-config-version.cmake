@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.63569.39904.22575) only what has the signature f8519be0582fc4b0.
-set(PACKAGE_VERSION 1.63569.39904.22575)
+# find_package(wrist 1.19154.45464.6272) only what has the signature 4ad2b19818801194.
+set(PACKAGE_VERSION 1.19154.45464.6272)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

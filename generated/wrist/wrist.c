@@ -38,7 +38,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "f8519be0582fc4b0";
+    return "4ad2b19818801194";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

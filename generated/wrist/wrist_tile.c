@@ -1,6 +1,7 @@
 /* 3R industrial wrist (Hanssen, Hovland, Brogardh)
  *
- * Functions of wrist_tile.h. This file includes itself once for every instruction set.
+ * Functions of wrist_tile.h.
+ * This file includes itself once for every instruction set.
  * Emitted by modeler, which writes over a file that was edited only with --force.
  */
 #ifndef MODELER_VERSION
@@ -46,7 +47,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "f8519be0582fc4b0";
+    return "4ad2b19818801194";
 }
 
 #else /* for one instruction set */
