@@ -18,9 +18,10 @@ def main(words: list[str] | None = None) -> int:
     """Measure what is asked for; the exit status."""
     asked = _parser().parse_args(words)
     if asked.markdown:
-        print(markdown(json.loads(Path(asked.markdown).read_text(encoding="utf-8"))))
+        report = json.loads(Path(asked.markdown).read_text(encoding="utf-8"))
+        print(markdown(report, lambda name: _named([name], asked.only)))
         return 0
-    lines = [line for line in LINES if _wanted(line, asked.only)]
+    lines = [line for line in LINES if _named([key.name for key in line.keys], asked.only)]
     if asked.list:
         for line in lines:
             for key in line.keys:
@@ -57,8 +58,7 @@ def measured(lines: list[Line], quick: bool) -> dict[str, Any]:
     return report
 
 
-def _wanted(line: Line, patterns: list[str]) -> bool:
-    names = [key.name for key in line.keys]
+def _named(names: list[str], patterns: list[str]) -> bool:
     return not patterns or any(fnmatch.filter(names, f"{pattern}*") for pattern in patterns)
 
 

@@ -18,10 +18,11 @@ _ROUNDS, _FEW = 200, 40
 _REPEATS = 3
 
 
-def _make(folder: Path, prefix: str) -> Path:
+def _make(folder: Path, prefix: str, *words: str) -> Path:
     if shutil.which("make") is None:
         raise Missing("no make on this machine")
-    subprocess.run(["make", "-s", "-C", str(folder)], check=True, capture_output=True, env=_plain())
+    command = ["make", "-s", "-C", str(folder), *words]
+    subprocess.run(command, check=True, capture_output=True, env=_plain())
     return folder / f"lib{prefix}_model.a"
 
 
@@ -34,7 +35,11 @@ def _cmake(folder: Path, prefix: str) -> Path:
     return next(build.glob(f"lib{prefix}_model.*"))
 
 
-WAYS = {"make": _make, "cmake": _cmake}
+def _native(folder: Path, prefix: str) -> Path:
+    return _make(folder, prefix, "NATIVE=1")
+
+
+WAYS = {"make": _make, "cmake": _cmake, "make_native": _native}
 
 
 def _plain() -> dict[str, str]:
