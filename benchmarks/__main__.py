@@ -30,14 +30,15 @@ def main(words: list[str] | None = None) -> int:
     if not lines:
         print(f"benchmarks: no line matches {' '.join(asked.only)}; see --list", file=sys.stderr)
         return 1
-    report = measured(lines, asked.quick)
-    if asked.json:
-        Path(asked.json).write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    measured(lines, asked.quick, Path(asked.json) if asked.json else None)
     return 0
 
 
-def measured(lines: list[Line], quick: bool) -> dict[str, Any]:
-    """The report: machine, values, and why some are missing; tells each as it comes."""
+def measured(lines: list[Line], quick: bool, place: Path | None = None) -> dict[str, Any]:
+    """The report: machine, values, and why some are missing; tells each as it comes.
+
+    It is written anew after every line, so what is there is kept where a run is ended early.
+    """
     start = time.perf_counter()
     report: dict[str, Any] = {"machine": machine(), "quick": quick, "values": {}, "missing": {}}
     for line in lines:
@@ -54,7 +55,9 @@ def measured(lines: list[Line], quick: bool) -> dict[str, Any]:
                 report["missing"][key.name] = why
             told = f"missing: {why}" if value is None else f"{value:.4g} {key.unit}"
             print(f"{key.name:<48}{told}", flush=True)
-    report["seconds"] = round(time.perf_counter() - start, 1)
+        report["seconds"] = round(time.perf_counter() - start, 1)
+        if place is not None:
+            place.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     return report
 
 
