@@ -1,6 +1,5 @@
 """Whole processes: what a user waits for, start of Python included."""
 
-import os
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -10,6 +9,15 @@ from pathlib import Path
 from benchmarks.line import Missing
 
 _TAIL = 3
+
+_BETWEEN = """
+import resource, subprocess, sys, time
+start = time.perf_counter()
+status = subprocess.call(sys.argv[1:], stdout=subprocess.DEVNULL)
+wall, used = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+print(wall, used.ru_utime + used.ru_stime, used.ru_maxrss)
+sys.exit(status)
+"""
 
 
 @dataclass(frozen=True)
@@ -38,22 +46,14 @@ def cost(command: Sequence[str]) -> Cost:
     Raises:
         Missing: it fails; quotes its last words.
     """
-    import time
-
-    with subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=_top()
-    ) as process:
-        start = time.perf_counter()
-        assert process.stderr is not None
-        said = process.stderr.read()
-        _, status, used = os.wait4(process.pid, 0)
-        wall = time.perf_counter() - start
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        words = " | ".join(said.decode(errors="replace").strip().splitlines()[-_TAIL:])
-        raise Missing(f"{' '.join(command)} ended with {process.returncode}: {words}")
-    scale = 1e6 if sys.platform == "darwin" else 1e3
-    return Cost(wall, used.ru_utime + used.ru_stime, used.ru_maxrss / scale)
+    # A process begins with the memory of the one that starts it: a small one stands between.
+    between = [sys.executable, "-S", "-c", _BETWEEN, *command]
+    done = subprocess.run(between, capture_output=True, text=True, cwd=_top(), check=False)
+    if done.returncode:
+        words = " | ".join(done.stderr.strip().splitlines()[-_TAIL:])
+        raise Missing(f"{' '.join(command)} ended with {done.returncode}: {words}")
+    wall, cpu, peak = (float(word) for word in done.stdout.split())
+    return Cost(wall, cpu, peak / (1e6 if sys.platform == "darwin" else 1e3))
 
 
 def least(command: Sequence[str], times: int) -> Cost:
