@@ -5,11 +5,12 @@ import fnmatch
 import json
 import sys
 import time
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from benchmarks.all import LINES
-from benchmarks.line import Line, Missing
+from benchmarks.line import Key, Line, Missing
 from benchmarks.machine import machine
 from benchmarks.markdown import markdown
 
@@ -42,23 +43,32 @@ def measured(lines: list[Line], quick: bool, place: Path | None = None) -> dict[
     start = time.perf_counter()
     report: dict[str, Any] = {"machine": machine(), "quick": quick, "values": {}, "missing": {}}
     for line in lines:
-        try:
-            values, why = dict(line.measure(quick)), "its peer or tool is not on this machine"
-        except Missing as missing:
-            values, why = {}, str(missing)
-        except Exception as error:  # one line that breaks must not take the others along
-            values, why = {}, f"{type(error).__name__}: {error}"
-        for key in line.keys:
-            value = values.get(key.name)
-            report["values"][key.name] = value
-            if value is None:
-                report["missing"][key.name] = why
-            told = f"missing: {why}" if value is None else f"{value:.4g} {key.unit}"
+        for key, value in _values(line, quick):
+            report["values"][key.name] = None if isinstance(value, Missing) else value
+            told = f"missing: {value}"
+            if isinstance(value, Missing):
+                report["missing"][key.name] = str(value)
+            else:
+                told = f"{value:.4g} {key.unit}"
             print(f"{key.name:<48}{told}", flush=True)
         report["seconds"] = round(time.perf_counter() - start, 1)
         if place is not None:
             place.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     return report
+
+
+def _values(line: Line, quick: bool) -> Iterator[tuple[Key, float | Missing]]:
+    """Of every key of a line, in their order."""
+    values: Mapping[str, float | Missing] = {}
+    why = Missing("not part of a quick run" if quick else "the line gave no such value")
+    try:
+        values = line.measure(quick)
+    except Missing as missing:
+        why = missing
+    except Exception as error:  # one line that breaks must not take the others along
+        why = Missing(f"{type(error).__name__}: {error}")
+    for key in line.keys:
+        yield key, values.get(key.name, why)
 
 
 def _named(names: list[str], patterns: list[str]) -> bool:

@@ -47,9 +47,9 @@ def _plain() -> dict[str, str]:
     return {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "CPPFLAGS", "LDFLAGS")}
 
 
-def _measure(quick: bool) -> Mapping[str, float]:
+def _measure(quick: bool) -> Mapping[str, float | Missing]:
     module, prefix = emitted(ROBOT), emitted(ROBOT).spec.prefix
-    tools, found = find_toolchain(), {}
+    tools, found = find_toolchain(), dict[str, float | Missing]()
     with tempfile.TemporaryDirectory() as scratch:
         ours = Path(scratch) / "ours"
         write_emitted(module, ours)
@@ -60,7 +60,8 @@ def _measure(quick: bool) -> Mapping[str, float]:
             write_emitted(module, own)
             try:
                 library = build(own, prefix)
-            except Missing:
+            except Missing as why:
+                found[f"emitted_folder_vs_project_flags.{name}"] = why
                 continue
             programs[name] = _program(Path(scratch) / f"{name}-program", tools, own, [str(library)])
         times = _interleaved(programs, _FEW if quick else _ROUNDS)

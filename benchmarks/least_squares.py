@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from benchmarks.line import Key, Line, Missing, ratio
+from benchmarks.line import Key, Line, ratio
 from benchmarks.memory import states
 from benchmarks.robots import compiled
 
@@ -18,8 +18,6 @@ def _measure(quick: bool) -> Mapping[str, float]:
     found: dict[str, float] = {}
     for name in ROBOTS:
         model, samples = compiled(name), _FEW if quick else SAMPLES
-        if not hasattr(model, "triangles"):
-            raise Missing("no fused triangles in this version")
         q, qd, qdd = states(name, samples)
         rng = np.random.default_rng(9)
         tau = model.inverse_dynamics(q, qd, qdd, rng.uniform(0.5, 2.0, len(model.spec.base)))

@@ -36,12 +36,12 @@ class Line:
 
     Attributes:
         keys: of the report.
-        measure: gives {name: value}; `quick` asks for a tenth of the work.
+        measure: gives {name: value, or why there is none}; `quick` asks for a tenth of the work.
         seconds: how long it takes, about.
     """
 
     keys: tuple[Key, ...]
-    measure: Callable[[bool], Mapping[str, float]]
+    measure: Callable[[bool], Mapping[str, float | Missing]]
     seconds: float
 
 

@@ -20,10 +20,13 @@ _ROUNDS, _FEW = 400, 40
 _WAYS = ("scalar", "nonzeros", "tile")
 
 
-def _measure(quick: bool) -> Mapping[str, float]:
-    found: dict[str, float] = {}
+def _measure(quick: bool) -> Mapping[str, float | Missing]:
+    found: dict[str, float | Missing] = {}
     for name in ROBOTS:
-        times = nanoseconds(name, _FEW if quick else _ROUNDS)
+        times, missing = nanoseconds(name, _FEW if quick else _ROUNDS)
+        for kind, why in missing.items():
+            keys = (f"{way}_vs_pinocchio_{kind}.{name}" for way in ("scalar", "nonzeros", "batch"))
+            found |= dict.fromkeys((*keys, f"pinocchio_ns.{kind}.{name}"), why)
         ways = {"scalar": "scalar", "nonzeros": "nonzeros", "batch": "tile"}
         ways = {way: times[own] for way, own in ways.items() if times[own]}
         found |= {f"regressor_ns.{way}.{name}": own for way, own in ways.items()}
@@ -35,9 +38,9 @@ def _measure(quick: bool) -> Mapping[str, float]:
     return found
 
 
-def nanoseconds(name: str, rounds: int) -> dict[str, float]:
-    """ns per sample of every way, and of the peers that this machine can build."""
-    module, kinds = emitted(name), []
+def nanoseconds(name: str, rounds: int) -> tuple[dict[str, float], dict[str, Missing]]:
+    """ns per sample of every way and of the peers; why some of these cannot be built."""
+    module, kinds, missing = emitted(name), [], dict[str, Missing]()
     with tempfile.TemporaryDirectory() as scratch:
         folder, model = Path(scratch), Path(scratch) / "model.txt"
         write_emitted(module, folder / "module")
@@ -45,7 +48,8 @@ def nanoseconds(name: str, rounds: int) -> dict[str, float]:
         for kind in pinocchio.COMPILERS:
             try:
                 pinocchio.check(kind, name, model)
-            except Missing:
+            except Missing as why:
+                missing[kind] = why
                 continue
             kinds.append(kind)
         program = _compiled(name, folder)
@@ -54,7 +58,7 @@ def nanoseconds(name: str, rounds: int) -> dict[str, float]:
             [program, str(rounds), str(model), *peers], capture_output=True, text=True, check=True
         )
     times = [float(line.rpartition(" ")[2]) for line in said.stdout.splitlines()]
-    return dict(zip((*_WAYS, *kinds), times, strict=True))
+    return dict(zip((*_WAYS, *kinds), times, strict=True)), missing
 
 
 def _compiled(name: str, folder: Path) -> Path:
