@@ -12,7 +12,7 @@ from modeler.fit import FitResult, IdentifiedModel, Method, with_verdict
 from modeler.fit.long import OF_TRIANGLES, identify_long
 from modeler.fit.streamed import Reducer, Streamed, stream
 from modeler.logs.blocks import blocks_of
-from modeler.observation import Log, Processing
+from modeler.observation import Log, Observation, Processing
 from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import LONG
 from modeler.observation.source import MemorySource, Source, source_of
@@ -108,7 +108,7 @@ def fit_long(
         DataError: see `stream` and `identify_long`.
     """
     streamed = stream(compiled, sources, processing, progress, reducer=reducer)
-    _check_apart(streamed)
+    check_rows_apart(streamed.observation)
     result = judged_long(compiled, streamed, method)
     return identified(derivation, emitted, streamed.observation, result), streamed
 
@@ -120,9 +120,9 @@ def judged_long(compiled: CompiledModel, streamed: Streamed, method: Method) -> 
     return with_verdict(compiled, streamed.observation, result, told, data=streamed.data)
 
 
-def _check_apart(streamed: Streamed) -> None:
-    """Refuse rows that are given twice."""
-    logs = streamed.observation.report.logs
+def check_rows_apart(observation: Observation) -> None:
+    """Refuse rows that are given twice, by what the report says of the logs."""
+    logs = observation.report.logs
     for index, log in enumerate(logs):
         for first in logs[:index]:
             same = log.content != "" and log.content == first.content

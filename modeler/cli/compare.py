@@ -1,20 +1,19 @@
 """`modeler compare MODEL LOG...`."""
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
 
-from modeler.api.chain import Mapped, read_logs, recompile
-from modeler.api.given import check_logs, given
-from modeler.cli.console import Json, progress, say, working
+from modeler.api.chain import Mapped, recompile
+from modeler.api.judging import compared
+from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.contest import models_of, run_contest
-from modeler.compare import Comparison, compare, verdict, write_pictures
-from modeler.compare.predict import predict
+from modeler.compare import Comparison, verdict, write_pictures
 from modeler.compiled import CompiledModel
 from modeler.core.estimators import titled
 from modeler.fit import IdentifiedModel, load_model
 from modeler.fit.reduced import with_essential_only
-from modeler.observation import Log
+from modeler.observation import Observation
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
 from modeler.pages.comparison import write_report
@@ -33,13 +32,14 @@ def run_compare(args: argparse.Namespace) -> Json:
         model = with_essential_only(model, args.model)
     with working("predicting"):
         compiled = model.compile() if args.run_embedded_c else recompile(model)
-        comparison, lines, found = judged(model, args.logs, compiled, args.map)
+    with progress("predicting") as bar:
+        comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
     say(comparison.summary())
     say()
     for sentence in (*verdict(comparison), *model.warning):
         say(sentence)
     for line in lines:
-        if line.startswith(_TRAINING):
+        if line.startswith((_TRAINING, "long logs: ")):
             say(line)
     for fault in found:
         say(fault.line)
@@ -60,17 +60,16 @@ def _page(
     held = not any(line.startswith(_TRAINING) for line in lines)
     fitted = [log.name for log in model.logs]
     following = after_compare(args.model, fitted, args.logs, held)
-    origin = Origin(args.model, comparison.prediction.logs, held)
+    origin = Origin(args.model, [own.log for own in comparison.logs], held)
     return write_report(Path(args.report), comparison, lines, origin, [following])
 
 
 def judged(
-    model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = ()
-) -> tuple[Comparison, list[str], tuple[Fault, ...]]:
+    model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = (),
+    share: Callable[[float], None] = lambda share: None,
+) -> tuple[Comparison, list[str], tuple[Fault, ...]]:  # fmt: skip
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
-    read = read_logs(compiled, logs, mapping)
-    check_logs(given(logs, read), [])
-    prediction, observation = predict(model, read, compiled)
+    comparison, observation = compared(model, logs, compiled, mapping, share, note)
     fitted = ", ".join(log.name for log in model.logs)
     what = "" if model.fit.energy is None else "energy model, "
     lines = [
@@ -78,17 +77,17 @@ def judged(
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
         f"{model.fit.error_told('{:.2f} %')}"
     ]
-    lines += [*model.warning, *_training(model, read), *observation.report.lines()]
+    lines += [*model.warning, *_training(model, observation), *observation.report.lines()]
     found = findings_of_prediction(compiled, observation, model.beta)
     lines += [fault.line for fault in found if fault.certain]
-    return compare(prediction), lines, found
+    return comparison, lines, found
 
 
-def _training(model: IdentifiedModel, logs: Sequence[Log]) -> list[str]:
+def _training(model: IdentifiedModel, observation: Observation) -> list[str]:
     """A line on the logs whose rows the model was fitted on, whatever the files are called."""
     seen = []
-    for log in logs:
-        fitted = sorted({used.name for used in model.logs if used.shares_rows(log)})
+    for log in observation.report.logs:
+        fitted = sorted({used.name for used in model.logs if used.shares(log.content, *log.span)})
         if fitted == [log.name]:
             seen.append(log.name)
         elif fitted:

@@ -13,6 +13,7 @@ from modeler.fit import IdentifiedModel
 from modeler.observation import Log, Observation, observe
 from modeler.observation.dry_friction import shafts
 from modeler.observation.masks import masks_of
+from modeler.observation.passing import blocks
 from modeler.observation.row_filter import LEAST_WEIGHT, moving_means
 from modeler.observation.signals import signals_of
 from modeler.observation.stretch import Stretch
@@ -35,16 +36,27 @@ def predict(
         DataError: no usable row.
     """
     observation = observe(compiled, logs, model.processing)
-    prediction = dataclasses.replace(
-        on_rows(observation, observation.predicted(model.beta)),
+    return predict_observed(model, observation, compiled), observation
+
+
+def predict_observed(
+    model: IdentifiedModel, observation: Observation, compiled: CompiledModel
+) -> Prediction:
+    """The same of logs that were processed so."""
+    every = [
+        (columns @ model.beta, sigma_of(columns, model.covariance))
+        for _, columns in blocks(observation)
+    ]
+    predicted, sigma = (np.concatenate(parts) for parts in zip(*every, strict=True))
+    return dataclasses.replace(
+        on_rows(observation, predicted),
         travel=_travel(observation),
         temperature=_temperature(observation),
         full=_full_rate(observation, compiled, model.beta),
         motors=_motors(compiled),
-        sigma=sigma_of(observation.columns, model.covariance),
+        sigma=sigma,
         masks=masks_of(observation),
     )
-    return prediction, observation
 
 
 def on_rows(observation: Observation, predicted: np.ndarray) -> Prediction:

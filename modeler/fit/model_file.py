@@ -49,7 +49,11 @@ class LogProvenance:
 
     def shares_rows(self, log: Log) -> bool:
         """True if rows of `log` were fitted."""
-        return shared_rows(log, self.content, self.start, self.end)
+        return self.shares(log.content, log.time[0], log.time[-1])
+
+    def shares(self, content: str, start: float, end: float) -> bool:
+        """True if rows from `start` to `end`, s, of the file with that fingerprint were fitted."""
+        return content == self.content != "" and bool(start <= self.end and self.start <= end)
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,10 @@ class Partial:
     data: Compressed
     facts: Facts
 
+    def over(self, later: "Partial") -> "Partial":
+        """Of these rows, and of those that follow them."""
+        return Partial(merged(self.data, later.data), self.facts.over(later.facts))
+
 
 def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partial:
     """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
@@ -51,7 +55,7 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
 
 def merge(first: Partial, later: Partial) -> Partial:
     """Of rows of a log, and of those that follow them."""
-    return Partial(merged(first.data, later.data), first.facts.over(later.facts))
+    return first.over(later)
 
 
 def merge_all(parts: Iterable[Partial]) -> Partial:

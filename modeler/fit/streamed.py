@@ -1,4 +1,4 @@
-"""The fit of long logs: a look at windows, then every row once, in chunks, in flat memory."""
+"""Long logs: a look at windows, then every row once, in chunks, in flat memory; for a fit, or all else."""
 
 import dataclasses
 from collections import deque
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from functools import reduce
 from os import cpu_count
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.estimate.compressed import Compressed, merged
-from modeler.fit.partial import Partial, merge, reduce_chunk
-from modeler.observation.chunk import chunks
+from modeler.fit.partial import reduce_chunk
+from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER
 from modeler.observation.observation import Observation
@@ -34,8 +34,20 @@ PASSES = 3
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
-Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Partial]]
-"""The partials of all chunks of a log, in their order."""
+
+class Part(Protocol):
+    """What is kept of some consecutive rows of a log, with what they say of it."""
+
+    @property
+    def facts(self) -> Facts:
+        """Of the rows."""
+
+    def over(self, later: Self) -> Self:
+        """Of these rows, and of those that follow them."""
+
+
+Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
+"""The parts of all chunks of a log, in their order, all of one kind."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,32 +96,59 @@ def stream(
         DataError: a log that is damaged, changes while it is read or lacks a column; rows that no
             choice of the windows fits; no usable row.
     """
+    passes, every = all_rows(model, sources, processing, progress, rows, reducer or by_threads)
+    return _streamed(model, sources, passes, [partial.data for partial in every])
+
+
+def all_rows(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    processing: Processing | None,
+    progress: Share,
+    rows: int,
+    reducer: Reducer,
+) -> tuple[Passes, list[Any]]:
+    """The passes over long logs, and of each log its part; as `stream`, whatever is kept of rows.
+
+    Raises:
+        DataError: as `stream`.
+    """
     _check_memory(model, sources)
-    known, reducer = Known(), reducer or by_threads
+    known = Known()
     for number in range(1, PASSES + 1):
         found = survey(model, sources, processing or Processing(), known, rows)
         every = list(_all_logs(model, sources, found, reducer, progress))
-        facts = tuple(partial.facts for partial in every)
+        facts = tuple(part.facts for part in every)
         again = _again(facts, found, known)
         if again is None or number == PASSES:
             break
         known = again
-    passes = Passes(found, facts, number)
     _check(model, sources, facts)
-    return _streamed(model, sources, passes, [partial.data for partial in every])
+    return Passes(found, facts, number), every
 
 
-def by_threads(model: "CompiledModel", source: Source, chosen: Chosen) -> Iterator[Partial]:
-    """The partials of all chunks of a log, in their order, by threads of this process.
+def by_threads(
+    model: "CompiledModel",
+    source: Source,
+    chosen: Chosen,
+    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Part] | None = None,
+) -> Iterator[Any]:
+    """The parts of all chunks of a log, in their order, by threads of this process.
 
     As many chunks are in memory as there are threads, and two.
+
+    Args:
+        model: the compiled robot.
+        source: of the log.
+        chosen: for it.
+        reduce_by: what is kept of a chunk; None: `reduce_chunk`.
     """
-    workers = cpu_count() or 1
-    waiting: deque[Future[Partial]] = deque()
+    workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
+    waiting: deque[Future[Part]] = deque()
     with ThreadPoolExecutor(workers) as pool:
         try:
             for chunk in chunks(source, chosen.own, chosen.beside):
-                waiting.append(pool.submit(reduce_chunk, model, chunk, chosen))
+                waiting.append(pool.submit(reduce_by, model, chunk, chosen))
                 if len(waiting) > workers:
                     yield waiting.popleft().result()
             while waiting:
@@ -125,14 +164,14 @@ def _all_logs(
     found: Survey,
     reducer: Reducer,
     progress: Share,
-) -> Iterator[Partial]:
+) -> Iterator[Any]:
     """All chunks of each log in one."""
     total, done = max(1, sum(source.rows for source in sources)), 0
     begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
     for source, partials in zip(sources, begun, strict=True):
-        whole: Partial | None = None
+        whole: Any = None
         for partial in partials:
-            whole = partial if whole is None else merge(whole, partial)
+            whole = partial if whole is None else whole.over(partial)
             rows = whole.facts.tally.count("rows")
             progress(min(1.0, (done + rows) / total))
         if whole is None:

@@ -84,7 +84,7 @@ def observed(
             )
             + "; check these columns, or record longer and faster motion of every joint"
         )
-    return _stack(model, logs, stretches, report)
+    return stacked(model, [log.name for log in logs], stretches, report)
 
 
 def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
@@ -109,12 +109,13 @@ def _stretch(segment: Segment, parts: Sequence[Shaft], processing: Processing) -
     return stretch(segment, usable, rows)
 
 
-def _stack(
+def stacked(
     model: "CompiledModel",
-    logs: Sequence[Log],
+    logs: Sequence[str],
     stretches: tuple[Stretch, ...],
     report: DataReport,
 ) -> Observation:
+    """The rows of some stretches of logs of these names, with what is told of them."""
     motion = np.concatenate([_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
@@ -122,7 +123,7 @@ def _stack(
         joints=model.spec.joints,
         names=tuple(base.name for base in model.spec.base),
         units=tuple(base.unit for base in model.spec.base),
-        logs=tuple(log.name for log in logs),
+        logs=tuple(logs),
         run=np.repeat([part.segment.run for part in stretches], counts),
         segment=np.repeat(np.arange(len(stretches)), counts),
         time=np.concatenate([part.segment.time[part.rows.centres] for part in stretches]),
