@@ -144,14 +144,15 @@ def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
     if isinstance(log, Log):
         return log
     if not isinstance(log, SimulatedLog):
-        return _read(log, spec, names)
+        return read_mapped(log, spec, names)
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
         return read_log(place, spec)
 
 
-def _read(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
+def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
+    """A log, or a piece of it, with the columns of a map."""
     path, span = file_and_span(place)
     if span is None:
         return read_log(path, spec, names)

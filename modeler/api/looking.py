@@ -5,7 +5,11 @@ from pathlib import Path
 from modeler.api.chain import Mapped, file_and_span, given_map, log_map
 from modeler.compiled import CompiledModel
 from modeler.logs import Table
+from modeler.logs.blocks import blocks_of, windows_of
 from modeler.logs.look import Look, look
+from modeler.logs.table import Part
+from modeler.observation.log import FINGER, LONG
+from modeler.observation.survey import WINDOW, WINDOWS
 
 
 def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: Mapped = ()) -> Look:
@@ -22,5 +26,10 @@ def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: M
     path, span = file_and_span(str(place))
     names = given_map(mapping) if compiled is None else log_map(compiled, mapping)
     joints = () if compiled is None else compiled.spec.joints
-    table = Table(Path(path), names, joints, any_topic=True)
-    return look(table, names, joints, span or (None, None))
+    blocks, span = blocks_of(Path(path)), span or (None, None)
+    if blocks is None or blocks.rows <= LONG:
+        table = Table(Path(path), names, joints, any_topic=True)
+        return look(table, names, joints, span)
+    seen = Part(windows_of(blocks, WINDOWS, WINDOW))
+    every = (Table(Path(path), names, joints, part=Part(own)) for own in blocks.blocks(FINGER))
+    return look(Table(Path(path), names, joints, part=seen), names, joints, span, every)

@@ -60,7 +60,7 @@ def _page(
     held = not any(line.startswith(_TRAINING) for line in lines)
     fitted = [log.name for log in model.logs]
     following = after_compare(args.model, fitted, args.logs, held)
-    origin = Origin(args.model, [own.log for own in comparison.logs], held)
+    origin = Origin(args.model, comparison.prediction.logs, held)
     return write_report(Path(args.report), comparison, lines, origin, [following])
 
 

@@ -5,7 +5,7 @@ import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api.chain import compile_model, derive, file_and_span, generate, log_map
+from modeler.api.chain import compile_model, derive, generate, log_map
 from modeler.api.looking import look_at
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.log_fit import doubts_of_fit
@@ -21,13 +21,12 @@ _WIDEST = 44  # letters of a cell
 
 def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its doubts, and a [log] to start from."""
-    place, span = file_and_span(args.log)
     compiled = _compiled(args.robot)
     mapping = map_from_words(args.map) if compiled is None else log_map(compiled, args.map)
     seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
     if compiled is not None:
-        heard, stands = doubts_of_fit(compiled, place, span, mapping, seen)
+        heard, stands = doubts_of_fit(compiled, args.log, mapping, seen)
         if stands:  # it fits as it is: a range alone is no doubt
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)

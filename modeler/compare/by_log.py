@@ -1,12 +1,12 @@
 """The error of each log by itself, when several are compared."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from modeler.compare.prediction import JointInfo
-from modeler.compare.sums import LogSums
+import numpy as np
+
+from modeler.compare.prediction import Prediction, residual, unit_errors
 from modeler.core.brief import Brief
-from modeler.core.by_unit import errors_by_unit
 
 
 @dataclass(frozen=True)
@@ -20,13 +20,28 @@ class LogError(Brief):
     by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
 
 
-def log_error(sums: LogSums, joints: Sequence[JointInfo]) -> LogError:
-    """Of one log, from the sums over its rows."""
-    every = list(zip(joints, sums.joints, strict=True))
-    return LogError(
-        log=sums.log,
-        samples=sums.samples,
-        relative_error=sums.relative_error,
-        joints=tuple((info.name, own.relative_error) for info, own in every),
-        by_unit=errors_by_unit((info.effort_unit, own.energy, own.size) for info, own in every),
-    )
+def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
+    """In the order of the logs."""
+    e = np.nan_to_num(residual(prediction))
+    measured = np.where(prediction.used, prediction.measured, 0.0)
+    found = []
+    for run, log in enumerate(prediction.logs):
+        rows = prediction.run == run
+        found.append(
+            LogError(
+                log=log,
+                samples=int(prediction.used[rows].any(axis=1).sum()),
+                relative_error=_relative(e[rows], measured[rows]),
+                joints=tuple(
+                    (info.name, _relative(e[rows, j], measured[rows, j]))
+                    for j, info in enumerate(prediction.joints)
+                ),
+                by_unit=unit_errors(prediction, rows),
+            )
+        )
+    return tuple(found)
+
+
+def _relative(e: np.ndarray, measured: np.ndarray) -> float:
+    size = float(np.linalg.norm(measured))
+    return float(np.linalg.norm(e)) / size if size > 0.0 else float("nan")

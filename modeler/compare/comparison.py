@@ -3,27 +3,42 @@
 import dataclasses
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from modeler.compare.by_log import LogError, log_error
-from modeler.compare.prediction import JointInfo, Prediction, check_prediction, residual
+from modeler.compare.by_log import LogError, errors_by_log
+from modeler.compare.prediction import (
+    JointInfo,
+    Prediction,
+    check_prediction,
+    relative_error,
+    residual,
+    unit_errors,
+)
 from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
 from modeler.compare.scale import Scale, scale
 from modeler.compare.shares import Shares, shares
 from modeler.compare.structure import Structure, structure
-from modeler.compare.sums import JointSums, LogSums, Moment, all_logs, sums_of
 from modeler.compare.table import summary
-from modeler.compare.where import Region, Window, velocity_regions
+from modeler.compare.where import Region, Window, velocity_regions, worst_window
 from modeler.core.brief import Brief
 from modeler.core.by_unit import POOLED
 from modeler.core.presented import Presented
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The sample with the largest absolute residual."""
+
+    value: float  # N m or N, absolute
+    log: str
+    time: float  # s, as in the log
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +56,6 @@ class JointComparison(Brief):
     largest: Moment
     regions: tuple[Region, ...]
     worst: Window
-    close: Prediction  # the rows around that
     structure: Structure | None  # None: too few samples to tell
     spectrum: Spectrum | None  # None: no segment long enough
     shares: Shares | None  # None: too few samples to tell
@@ -54,8 +68,7 @@ class JointComparison(Brief):
 class Comparison(Presented):
     """What `compare` found; carries the prediction so that pictures can be drawn from it."""
 
-    prediction: Prediction  # of a long log: its windows
-    rows: int  # of all logs, after decimation
+    prediction: Prediction
     samples: int  # rows that count for at least one joint
     relative_error: float  # over all joints, rows stacked (N m and N together); NaN: no torque
     joints: tuple[JointComparison, ...]
@@ -68,7 +81,7 @@ class Comparison(Presented):
         """The comparison as plain numbers and text; undefined numbers are None."""
         return {
             "robot": self.prediction.robot,
-            "logs": [own.log for own in self.logs],
+            "logs": list(self.prediction.logs),
             "samples": self.samples,
             "relative_error": _defined(self.relative_error),
             "relative_error_pools": POOLED,
@@ -90,15 +103,15 @@ class Comparison(Presented):
         return summary(self)
 
 
-def compare(prediction: Prediction, sums: Sequence[LogSums] = ()) -> Comparison:
+def compare(prediction: Prediction, looked: Prediction | None = None) -> Comparison:
     """How well the torque is predicted, where it fails, and whether the residual has structure.
 
     A joint none of whose rows count, or whose measured torque is zero in all of them, is listed
     in `unjudged` with the reason.
 
     Args:
-        prediction: the rows; of long logs those of windows, which tell what residuals follow.
-        sums: by log, of all rows, whose numbers these are; without any, those of the prediction.
+        prediction: measured and predicted.
+        looked: windows of long logs with the samples behind their rows, where ripple is looked for.
 
     Raises:
         ShapeError: an array of the prediction has the wrong shape.
@@ -106,57 +119,60 @@ def compare(prediction: Prediction, sums: Sequence[LogSums] = ()) -> Comparison:
     """
     check_prediction(prediction)
     e = residual(prediction)
-    repeated, sums = repetitions(prediction), sums or sums_of(prediction)
-    whole = all_logs(sums)
+    repeated = repetitions(prediction)
     judged, unjudged = [], []
     for index, info in enumerate(prediction.joints):
-        own = whole.joints[index]
-        if not own.count:
+        rows = prediction.used[:, index]
+        if not rows.any():
             unjudged.append((info.name, "no sample counts (all masked)"))
-        elif not own.size:
+        elif not prediction.measured[rows, index].any():
             unjudged.append((info.name, "measured torque is zero in every sample that counts"))
-        elif not prediction.used[:, index].any():
-            unjudged.append((info.name, "it moves in none of the windows; compare FILE@START:END"))
         else:
-            judged.append(_compare_joint(prediction, index, e[:, index], repeated, own))
+            judged.append(_compare_joint(prediction, index, e[:, index], repeated, looked))
+    used = prediction.used
     return Comparison(
         prediction=prediction,
-        rows=whole.rows,
-        samples=whole.samples,
-        relative_error=whole.relative_error,
+        samples=int(used.any(axis=1).sum()),
+        relative_error=relative_error(prediction),
         joints=tuple(judged),
         unjudged=tuple(unjudged),
-        logs=tuple(log_error(own, prediction.joints) for own in sums),
+        logs=errors_by_log(prediction),
         repeated=repeated,
-        by_unit=log_error(whole, prediction.joints).by_unit,
+        by_unit=unit_errors(prediction),
     )
 
 
 def _compare_joint(
     prediction: Prediction, index: int, e: np.ndarray, repeated: tuple[Repetition, ...],
-    whole: JointSums,
+    looked: Prediction | None,
 ) -> JointComparison:  # fmt: skip
     rows = prediction.used[:, index]
-    spread, found = float(whole.scatter[1, 1]), structure(prediction, index)
-    assert whole.largest and whole.worst and whole.close
+    counted, measured = e[rows], prediction.measured[rows, index]
+    top = int(np.nanargmax(np.abs(e)))
+    spread = float(np.sum((measured - measured.mean()) ** 2))
+    energy = float(counted @ counted)
+    found = structure(prediction, index)
     return JointComparison(
         joint=prediction.joints[index],
         index=index,
-        samples=whole.count,
-        relative_error=whole.relative_error,
-        rms=math.sqrt(whole.energy / whole.count),
-        measured_rms=math.sqrt(whole.size / whole.count),
-        r2=1.0 - whole.energy / spread if spread > 0.0 else math.nan,
-        bias=float(whole.mean[0]),
-        largest=whole.largest,
-        regions=velocity_regions(prediction.qd[rows, index], e[rows]),
-        worst=whole.worst,
-        close=whole.close,
+        samples=int(rows.sum()),
+        relative_error=float(np.sqrt(energy) / np.linalg.norm(measured)),
+        rms=float(np.sqrt(energy / counted.size)),
+        measured_rms=float(np.sqrt(np.mean(measured**2))),
+        r2=1.0 - energy / spread if spread > 0.0 else math.nan,
+        bias=float(counted.mean()),
+        largest=Moment(
+            value=float(abs(e[top])),
+            log=prediction.logs[prediction.run[top]],
+            time=float(prediction.time[top]),
+        ),
+        regions=velocity_regions(prediction.qd[rows, index], counted),
+        worst=worst_window(prediction, e),
         structure=found,
         spectrum=spectrum(prediction.time, prediction.segment, e),
-        shares=shares(prediction, index, e, repeated, found, whole),
-        scale=scale(whole),
-        orders=ripple(prediction, index),
+        shares=shares(prediction, index, e, repeated, found),
+        scale=scale(measured, prediction.predicted[rows, index]),
+        orders=ripple(looked or prediction, index),
         predicted_sigma=None
         if prediction.sigma is None
         else float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2))),

@@ -1,17 +1,18 @@
-"""Long logs: their numbers from every row, read in chunks; what residuals follow from windows."""
+"""Long logs: the rows of all their chunks, compared as those of a log that is read whole."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from modeler.compare.comparison import Comparison, compare
-from modeler.compare.predict import on_rows, predict_observed
+from modeler.compare.predict import full_rate, of_rows, on_rows
 from modeler.compare.prediction import Prediction
-from modeler.compare.sums import NOTHING, LogSums, sums_of
 from modeler.compiled import CompiledModel
+from modeler.core.errors import DataError
 from modeler.fit import IdentifiedModel
 from modeler.fit.streamed import all_rows, by_threads
 from modeler.observation import Observation
@@ -19,25 +20,26 @@ from modeler.observation.chunk import Chunk
 from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER
 from modeler.observation.report import DataReport
+from modeler.observation.row_filter import spacing
 from modeler.observation.seen import Chosen, seen
 from modeler.observation.source import Source
 from modeler.observation.stack import stacked
 from modeler.observation.streamed_report import streamed_report
-from modeler.observation.torque import model_torque
 
-_FOR = "the choices below, what residuals follow, pictures and doubts about channels"
+MOST = 400_000
+"""Rows of a comparison, after decimation; of longer logs fewer rows are taken."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """What a comparison needs of some rows of a log."""
+    """Some consecutive rows of a log: what is compared of each chunk, and what they say of it."""
 
-    sums: LogSums
+    rows: tuple[Prediction, ...]
     facts: Facts
 
     def over(self, later: "_Part") -> "_Part":
         """Of these rows, and of those that follow them."""
-        return _Part(self.sums.over(later.sums), self.facts.over(later.facts))
+        return _Part(self.rows + later.rows, self.facts.over(later.facts))
 
 
 def compare_long(
@@ -48,10 +50,6 @@ def compare_long(
     rows: int = FINGER,
 ) -> tuple[Comparison, Observation]:
     """As `compare` of what `predict` makes of logs, of any length in flat memory.
-
-    Errors, R^2, scales, largest residuals and worst moments are those of all rows; a worst moment
-    lies within a chunk. Structure, spectra, regions, sigmas and pictures are those of the windows,
-    each as a log by itself.
 
     Args:
         model: fitted.
@@ -64,51 +62,52 @@ def compare_long(
         DataError: as `fit.streamed.stream`.
     """
 
-    def reduced(model_: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
-        return _part(model_, chunk, chosen, model.beta)
+    def reduced(_: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
+        return _part(model, compiled, chunk, chosen)
 
+    processing = model.processing
+    least = -(-sum(source.rows for source in sources) // MOST)
+    step = sources[0].window(0.5, 1000).step
+    if least > spacing(step, processing.parallel_cutoff or 0.0, processing.decimation):
+        processing = dataclasses.replace(processing, decimation=least)
     reducer = partial(by_threads, reduce_by=reduced)
-    passes, parts = all_rows(compiled, sources, model.processing, progress, rows, reducer)
-    looked, spans = passes.found.observation, passes.found.spans
-    report = streamed_report(compiled, sources, passes, _FOR)
-    shown = _by_window(predict_observed(model, looked, compiled), spans)
-    return compare(shown, [part.sums for part in parts]), dataclasses.replace(looked, report=report)
+    passes, parts = all_rows(compiled, sources, processing, progress, rows, reducer)
+    looked = passes.found.observation
+    steps = [own.step * (own.processing.decimation or 1) for own in passes.found.chosen]
+    prediction = _joined([source.name for source in sources], [own.rows for own in parts], steps)
+    full = full_rate(looked, compiled, model.beta)
+    ripples = dataclasses.replace(on_rows(looked, looked.torque), full=full)
+    report = streamed_report(compiled, sources, passes)
+    return compare(prediction, ripples), dataclasses.replace(looked, report=report)
 
 
-def _part(model: CompiledModel, chunk: Chunk, chosen: Chosen, beta: np.ndarray) -> _Part:
-    stretches, facts = seen(model, chunk, chosen)
-    name = chunk.log.name
-    stretches = tuple(part for part in stretches if len(part.rows.centres))
-    if not stretches:
-        return _Part(LogSums(name, 0, 0, (NOTHING,) * len(chunk.log.joints)), facts)
+def _part(model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
+    stretches, facts = seen(compiled, chunk, chosen)
+    some = tuple(part for part in stretches if len(part.rows.centres))
     report = DataReport(chosen.processing, (), (), ())
-    observation = stacked(model, (name,), stretches, report)
-    found = on_rows(observation, model_torque(observation, model, beta))
-    (sums,) = sums_of(dataclasses.replace(found, run=np.zeros_like(found.run)))
-    return _Part(sums, facts)
+    found = stacked(compiled, (chunk.log.name,), some, report) if some else None
+    return _Part(() if found is None else (of_rows(model, found, compiled),), facts)
 
 
-def _by_window(
-    prediction: Prediction, spans: Sequence[Sequence[tuple[float, float]]]
+def _joined(
+    names: Sequence[str], logs: Sequence[Sequence[Prediction]], steps: Sequence[float]
 ) -> Prediction:
-    """Every window as a log: nothing goes on from one to the next."""
-    names, first = list[str](), list[int]()
-    for log, own in zip(prediction.logs, spans, strict=True):
-        first.append(len(names))
-        names += [f"{log}@{start:.9g}:{end:.9g}" for start, end in own]
-
-    def numbers(run: np.ndarray, time: np.ndarray) -> np.ndarray:
-        found = np.empty_like(run)
-        for k, own in enumerate(spans):
-            between = [0.5 * (a[1] + b[0]) for a, b in zip(own, own[1:], strict=False)]
-            found[run == k] = first[k] + np.searchsorted(between, time[run == k])
-        return found
-
-    full = prediction.full
-    assert full is not None
-    return dataclasses.replace(
-        prediction,
-        logs=tuple(names),
-        run=numbers(prediction.run, prediction.time),
-        full=dataclasses.replace(full, run=numbers(full.run, full.time)),
-    )
+    """The rows of all logs, `steps` s apart; what goes on in the next chunk is one segment."""
+    number, found = -1, list[Prediction]()
+    for run, (parts, step) in enumerate(zip(logs, steps, strict=True)):
+        last = -np.inf
+        for part in parts:
+            number += not 0.5 < (part.time[0] - last) / step < 1.5
+            segment, runs = part.segment + number, np.full(len(part.time), run)
+            found.append(dataclasses.replace(part, segment=segment, run=runs))
+            number, last = int(segment[-1]), float(part.time[-1])
+    if not found:
+        raise DataError(f"{', '.join(names)}: no row is left; record longer motion")
+    columns = [
+        name for name in vars(found[0])
+        if all(isinstance(getattr(part, name), np.ndarray) for part in found)
+    ]  # fmt: skip
+    every: dict[str, Any] = {"temperature": None} | {
+        name: np.concatenate([getattr(part, name) for part in found]) for name in columns
+    }
+    return dataclasses.replace(found[0], logs=tuple(names), **every)

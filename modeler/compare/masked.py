@@ -34,24 +34,28 @@ _WHY = WHY | {
 _CLOSE = 1.0 / 1500.0  # of the axis: stretches that no screen shows apart are drawn as one
 
 
-def masked_spans(prediction: Prediction, j: int, time: np.ndarray) -> tuple[Span, ...]:
+def masked_spans(
+    prediction: Prediction, j: int, time: np.ndarray, rows: np.ndarray
+) -> tuple[Span, ...]:
     """The stretches of time of joint j that do not count, by reason.
 
     Args:
         prediction: with its masks.
         j: index of the joint.
         time: (n,) s, of all rows on the axis that is drawn.
+        rows: numbers of the rows that are drawn, ascending.
     """
-    if time.size < 2:
+    if rows.size < 2:
         return ()
     half = 0.5 * _spacing(prediction, time)
-    close = _CLOSE * float(np.ptp(time))
-    reasons = _reasons(prediction, j)
+    close = _CLOSE * float(np.ptp(time[rows]))
+    reasons = _reasons(prediction, j)[rows]
+    whole = prediction.segment[rows]
     found = []
     for name in _COLORS:
-        ends = _gaps(prediction, time, half) if name == GAP else [
-            (time[first] - half, time[last] + half)
-            for first, last in _runs(reasons == name, prediction.segment)
+        ends = _gaps(prediction, time, rows, half) if name == GAP else [
+            (time[rows[first]] - half, time[rows[last]] + half)
+            for first, last in _runs(reasons == name, whole)
         ]  # fmt: skip
         if ends:
             found.append(Span(name, _joined(np.array(ends), close), _COLORS[name]))
@@ -67,7 +71,7 @@ def told_masks(prediction: Prediction, j: int) -> str:
         for name, color in _COLORS.items()
         if np.any(reasons == name)
     ]
-    if _gaps(prediction, prediction.time, 0.0):
+    if _gaps(prediction, prediction.time, np.arange(rows), 0.0):
         told.append(f"{COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
     return f"Shaded rows do not count: {'; '.join(told)}." if told else ""
 
@@ -91,10 +95,13 @@ def _runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
     return found
 
 
-def _gaps(prediction: Prediction, time: np.ndarray, half: float) -> list[tuple[float, float]]:
+def _gaps(
+    prediction: Prediction, time: np.ndarray, rows: np.ndarray, half: float
+) -> list[tuple[float, float]]:
     """Between segments of one log."""
-    at = np.flatnonzero((np.diff(prediction.segment) != 0) & (np.diff(prediction.run) == 0))
-    ends = [(time[k] + half, time[k + 1] - half) for k in at]
+    segment, run = prediction.segment[rows], prediction.run[rows]
+    at = np.flatnonzero((np.diff(segment) != 0) & (np.diff(run) == 0))
+    ends = [(time[rows[k]] + half, time[rows[k + 1]] - half) for k in at]
     return [(start, end) for start, end in ends if end > start]
 
 

@@ -33,7 +33,7 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
     for name, style, e, total in zip(names, styles, left, sums, strict=True):
         residuals.append(Curve(name, *broken(segment[kept], time[kept], e[kept]), style))
         gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
-    spans = masked_spans(first, j, time)
+    spans = masked_spans(first, j, time, np.arange(time.size))
     return Picture(
         name=f"joint_{joint.name}_models",
         title=f"Joint {joint.name}: what each model leaves",

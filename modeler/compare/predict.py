@@ -36,23 +36,20 @@ def predict(
         DataError: no usable row.
     """
     observation = observe(compiled, logs, model.processing)
-    return predict_observed(model, observation, compiled), observation
+    full = full_rate(observation, compiled, model.beta)
+    return dataclasses.replace(of_rows(model, observation, compiled), full=full), observation
 
 
-def predict_observed(
+def of_rows(
     model: IdentifiedModel, observation: Observation, compiled: CompiledModel
 ) -> Prediction:
-    """The same of logs that were processed so."""
-    every = [
-        (columns @ model.beta, sigma_of(columns, model.covariance))
-        for _, columns in blocks(observation)
-    ]
-    predicted, sigma = (np.concatenate(parts) for parts in zip(*every, strict=True))
+    """What the model says of rows, without the samples behind them."""
+    made = [(x @ model.beta, sigma_of(x, model.covariance)) for _, x in blocks(observation)]
+    predicted, sigma = (np.concatenate(parts) for parts in zip(*made, strict=True))
     return dataclasses.replace(
         on_rows(observation, predicted),
         travel=_travel(observation),
         temperature=_temperature(observation),
-        full=_full_rate(observation, compiled, model.beta),
         motors=_motors(compiled),
         sigma=sigma,
         masks=masks_of(observation),
@@ -112,7 +109,8 @@ def _temperature(observation: Observation) -> np.ndarray | None:
     return found if np.isfinite(found).any() else None
 
 
-def _full_rate(observation: Observation, compiled: CompiledModel, beta: np.ndarray) -> FullRate:
+def full_rate(observation: Observation, compiled: CompiledModel, beta: np.ndarray) -> FullRate:
+    """The samples behind the rows of an observation."""
     parts = observation.stretches
     cutoff = observation.report.processing.parallel_cutoff or 0.0
     left = [_left(part, compiled, beta) for part in parts]

@@ -1,9 +1,8 @@
 """Is the prediction right but for its sign or its scale?"""
 
-import math
 from dataclasses import dataclass
 
-from modeler.compare.sums import JointSums
+import numpy as np
 
 _AGAINST = -0.7  # correlation of measured and predicted torque below which the sign is wrong
 _ALIKE = 0.9  # from which on they have one shape
@@ -32,16 +31,18 @@ class Scale:
         return self.correlation > _ALIKE and wrong
 
 
-def scale(sums: JointSums) -> Scale | None:
-    """The factor between two torques; None for too few samples or a constant.
-
-    With e = m - p about their means, min_f ||m - f p||^2 = ||e||^2 - (e . p)^2 / ||p||^2.
-    """
-    (before, _, shared), (_, own, product), (_, _, squares) = sums.scatter.tolist()
-    if sums.count < _FEWEST or squares <= 0.0 or own <= 0.0:
+def scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
+    """The factor between two torques, (n,) each; None for too few samples or a constant."""
+    if measured.size < _FEWEST:
         return None
+    m, p = measured - measured.mean(), predicted - predicted.mean()
+    squares, own = float(p @ p), float(m @ m)
+    if squares <= 0.0 or own <= 0.0:
+        return None
+    factor = float(m @ p) / squares
+    before, after = float(np.sum((m - p) ** 2)), float(np.sum((m - factor * p) ** 2))
     return Scale(
-        factor=product / squares,
-        correlation=product / math.sqrt(squares * own),
-        mended=shared**2 / (squares * before) if before > 0.0 else 0.0,
+        factor=factor,
+        correlation=float(m @ p) / float(np.sqrt(squares * own)),
+        mended=1.0 - after / before if before > 0.0 else 0.0,
     )

@@ -8,7 +8,6 @@ import numpy as np
 from modeler.compare.prediction import Prediction, full_rate
 from modeler.compare.repetition import Repetition
 from modeler.compare.structure import Structure
-from modeler.compare.sums import JointSums
 from modeler.residuals.memory import at
 
 Method = Literal["laps", "logs", "smooth"]
@@ -44,7 +43,6 @@ def shares(
     e: np.ndarray,
     repeated: tuple[Repetition, ...],
     found: Structure | None,
-    whole: JointSums,
 ) -> Shares | None:
     """Shares of one joint; None for a constant torque, or too few samples to tell.
 
@@ -59,9 +57,10 @@ def shares(
         e: (n,) its residual, NaN where a row does not count.
         repeated: laps, logs of one motion.
         found: structure of the residual.
-        whole: of all rows, which say what is explained.
     """
-    spread, energy = float(whole.scatter[1, 1]), whole.energy
+    rows = np.flatnonzero(prediction.used[:, joint])
+    y = prediction.measured[rows, joint]
+    spread, energy = float(np.sum((y - y.mean()) ** 2)), float(e[rows] @ e[rows])
     if spread <= 0.0:
         return None
     left = energy / spread
@@ -73,7 +72,7 @@ def shares(
             return Shares(1.0 - left, again * left, (1.0 - again) * left, kind, error * left)
     if found is None or energy == 0.0:
         return None if energy else Shares(1.0, 0.0, 0.0, "smooth", None)
-    offset = whole.count * float(whole.mean[0]) ** 2 / energy
+    offset = rows.size * float(e[rows].mean()) ** 2 / energy
     smooth = max(found.together, found.follows.share)
     again = offset + (1.0 - offset) * smooth
     return Shares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)

@@ -34,18 +34,18 @@ _BAND = Style(SKY, opacity=0.45)
 
 def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     """Two rows sharing time: torques above, residual below; all logs left, worst window right."""
-    window, near = item.worst, item.close
+    window, time = item.worst, prediction.time
+    own = prediction.segment == window.segment
+    margin = 0.5 * WINDOW
+    near = own & (time >= window.start - margin) & (time <= window.end + margin)
     running, label, marks = running_time(prediction)
-    first = int(np.flatnonzero(near.time == window.start)[0])
-    here = None  # it lies between the windows of a long log
-    same = (prediction.time == window.start) & (prediction.q == near.q[first]).all(axis=1)
-    for start in running[same][:1].tolist():
-        here = (start, start + window.end - window.start)
-    left = _column(prediction, item, running, _whole_title(prediction), label)
+    start = float(running[own & (time == window.start)][0])
+    left = _column(prediction, item, np.arange(time.size), running, _whole_title(prediction), label)
     right = _column(
-        near, item, near.time, f"Worst {WINDOW} s", f"time in {window.log} [s]", banded=True
-    )
-    close = (window.start, window.end)
+        prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
+        f"time in {window.log} [s]", banded=True,
+    )  # fmt: skip
+    here, close = (start, start + window.end - window.start), (window.start, window.end)
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_time",
@@ -114,6 +114,7 @@ def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarra
 def _column(
     prediction: Prediction,
     item: JointComparison,
+    rows: np.ndarray,
     time: np.ndarray,
     title: str,
     label: str,
@@ -121,19 +122,19 @@ def _column(
 ) -> tuple[Panel, Panel]:
     unit, joint = item.joint.effort_unit, item.index
     curves = (
-        prediction.measured[:, joint].astype(float),
-        prediction.predicted[:, joint].astype(float),
-        residual(prediction)[:, joint],
+        prediction.measured[rows, joint].astype(float),
+        prediction.predicted[rows, joint].astype(float),
+        residual(prediction)[rows, joint],
     )
     kept = thin_curves(curves)
     labels = ("measured", "predicted", "residual")
     styles = (_MEASURED, _PREDICTED, _RESIDUAL)
     series: list[Series] = []
     for text, values, style in zip(labels, curves, styles, strict=True):
-        x, y = broken(prediction.segment[kept], time[kept], values[kept])
+        x, y = broken(prediction.segment[rows][kept], time[rows][kept], values[kept])
         series.append(Curve(text, x, y, style))
-    spans = masked_spans(prediction, joint, time)
-    bands = _bands(prediction, joint, kept) if banded else ()
+    spans = masked_spans(prediction, joint, time, rows)
+    bands = _bands(prediction, joint, rows[kept], time) if banded else ()
     return (
         Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
         Panel(f"{title}: residual", label, f"residual [{unit}]", (*bands[1:], series[2]), zero=True,
@@ -141,14 +142,16 @@ def _column(
     )  # fmt: skip
 
 
-def _bands(prediction: Prediction, joint: int, rows: np.ndarray) -> tuple[Band, ...]:
+def _bands(
+    prediction: Prediction, joint: int, rows: np.ndarray, time: np.ndarray
+) -> tuple[Band, ...]:
     """About the prediction, and about zero."""
     if prediction.sigma is None:
         return ()
     half = DEVIATIONS * prediction.sigma[rows, joint]
     found = []
     for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
-        x, low = broken(prediction.segment[rows], prediction.time[rows], middle - half)
-        _, high = broken(prediction.segment[rows], prediction.time[rows], middle + half)
+        x, low = broken(prediction.segment[rows], time[rows], middle - half)
+        _, high = broken(prediction.segment[rows], time[rows], middle + half)
         found.append(Band("95 % band of the prediction", x, low, high, _BAND))
     return tuple(found)

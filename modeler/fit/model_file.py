@@ -19,7 +19,6 @@ from modeler.core.presented import Presented
 from modeler.fit.integrity import CHECKSUMS, check_checksums, check_estimate, checksums
 from modeler.fit.result import FitResult, fit_from_json
 from modeler.observation import DataReport, Log, Processing
-from modeler.observation.log import shared_rows
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

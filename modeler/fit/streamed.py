@@ -1,4 +1,4 @@
-"""Long logs: a look at windows, then every row once, in chunks, in flat memory; for a fit, or all else."""
+"""Long logs: a look at windows, then every row once, in chunks, in flat memory."""
 
 import dataclasses
 from collections import deque
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import reduce
 from os import cpu_count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,20 +34,8 @@ PASSES = 3
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
-
-class Part(Protocol):
-    """What is kept of some consecutive rows of a log, with what they say of it."""
-
-    @property
-    def facts(self) -> Facts:
-        """Of the rows."""
-
-    def over(self, later: Self) -> Self:
-        """Of these rows, and of those that follow them."""
-
-
 Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
-"""The parts of all chunks of a log, in their order, all of one kind."""
+"""Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,20 +119,15 @@ def by_threads(
     model: "CompiledModel",
     source: Source,
     chosen: Chosen,
-    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Part] | None = None,
+    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] | None = None,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
-    As many chunks are in memory as there are threads, and two.
-
-    Args:
-        model: the compiled robot.
-        source: of the log.
-        chosen: for it.
-        reduce_by: what is kept of a chunk; None: `reduce_chunk`.
+    As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
+    each; None: `reduce_chunk`.
     """
     workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
-    waiting: deque[Future[Part]] = deque()
+    waiting: deque[Future[Any]] = deque()
     with ThreadPoolExecutor(workers) as pool:
         try:
             for chunk in chunks(source, chosen.own, chosen.beside):

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet
 
 from modeler.core.errors import DataError
 from modeler.logs.arrow import arrow_columns, told
-from modeler.logs.columns import Columns
+from modeler.logs.columns import Columns, Values
 from modeler.logs.csv_blocks import CsvBlocks
 from modeler.logs.unchanged import State, check_unchanged, state_of
 
@@ -57,6 +58,17 @@ def blocks_of(path: Path) -> Blocks | None:
     if kind == ".csv":
         return CsvBlocks(path)
     return None
+
+
+def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
+    """Windows spread over a file, one after the other; columns that hold numbers in all of them."""
+    found = [dict(blocks.window((k + 0.5) / count, size).columns) for k in range(count)]
+    values = tuple(
+        (name, Values(np.concatenate([own[name].numbers() for own in found])))
+        for name in found[0]
+        if all(own[name].numeric for own in found)
+    )
+    return Columns(values, len(values[0][1].values) if values else 0)
 
 
 @dataclass(frozen=True, eq=False)

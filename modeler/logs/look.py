@@ -23,6 +23,10 @@ _HELD = 3  # rows in a row at the extreme value that make it a limit
 _STUCK = 0.005  # share of the rows
 _SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
 _JITTER = 0.05
+_TOLD = (
+    "long log: all {} rows are read for ranges, missing values, limits, gaps and pictures, {} of "
+    "them, in windows, for rate, units, resolution and speeds"
+)
 
 
 @dataclass(frozen=True)
@@ -93,7 +97,8 @@ class Look(Presented):
         suggested: a [log] to paste, guessed; "" if a mapping is there already.
         plain: the same without what ranges say of positions.
         ranged: doubts about positions that rest on their range alone.
-        time: (n,) s, or row numbers without a clock.
+        time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
+        steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
         values: (n,) of every channel, in its unit.
     """
 
@@ -109,6 +114,7 @@ class Look(Presented):
     plain: str
     ranged: tuple[str, ...]
     time: np.ndarray
+    steps: np.ndarray
     values: Mapping[str, np.ndarray]
 
     def to_json(self) -> dict[str, Any]:
@@ -130,26 +136,36 @@ def look(
     mapping: LogMap,
     joints: Sequence[JointSpec] = (),
     span: tuple[float | None, float | None] = (None, None),
+    every: Iterable[Table] = (),
 ) -> Look:
     """What is in a log.
 
     Args:
-        table: of the file, read with `mapping`.
+        table: of the file, read with `mapping`; of a long one of windows, by which rate, units,
+            resolution and speeds are judged.
         mapping: stated by the user; what it leaves open is guessed.
         joints: of the robot, if it is known.
         span: only the rows from one time to another, s.
+        every: all rows of a long log, block after block.
 
     Raises:
         DataError: no rows in that span, or a time column without values.
     """
     values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
-    values = _within(table, values, span, joints)
+    blocks: Iterable[dict[str, np.ndarray]] = (_numbers(block, values) for block in every)
+    if span != (None, None):
+        found = guesses(values, {}, joints)
+        values, every = _within(table, found, blocks if every else [values], span), ()
     found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
     units = {n: u for one in found for n, u in zip(one.columns, one.units, strict=True) if u}
     time, clock = _clock(table, values, found)
     shown = {name: table.in_unit(name, v) for name, v in values.items()}
     channels = tuple(_channel(table, name, v, units.get(name, "")) for name, v in shown.items())
-    pairs = _pairs(found)
+    rows, notes, pairs = len(time), table.notes, _pairs(found)
+    drawn = time, np.stack([time[1:], np.diff(time)]), shown
+    if every:
+        rows, clock, channels, drawn = _all_rows(table, blocks, found, (clock, channels))
+        notes = (*notes, _TOLD.format(rows, len(time)))
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
     doubts += [*rate_doubts(pairs, values, time), *_dead(channels, shown, values, pairs)]
     bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
@@ -157,8 +173,8 @@ def look(
                         for f in (found, bare))  # fmt: skip
     ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
     return Look(
-        table.path.name, len(time), clock, channels, table.found.streams, table.notes,
-        tuple(doubts), suggested, plain, ranged, time, shown,
+        table.path.name, rows, clock, channels, table.found.streams, notes,
+        tuple(doubts), suggested, plain, ranged, *drawn,
     )  # fmt: skip
 
 
@@ -187,33 +203,116 @@ def _plain(channel: dict[str, Any]) -> dict[str, Any]:
     return channel | unlike
 
 
+def _numbers(block: Table, names: Iterable[str]) -> dict[str, np.ndarray]:
+    """Columns of a block; one that turns out to hold text has no values there."""
+    none = np.full(block.rows, np.nan)
+    return {name: block.measured(name) if block.is_numeric(name) else none for name in names}
+
+
 def _within(
-    table: Table,
-    values: dict[str, np.ndarray],
+    table: Table, found: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
     span: tuple[float | None, float | None],
-    joints: Sequence[JointSpec],
-) -> dict[str, np.ndarray]:
+) -> dict[str, np.ndarray]:  # fmt: skip
     """The rows of a span of time."""
-    if span == (None, None):
-        return values
-    time, clock = _clock(table, values, guesses(values, {}, joints))
-    low, high = (-np.inf, np.inf)
-    if span[0] is not None:
-        low = span[0]
-    if span[1] is not None:
-        high = span[1]
-    rows = (time >= low) & (time < high)
-    if clock is None or rows.sum() < 2:
+    low = -np.inf if span[0] is None else span[0]
+    high = np.inf if span[1] is None else span[1]
+    kept, ends, clock = [], list[float](), None
+    for values in blocks:
+        time, clock = _clock(table, values, found)
+        kept.append({name: v[(time >= low) & (time < high)] for name, v in values.items()})
+        ends += [float(np.nanmin(time)), float(np.nanmax(time))]
+    inside = {name: np.concatenate([own[name] for own in kept]) for name in kept[0]}
+    if clock is None or len(next(iter(inside.values()))) < 2:
         raise DataError(
             f"{table.path}: fewer than two rows from {low:g} to {high:g} s; its times go from "
-            f"{np.nanmin(time):g} to {np.nanmax(time):g} s"
+            f"{min(ends):g} to {max(ends):g} s"
         )
-    return {name: v[rows] for name, v in values.items()}
+    return inside
+
+
+Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
+"""Time, steps and values of a `Look`."""
+
+
+def _all_rows(
+    table: Table, blocks: Iterable[dict[str, np.ndarray]], found: Sequence[Guess],
+    seen: tuple[Clock | None, Sequence[Channel]],
+) -> tuple[int, Clock | None, tuple[Channel, ...], Drawn]:  # fmt: skip
+    """Rows, clock and channels of a long log, and what is drawn of it; `seen`: of its windows."""
+    counts, clocks, every, drawn = list[int](), list[Clock](), [], list[Drawn]()
+    last: dict[str, np.ndarray] = {}  # a block knows the row before it: one step more
+    for values in blocks:
+        rows = {name: np.append(last.get(name, v[:0]), v) for name, v in values.items()}
+        time, clock = _clock(table, rows, found, seen[0])
+        if clock is None:
+            time = time + sum(counts)
+        else:
+            clocks.append(clock)
+        own = slice(1 if last else 0, None)
+        steps = np.stack([time[1:], np.diff(time)])
+        shown = {name: table.in_unit(name, v) for name, v in values.items()}
+        every.append([_channel(table, name, v, "", False) for name, v in shown.items()])
+        drawn.append(_extremes(time[own], steps, shown))
+        last = {name: v[-1:] for name, v in values.items()}
+        counts.append(len(time[own]))
+    times, stepped, values_drawn = zip(*drawn, strict=True)
+    time = np.concatenate(times)
+    channels = zip(seen[1], zip(*every, strict=True), strict=True)
+    return (
+        sum(counts),
+        None if seen[0] is None else _clock_over(seen[0], clocks, float(np.ptp(time))),
+        tuple(_channel_over(one, parts, counts) for one, parts in channels),
+        (time, np.concatenate(stepped, axis=1),
+         {name: np.concatenate([own[name] for own in values_drawn]) for name in last}),
+    )  # fmt: skip
+
+
+def _extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarray]) -> Drawn:
+    """The rows at which time and channels are least and largest, and such steps."""
+    ends = [
+        [find(x) for find in (np.nanargmin, np.nanargmax)]
+        for x in (time, steps[1], *values.values())
+        if np.isfinite(x).any()
+    ]
+    rows = np.unique([ends[0], *ends[2:]])
+    return time[rows], steps[:, ends[1]], {name: x[rows] for name, x in values.items()}
+
+
+def _clock_over(seen: Clock, clocks: Sequence[Clock], duration: float) -> Clock:
+    """The clock of consecutive blocks."""
+    sums = {
+        name: sum(getattr(own, name) for own in clocks)
+        for name in ("gaps", "lost", "repeated", "back")
+    }
+    widest = max(clocks, key=lambda own: own.largest)
+    jitter = float(np.sqrt(np.mean([own.jitter**2 for own in clocks])))
+    return dataclasses.replace(
+        widest, rate=seen.rate, tick=seen.tick, jitter=jitter, duration=duration, **sums
+    )
+
+
+def _channel_over(seen: Channel, parts: Sequence[Channel], counts: Sequence[int]) -> Channel:
+    """A channel of consecutive blocks of so many rows; its limits are those of all of them."""
+    low = float(np.fmin.reduce([own.low for own in parts]))
+    high = float(np.fmax.reduce([own.high for own in parts]))
+    there = [count - own.missing for own, count in zip(parts, counts, strict=True)]
+    held = {
+        end: sum(dict(own.limits).get(end, 0.0) * rows
+                 for own, rows in zip(parts, there, strict=True)) / max(1, sum(there))
+        for end in dict.fromkeys((low, high))
+    }  # fmt: skip
+    return dataclasses.replace(
+        seen, low=low, high=high, missing=sum(own.missing for own in parts),
+        limits=tuple((end, share) for end, share in held.items() if share > _STUCK),
+        constant=low == high,
+    )  # fmt: skip
 
 
 def _clock(
-    table: Table, values: Mapping[str, np.ndarray], found: Sequence[Guess]
-) -> tuple[np.ndarray, Clock | None]:
+    table: Table, values: Mapping[str, np.ndarray], found: Sequence[Guess],
+    seen: Clock | None = None,
+) -> tuple[np.ndarray, Clock | None]:  # fmt: skip
+    """Times of rows, and their clock, by the usual step of `seen` or their own."""
     guess = next((one for one in found if one.own == "time"), None)
     name = guess.columns[0] if guess is not None else "time"
     if name not in values:
@@ -225,7 +324,7 @@ def _clock(
     steps = np.diff(known)
     if not len(steps):
         raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
-    step = float(np.median(steps))
+    step = float(np.median(steps)) if seen is None else 1.0 / (seen.rate or np.inf)
     even = steps[(steps > 0.0) & (steps <= _GAP * step)]
     gaps = np.flatnonzero(steps > _GAP * step) if step > 0.0 else np.array([], dtype=int)
     widest = int(gaps[np.argmax(steps[gaps])]) if gaps.size else 0
@@ -254,7 +353,9 @@ def _tick(steps: np.ndarray, step: float) -> float:
     return tick if np.quantile(np.abs(off / tick - np.round(off / tick)), 0.9) < 0.05 else 0.0
 
 
-def _channel(table: Table, name: str, values: np.ndarray, guessed: str) -> Channel:
+def _channel(
+    table: Table, name: str, values: np.ndarray, guessed: str, graded: bool = True
+) -> Channel:
     finite = values[np.isfinite(values)]
     stated = table.unit(name)
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (np.nan, np.nan)
@@ -265,7 +366,7 @@ def _channel(table: Table, name: str, values: np.ndarray, guessed: str) -> Chann
         low=low,
         high=high,
         missing=int(values.size - finite.size),
-        resolution=_resolution(finite),
+        resolution=_resolution(finite) if graded else 0.0,
         limits=_limits(finite, low, high),
         constant=bool(finite.size and low == high),
     )

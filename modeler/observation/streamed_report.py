@@ -35,14 +35,15 @@ class Passes:
     facts: tuple[Facts, ...]
     passes: int
 
-    def sentences(self, looked_for: str) -> tuple[str, ...]:
-        """Which rows were read for what; `looked_for`: what the windows are."""
+    def sentences(self) -> tuple[str, ...]:
+        """Which rows were read for what."""
         told = self.to_json()
         passes = "once" if self.passes == 1 else f"{self.passes} times"
         return (
             f"long logs: all {told['rows']} rows are read {passes}, in {told['chunks']} chunks "
-            f"that overlap by what the filters remember; {told['rows_in_windows']} of them, in "
-            f"{told['windows']} windows, are looked at for {looked_for}",
+            "that overlap by what the filters remember; "
+            f"{told['rows_in_windows']} of them, in {told['windows']} windows, are looked at for "
+            "the choices below, doubts about channels, and what needs samples side by side",
         )
 
     def to_json(self) -> dict[str, int]:
@@ -58,10 +59,7 @@ class Passes:
 
 
 def streamed_report(
-    model: "CompiledModel",
-    sources: Sequence[Source],
-    passes: Passes,
-    looked_for: str = "the choices below, the memory of the residuals and doubts about channels",
+    model: "CompiledModel", sources: Sequence[Source], passes: Passes
 ) -> DataReport:
     """What happened to all rows of long logs.
 
@@ -69,7 +67,6 @@ def streamed_report(
         model: the compiled robot.
         sources: of the logs.
         passes: over them.
-        looked_for: what the windows are, in words.
     """
     found, facts = passes.found, passes.facts
     looked, chosen = found.observation.report, found.chosen[0]
@@ -77,7 +74,7 @@ def streamed_report(
     return dataclasses.replace(
         looked,
         processing=dataclasses.replace(looked.processing, speed_floors=floors),
-        choices=(*passes.sentences(looked_for), *looked.choices),
+        choices=(*passes.sentences(), *looked.choices),
         logs=tuple(_log_report(model, source, k, passes) for k, source in enumerate(sources)),
         joints=_joint_reports(model.spec.joints, chosen.shafts, facts, floors),
     )

@@ -60,7 +60,7 @@ class Survey:
         prepared: what else was seen in the windows; without their samples.
         chosen: by log.
         places: of each log among those that were prepared; that of another where none is.
-        spans: s, of the windows of each log that was prepared.
+        windows: how many.
         rows: of them.
     """
 
@@ -68,13 +68,8 @@ class Survey:
     prepared: Prepared
     chosen: tuple[Chosen, ...]
     places: tuple[int, ...]
-    spans: tuple[tuple[tuple[float, float], ...], ...]
+    windows: int
     rows: int
-
-    @property
-    def windows(self) -> int:
-        """How many."""
-        return sum(map(len, self.spans))
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,12 +122,9 @@ def survey(
     for k, (source, at) in enumerate(zip(sources, places, strict=True)):
         log = logs[k] or source.window(0.5, WINDOW)
         every.append(_chosen((k, log), (prepared, at), chosen, parts, known.extremes.get(k), rows))
-    spans = tuple(
-        tuple((float(log.time[0]), float(log.time[-1])) for log in own) for own in windows if own
-    )
+    count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
     prepared = dataclasses.replace(prepared, segments=(), pieces=())  # memory for the chunks
-    rows_seen = sum(log.rows for log in seen)
-    return Survey(observation, prepared, tuple(every), places, spans, rows_seen)
+    return Survey(observation, prepared, tuple(every), places, count, rows_seen)
 
 
 def _count(sources: Sequence[Source], k: int) -> int:

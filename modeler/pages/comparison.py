@@ -164,9 +164,9 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
 
 def _facts_on_data(comparison: Comparison) -> list[str]:
     prediction = comparison.prediction
-    lines = [f"Robot: {prediction.robot}.", f"Logs: {', '.join(own.log for own in comparison.logs)}."]
+    lines = [f"Robot: {prediction.robot}.", f"Logs: {', '.join(prediction.logs)}."]
     lines.append(
-        f"Samples: {comparison.samples} of {comparison.rows} count for at least one joint; "
+        f"Samples: {comparison.samples} of {prediction.time.size} count for at least one joint; "
         "filtered alike on both sides, never differenced across a gap."
     )
     return lines

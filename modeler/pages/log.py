@@ -146,13 +146,11 @@ def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) 
 
 def clock_picture(seen: Look) -> Picture | None:
     """The steps of the clock against time; None without a clock."""
-    if seen.clock is None or len(seen.time) < 2:
+    time, steps = seen.steps[0], 1e3 * seen.steps[1]
+    if seen.clock is None or not np.isfinite(steps).any():
         return None
-    steps = 1e3 * np.diff(seen.time)
-    if not np.isfinite(steps).any():
-        return None
-    rows = thin_points(seen.time[1:], steps)
-    dots = Points("step", seen.time[1:][rows], steps[rows], Style(SLATE, width=2.0))
+    rows = thin_points(time, steps)
+    dots = Points("step", time[rows], steps[rows], Style(SLATE, width=2.0))
     known = steps[np.isfinite(steps)]
     reach = (min(0.0, float(known.min())), float(max(known.max(), 2.0 * np.median(known))))
     panel = Panel("", _time_label(seen), "step of the clock [ms]", (dots,), y_range=reach)
