@@ -157,7 +157,7 @@ def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
     if span is None:
         return read_log(path, spec, names)
     source = source_of(Path(path), spec, names)
-    if source is not None and source.rows > LONG and source.exact:
+    if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
         return read_part(source, spec, *span)
     return window(read_log(path, spec, names), *span)
 

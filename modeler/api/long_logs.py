@@ -14,11 +14,8 @@ from modeler.fit.streamed import Reducer, Streamed, stream
 from modeler.logs.blocks import blocks_of
 from modeler.observation import Log, Observation, Processing
 from modeler.observation.findings import findings_of_fit
-from modeler.observation.log import LONG
+from modeler.observation.log import LONG, MOST_WHOLE
 from modeler.observation.source import MemorySource, Source, source_of
-
-MOST_WHOLE = 5_000_000
-"""Rows that are read at once where a method needs all: about 5 GB with six joints."""
 
 
 def rows_of(places: Sequence[AnyLog]) -> int:

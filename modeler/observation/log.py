@@ -79,6 +79,9 @@ FINGER = 32_768
 LONG = 250_000
 """Rows above which a log is long: it need not be in memory at once."""
 
+MOST_WHOLE = 5_000_000
+"""Rows of a file that is read at once: about 5 GB with six joints."""
+
 
 def fingerprint(*measurements: np.ndarray) -> str:
     """A text that equal arrays share and others do not: SHA-256 of their numbers, in hexadecimal.

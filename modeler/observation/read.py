@@ -9,7 +9,8 @@ import numpy as np
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.core.errors import DataError
 from modeler.logs import LogMap, Table
-from modeler.observation.log import Log, fingerprint
+from modeler.logs.blocks import blocks_of
+from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
 _SHORTEST_STEP, _LONGEST_STEP = 1e-7, 1e7  # s; beyond, squares of it say nothing any more
@@ -28,10 +29,11 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
         mapping: names and units of the file's columns; without it they are ours and SI.
 
     Raises:
-        DataError: the file cannot be read, a needed column is missing or not numeric, time does
-            not increase, or no joint has a measured torque.
+        DataError: the file cannot be read, or is too long to be read at once; a needed column is
+            missing or not numeric, time does not increase, or no joint has a measured torque.
     """
     path = Path(path)
+    _check_fits(path)
     table = Table(path, mapping, spec.joints)
     log = log_of(table, spec)
     ranges = Ranges.of(log)
@@ -42,6 +44,17 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
         notes=(*log.notes, *doubts),
         content=fingerprint(log.time, log.q, log.tau),
     )
+
+
+def _check_fits(path: Path) -> None:
+    """Refuse a file that would not be in memory as a whole, as far as it says before it is read."""
+    blocks = blocks_of(path)
+    if blocks is not None and blocks.rows > MOST_WHOLE:
+        raise DataError(
+            f"{path}: got {blocks.rows} rows; expected at most {MOST_WHOLE} where all are in "
+            "memory; give a part of it, FILE@START:END; `modeler log`, `compare` of one model, and "
+            "`fit` by weighted or ordinary least squares read logs of any length"
+        )
 
 
 def log_of(table: Table, spec: ModuleSpec) -> Log:

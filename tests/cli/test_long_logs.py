@@ -1,6 +1,8 @@
 """`modeler fit` of logs that are read in chunks: same numbers, told in lines and JSON."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pyarrow as pa
@@ -43,10 +45,14 @@ def place(tmp_path_factory):
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
     for where in ("modeler.observation.log.LONG", "modeler.api.long_logs.LONG",
-                  "modeler.observation.streamed_report.LONG"):  # fmt: skip
+                  "modeler.observation.streamed_report.LONG", "modeler.api.looking.LONG"):  # fmt: skip
         monkeypatch.setattr(where, 4000)
-    for where in ("log", "seen"):
-        monkeypatch.setattr(f"modeler.observation.{where}.FINGER", 1024)
+    for where in ("observation.log", "observation.seen", "api.looking"):
+        monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
+    monkeypatch.setattr("modeler.api.looking.WINDOW", 900)
+    monkeypatch.setattr(
+        "modeler.compare.long.compare_long.__defaults__", (lambda share: None, 1024)
+    )
     monkeypatch.setattr("modeler.fit.streamed.stream.__defaults__", (None, lambda share: None,
                                                                      1024, None))  # fmt: skip
 
@@ -135,3 +141,119 @@ def test_a_damaged_row_group_in_the_middle_is_one_line(place, chunked, tmp_path,
     told = capsys.readouterr().err.strip()
     assert told.count("\n") == 0 and "broken.parquet: cannot be read as PARQUET beyond row" in told
     assert not (tmp_path / "m.json").exists()
+
+
+def counted(found):
+    """What comes of sums over rows: all but shares by functions that were fitted to them."""
+    left = ("structure", "systematic", "systematic_sigma", "floor", "orders", "spectrum", "bias")
+    joints = {name: {k: v for k, v in joint.items() if k not in left}
+              for name, joint in found["joints"].items()}  # fmt: skip
+    return flat({"joints": joints, **{k: found[k] for k in ("samples", "relative_error", "by_log",
+                                                          "by_unit", "logs")}})  # fmt: skip
+
+
+def flat(found, name=""):
+    """Texts and numbers by their place."""
+    if isinstance(found, dict | list):
+        pairs = found.items() if isinstance(found, dict) else enumerate(found)
+        return {k: v for key, value in pairs for k, v in flat(value, f"{name}/{key}").items()}
+    return {name: found}
+
+
+def told_of(words, place, capsys):
+    assert main([*words, "--json", str(place)]) == 0
+    return json.loads(place.read_text()), capsys.readouterr().out
+
+
+@pytest.mark.parametrize("log", ["run.parquet", "run.csv"])
+def test_a_long_log_is_compared_in_chunks(log, place, chunked, tmp_path, monkeypatch, capsys):
+    """Numbers are those of the log read whole, where rows lie at the same samples."""
+    fitted(place, "run.parquet", "model")
+    capsys.readouterr()
+    words = ["compare", str(place / "model.json"), str(place / log)]
+    found, out = told_of([*words, "--report", str(tmp_path / "long.html")], tmp_path / "l", capsys)
+    assert f"all {ROWS} rows are read once, in 9 chunks" in out
+    assert "training only: the model was fitted on run.parquet" in out
+    monkeypatch.setattr("modeler.api.long_logs.LONG", 10**9)
+    whole, out = told_of(words, tmp_path / "whole", capsys)
+    assert "long logs" not in out
+    assert counted(found) == pytest.approx(counted(whole), rel=1e-9, abs=1e-12)
+
+
+def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(place, chunked, tmp_path, monkeypatch,
+                                                             capsys):  # fmt: skip
+    fitted(place, "run.parquet", "model")
+    words = ["compare", str(place / "model.json"), str(place / "run.parquet")]
+    capsys.readouterr()
+    every, _ = told_of(words, tmp_path / "every", capsys)
+    monkeypatch.setattr("modeler.compare.long.MOST", 150)
+    some, _ = told_of(words, tmp_path / "some", capsys)
+    assert 120 < some["samples"] <= 151 < every["samples"]
+    assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)
+
+
+@pytest.mark.parametrize("log", ["run.parquet", "run.csv"])
+def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkeypatch, capsys):
+    """With gaps on the border of blocks and inside, missing values, and a torque at its limit."""
+    table = pa.parquet.read_table(place / "run.parquet").to_pydict()
+    columns = {name: np.array(values) for name, values in table.items()}
+    columns["time"][1024:] += 0.3
+    columns["time"][5000:] += 0.1
+    columns["tau1"] = np.clip(columns["tau1"], -np.inf, np.quantile(columns["tau1"], 0.9))
+    columns["q2"][[7, 6000]] = np.nan
+    path = tmp_path / log
+    write = pa.csv.write_csv if path.suffix == ".csv" else pa.parquet.write_table
+    write(pa.table(columns), path)
+    words = ["log", str(path), "--pictures", str(tmp_path / "drawn")]
+    found, out = told_of(words, tmp_path / "long", capsys)
+    assert f"long log: all {ROWS} rows are read for ranges" in out
+    monkeypatch.setattr("modeler.api.looking.LONG", 10**9)
+    whole, _ = told_of(words, tmp_path / "whole", capsys)
+    assert found["clock"]["gaps"] == 2 and found["clock"]["at"] == whole["clock"]["at"] == 5.115
+    del found["notes"], whole["notes"]
+    assert any(c["limits"] for c in whole["channels"]) and any(
+        c["missing"] for c in whole["channels"]
+    )
+    limits = [[c.pop("limits") for c in one["channels"]] for one in (found, whole)]
+    assert flat(limits[0]) == pytest.approx(flat(limits[1]), rel=0.05)  # runs end with their block
+    assert flat(found) == pytest.approx(flat(whole), rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize("words", [["diagnose", "{model}", "{log}"], ["free-run", "{model}", "{log}"],
+                                   ["add", "viscous@1", "{model}", "{log}", "--out", "{model}2"],
+                                   ["estimators", "two-link", "{log}"]])  # fmt: skip
+def test_a_command_that_needs_all_rows_refuses_too_many(words, place, capsys, monkeypatch):
+    fitted(place, "run.parquet", "model")
+    monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)
+    said = [word.format(model=place / "model.json", log=place / "run.parquet") for word in words]
+    assert main(said) == 1
+    told = capsys.readouterr().err
+    assert "run.parquet: got 9000 rows; expected at most 5000 where all are in memory" in told
+
+
+PEAK = """
+import resource, sys
+from modeler.cli import main
+assert main(sys.argv[1:]) == 0
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024))
+"""
+
+
+def test_memory_does_not_grow_with_the_rows(place, tmp_path):
+    """900 000 rows more of five columns: 36 MB as floats, 5 times that and more read whole (25 s)."""
+    fitted(place, "run.parquet", "model")
+    table = pa.parquet.read_table(place / "run.parquet")
+    peaks = {"log": [], "compare": []}
+    for count in (34, 134):
+        path = tmp_path / f"{count}.parquet"
+        with pa.parquet.ParquetWriter(path, table.schema) as file:
+            for k in range(count):
+                time = pa.array(np.array(table["time"]) + k * (ROWS * 5e-3 + 1.0))
+                file.write_table(table.set_column(0, "time", time))
+        for command, own in peaks.items():
+            model = [str(place / "model.json")] if command == "compare" else []
+            words = [sys.executable, "-c", PEAK, command, *model, str(path)]
+            done = subprocess.run(words, capture_output=True, text=True, check=True)
+            own.append(int(done.stdout.split()[-1]))
+    for command, (few, many) in peaks.items():
+        assert many - few < 40 * 100 * ROWS, (command, few, many)
