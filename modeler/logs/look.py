@@ -230,6 +230,9 @@ def _within(
     return inside
 
 
+Runs = tuple[np.ndarray, np.ndarray]
+"""(m,) values at which a channel stays for some rows, and (m,) for how many."""
+
 Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
 """Time, steps and values of a `Look`."""
 
@@ -240,6 +243,7 @@ def _all_rows(
 ) -> tuple[int, Clock | None, tuple[Channel, ...], Drawn]:  # fmt: skip
     """Rows, clock and channels of a long log, and what is drawn of it; `seen`: of its windows."""
     counts, clocks, every, drawn = list[int](), list[Clock](), [], list[Drawn]()
+    runs = list[list[Runs]]()
     last: dict[str, np.ndarray] = {}  # a block knows the row before it: one step more
     for values in blocks:
         rows = {name: np.append(last.get(name, v[:0]), v) for name, v in values.items()}
@@ -252,16 +256,17 @@ def _all_rows(
         steps = np.stack([time[1:], np.diff(time)])
         shown = {name: table.in_unit(name, v) for name, v in values.items()}
         every.append([_channel(table, name, v, "", False) for name, v in shown.items()])
+        runs.append([_runs_of_block(v) for v in shown.values()])
         drawn.append(_extremes(time[own], steps, shown))
         last = {name: v[-1:] for name, v in values.items()}
         counts.append(len(time[own]))
     times, stepped, values_drawn = zip(*drawn, strict=True)
     time = np.concatenate(times)
-    channels = zip(seen[1], zip(*every, strict=True), strict=True)
+    channels = zip(seen[1], zip(*every, strict=True), zip(*runs, strict=True), strict=True)
     return (
         sum(counts),
         None if seen[0] is None else _clock_over(seen[0], clocks, float(np.ptp(time))),
-        tuple(_channel_over(one, parts, counts) for one, parts in channels),
+        tuple(_channel_over(*each, sum(counts)) for each in channels),
         (time, np.concatenate(stepped, axis=1),
          {name: np.concatenate([own[name] for own in values_drawn]) for name in last}),
     )  # fmt: skip
@@ -291,21 +296,18 @@ def _clock_over(seen: Clock, clocks: Sequence[Clock], duration: float) -> Clock:
     )
 
 
-def _channel_over(seen: Channel, parts: Sequence[Channel], counts: Sequence[int]) -> Channel:
-    """A channel of consecutive blocks of so many rows; its limits are those of all of them."""
+def _channel_over(
+    seen: Channel, parts: Sequence[Channel], runs: Sequence[Runs], rows: int
+) -> Channel:
+    """A channel of consecutive blocks."""
     low = float(np.fmin.reduce([own.low for own in parts]))
     high = float(np.fmax.reduce([own.high for own in parts]))
-    there = [count - own.missing for own, count in zip(parts, counts, strict=True)]
-    held = {
-        end: sum(dict(own.limits).get(end, 0.0) * rows
-                 for own, rows in zip(parts, there, strict=True)) / max(1, sum(there))
-        for end in dict.fromkeys((low, high))
-    }  # fmt: skip
+    missing = sum(own.missing for own in parts)
+    ends, lengths = (np.concatenate(each) for each in zip(*runs, strict=True))
+    limits = _limits((ends, lengths), low, high, rows - missing)
     return dataclasses.replace(
-        seen, low=low, high=high, missing=sum(own.missing for own in parts),
-        limits=tuple((end, share) for end, share in held.items() if share > _STUCK),
-        constant=low == high,
-    )  # fmt: skip
+        seen, low=low, high=high, missing=missing, limits=limits, constant=low == high
+    )
 
 
 def _clock(
@@ -367,7 +369,7 @@ def _channel(
         high=high,
         missing=int(values.size - finite.size),
         resolution=_resolution(finite) if graded else 0.0,
-        limits=_limits(finite, low, high),
+        limits=_limits(_runs(finite, True), low, high, finite.size),
         constant=bool(finite.size and low == high),
     )
 
@@ -384,26 +386,36 @@ def _resolution(values: np.ndarray) -> float:
     return step if float(np.quantile(off, 0.9)) < 0.05 else 0.0
 
 
-def _limits(values: np.ndarray, low: float, high: float) -> tuple[tuple[float, float], ...]:
-    """Ends of the range at which the values stay for some rows, and for which share of all.
-
-    Not at the beginning or the end, where a robot stands still; and not of a channel that stays
-    anywhere, because it is slower than the log.
-    """
-    if not low < high:
-        return ()
+def _runs(values: np.ndarray, inner: bool) -> Runs:
+    """Of finite values; `inner`: not at the beginning or the end, where a robot stands still."""
     edges = np.flatnonzero(np.diff(values)) + 1  # where another value begins
-    starts, ends = edges[:-1], edges[1:]
-    lengths = ends - starts
+    if not inner:
+        edges = np.concatenate([[0], edges, [values.size]])
+    lengths = np.diff(edges)
     long = lengths >= _HELD
-    if lengths[long].sum() > _SLOW * values.size:
+    return values[edges[:-1]][long], lengths[long]
+
+
+def _runs_of_block(values: np.ndarray) -> Runs:
+    """Its runs at its least, at its largest and at all other values, each together."""
+    values = values[np.isfinite(values)]
+    ends, lengths = _runs(values, False)
+    at = np.array([values.min(), values.max()]) if values.size else np.full(2, np.nan)
+    rows = [int(lengths[ends == end].sum()) for end in at]
+    other = int(lengths[~np.isin(ends, at)].sum())
+    return np.append(at, np.nan), np.array([*rows, other]) * [1, at[0] < at[1], 1]
+
+
+def _limits(runs: Runs, low: float, high: float, rows: int) -> tuple[tuple[float, float], ...]:
+    """Ends of the range at which so many values stay for some rows, and for which share of all.
+
+    Not of a channel that stays anywhere, because it is slower than the log.
+    """
+    ends, lengths = runs
+    if not low < high or lengths.sum() > _SLOW * rows:
         return ()
-    found = []
-    for end in (low, high):
-        rows = int(lengths[long & (values[starts] == end)].sum())
-        if rows > _STUCK * values.size:
-            found.append((end, rows / values.size))
-    return tuple(found)
+    held = [(end, int(lengths[ends == end].sum())) for end in (low, high)]
+    return tuple((end, count / rows) for end, count in held if count > _STUCK * rows)
 
 
 def _of_clock(clock: Clock | None) -> list[str]:
