@@ -272,4 +272,4 @@ def test_memory_does_not_grow_with_the_rows(place, tmp_path):
             done = subprocess.run(words, capture_output=True, text=True, check=True)
             own.append(int(done.stdout.split()[-1]))
     for command, (few, many) in peaks.items():
-        assert many - few < 40 * 60 * ROWS, (command, few, many)
+        assert many - few < 100 * 60 * ROWS, (command, few, many)  # whole: 180 and 390 a row
