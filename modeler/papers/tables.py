@@ -85,6 +85,8 @@ def closure_reading(paper: Paper, line: PrintedLine, robots: Mapping[str, Derive
     printed: dict[str, Sum] = {}
     derived: dict[str, Sum] = {}
     texts = line.text.split("|") if "|" in line.text else [line.text] * len(line.legs)
+    if len(texts) != len(line.legs):
+        raise QuotationError(f"{len(texts)} expressions are quoted for {len(line.legs)} legs")
     for leg, text in zip(line.legs, texts, strict=True):
         rename = renamer(paper, line, leg)
         text = _with_deltas(text, int(leg))
