@@ -90,12 +90,12 @@ def _agreement(opinion: float) -> str:
 
 
 def _opened(args: argparse.Namespace) -> Robot:
-    """The tree of a robot whose loops are not closed: every row of its table moves freely."""
+    """The tree of a robot whose loops are not closed: every joint of its table has a torque."""
     robot = robot_with_effects(args)
     if not robot.loops:
         raise RobotError(f"--open: {robot.name} has no loops to cut; leave --open out")
     title = f"{robot.title}, its loops cut open"
-    return dataclasses.replace(robot, title=title, loops=())
+    return dataclasses.replace(robot.opened(), title=title)
 
 
 def _tied_lines(model: SymbolicModel) -> list[str]:

@@ -21,7 +21,6 @@ def run_reproduce(args: argparse.Namespace) -> Json:
         lines = _lines(paper)
         args.different += [line.printed for line in lines if line.verdict is Verdict.DIFFERENT]
         found["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
-        found["notes"] = list(paper.notes)
     if args.section != "print":
         tables = _methods(paper)
         args.different += _failed(tables)
@@ -46,21 +45,15 @@ def after_reproduce(args: argparse.Namespace) -> None:
 def _lines(paper: Paper) -> list[Line]:
     found: dict[str, Derived] = {}
     for name in paper.robots:
-        variant = paper.variants.get(name)
         with working(f"deriving {name}"):
-            found[name] = (
-                derived_robot(name, variant.gravity, variant.of)
-                if variant is not None
-                else derived_robot(name)
-            )
+            found[name] = derived_robot(name, paper.variants.get(name))
     lines = check_paper(paper, found)
     for name in paper.robots:
         _say_robot(name, found[name], [line for line in lines if line.robot == name])
-    if paper.notes:
-        say()
-        say("Seen in the text, not computed here:")
-    for note in paper.notes:
-        say(f"  * {note}")
+    say()
+    for line in lines:
+        if line.verdict is Verdict.UNCHECKED:
+            say(f"  [{line.verdict.value}] {line.place}: {line.why}")
     say()
     counts = {v: sum(line.verdict is v for line in lines) for v in Verdict}
     say(", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count))
@@ -73,7 +66,7 @@ def _say_robot(name: str, derived: Derived, lines: Sequence[Line]) -> None:
     for line in lines:
         slip = f": {SLIP_TEXTS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
         say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
-        if line.verdict is Verdict.MEASURED:
+        if line.verdict in (Verdict.MEASURED, Verdict.CONSISTENT):
             say(f"      must hold: {line.derived}")
         if line.verdict in (Verdict.MISPRINT, Verdict.DIFFERENT):
             say(f"      derived: {line.derived}")

@@ -128,7 +128,8 @@ def _all_parameters(
     rows.append(
         Row(
             "%sigma of " + ", ".join(WEAK), _range(theirs), _range(ours),
-            judged(min(*theirs, *ours) >= BAD), f"{BAD:g} % and more: not well identified",
+            judged(min(*theirs, *ours) >= BAD, Outcome.HOLDS),
+            f"{BAD:g} % and more: not well identified",
         )
     )  # fmt: skip
     return MethodTable("Table 2: all base parameters", SETTING, tuple(rows))
@@ -148,9 +149,11 @@ def _weak_direction(
     rows = [
         Row(
             f"{name}/MX2", f"{theirs[name]:.3f}", f"{ours[name]:.3f}",
-            judged(abs(theirs[name] - ours[name]) < 0.05), f"derived {DIRECTION[name]:.3g}",
+            judged(abs(theirs[name] - ours[name]) < 0.05),
+            f"within 0.05; derived {DIRECTION[name]:.3g}",
         )
         for name in WEAK
+        if name != "MX2"
     ]  # fmt: skip
     rest = max(abs(value) for name, value in ours.items() if name not in WEAK)
     rows.append(
@@ -197,8 +200,8 @@ def _conditions(paper: Paper, full: FitResult, reduced: FitResult) -> MethodTabl
     theirs, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
     rows.append(
         Row(
-            "their ratio", f"{theirs:.3g}", f"{ours:.3g}", judged(min(theirs, ours) > FALL),
-            f"more than {FALL:g}",
+            "their ratio", f"{theirs:.3g}", f"{ours:.3g}",
+            judged(min(theirs, ours) > FALL, Outcome.HOLDS), f"more than {FALL:g}",
         )
     )  # fmt: skip
     return MethodTable("Condition numbers of W", (), tuple(rows))

@@ -159,7 +159,7 @@ def _known(paper: Paper, derivation: Derivation) -> MethodTable:
     rows = [
         Row("parameters that follow from " + ", ".join(KNOWN), f"{claim:g}", str(len(found)),
             judged(len(found) == FOLLOW, Outcome.DERIVED),
-            "the statement is wrong; " + ", ".join(found)),
+            "the statement is wrong: " + ", ".join(found) + " alone"),
     ]  # fmt: skip
     for size, expected in ((int(rest), 0), (smallest_number(system), 61_879)):
         sets = known_sets(system, size)

@@ -12,12 +12,17 @@ from modeler.papers.quotation import numbers_of
 ZMAX = 4.0
 """A value further from the truth than so many of its sigmas is not the truth's."""
 
+LARGEST = 0.5
+"""Sigma over value, above which nothing is recovered: two sigmas reach zero."""
+
 
 class Outcome(enum.Enum):
     """How a line of a method ends."""
 
     REPRODUCED = "reproduced"
     RECOVERED = "truth recovered"
+    UNDETERMINED = "agrees, but not determined"
+    HOLDS = "holds of both"
     DERIVED = "as derived"
     SHOWN = "beside each other"
     FAILED = "NOT reproduced"
@@ -32,8 +37,10 @@ class Row:
         printed: by the paper, or "-".
         ours: of the simulation.
         outcome: "truth recovered" where a simulated machine's value is found, whatever the paper
-            measured on its own; "as derived" where we say what the paper does not, or deny what it
-            says; "beside each other" where nothing says that the two must agree.
+            measured on its own; "agrees, but not determined" where the truth lies within a sigma
+            too large to say so; "holds of both" where a statement is true of two numbers that
+            differ; "as derived" where we say what the paper does not, or deny what it says;
+            "beside each other" where nothing says that the two must agree.
         why: what was asked of the line, or a remark.
     """
 
@@ -65,11 +72,20 @@ def judged(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:
 
 
 def recovered(name: str, printed: str, truth: float, value: float, sigma: float) -> Row:
-    """A parameter whose truth the simulated robot has: within `ZMAX` of its sigmas."""
+    """A parameter whose truth the simulated robot has: within `ZMAX` of its sigmas.
+
+    It is found only if its sigma is no more than `LARGEST` of the value: with a larger one nearly
+    every truth would agree.
+    """
     z = (value - truth) / sigma if sigma > 0.0 else float("inf")
-    text = f"{value:.5g} +- {sigma:.2g} ({100 * sigma / abs(value):.3g} %)"
-    outcome = Outcome.RECOVERED if abs(z) < ZMAX else Outcome.FAILED
-    return Row(name, printed, text, outcome, f"{truth:.5g}, {z:+.1f} sigma")
+    share = sigma / abs(value) if value else float("inf")
+    text = f"{value:.5g} +- {sigma:.2g} ({100 * share:.3g} %)"
+    why = f"{truth:.5g}, {z:+.1f} sigma"
+    if abs(z) >= ZMAX:
+        return Row(name, printed, text, Outcome.FAILED, why)
+    if share > LARGEST:
+        return Row(name, printed, text, Outcome.UNDETERMINED, f"sigma {100 * share:.3g} %; {why}")
+    return Row(name, printed, text, Outcome.RECOVERED, why)
 
 
 def figures(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:

@@ -19,8 +19,10 @@ class Verdict(enum.Enum):
     EQUAL = "printed and equal"
     ROUNDED = "printed and equal to the printed digits"
     MISPRINT = "printed and different"
+    CONSISTENT = "printed and consistent, no equality"
     MEASURED = "printed, measured: nothing derives it"
     OURS = "our consequence, not printed"
+    UNCHECKED = "not checked"
     DIFFERENT = "DIFFERENT"
 
 
@@ -28,6 +30,7 @@ SLIP_TEXTS = {
     "misprint": "a misprint",
     "omission": "an omission",
     "error": "the statement is wrong",
+    "count": "counted otherwise, no error",
     "scan": "the scanned text may be at fault, not the paper",
 }
 
@@ -63,12 +66,17 @@ def check_paper(paper: Paper, derived: Mapping[str, Derived]) -> list[Line]:
         derived: its robots, by name.
     """
     lines = [*paper.lines, *coefficient_quotations(paper, derived)]
-    return [check_line(paper, one, derived) for line in lines for one in written_out(line)]
+    checked = [check_line(paper, one, derived) for line in lines for one in written_out(line)]
+    return checked + [
+        Line("", place, "", "", Verdict.UNCHECKED, "", why)
+        for place, why in paper.unchecked.items()
+    ]
 
 
 def written_out(line: PrintedLine) -> list[PrintedLine]:
-    """One line for each leg."""
-    return [replace(line, legs=(leg,)) for leg in line.legs] if line.check != "names" else [line]
+    """One line for each leg, but for what speaks of all legs together."""
+    together = line.check in ("names", "closure")
+    return [line] if together else [replace(line, legs=(leg,)) for leg in line.legs]
 
 
 def check_line(paper: Paper, line: PrintedLine, derived: Mapping[str, Derived]) -> Line:
@@ -81,10 +89,10 @@ def check_line(paper: Paper, line: PrintedLine, derived: Mapping[str, Derived]) 
     except QuotationError as error:
         return _told(line, str(error), Verdict.DIFFERENT)
     equal, exact = same(found)
-    return _told(line, found.text, _verdict(line, equal, exact))
+    return _told(line, found.text, _verdict(line, equal, exact, found.weak))
 
 
-def _verdict(line: PrintedLine, equal: bool, exact: bool) -> Verdict:
+def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> Verdict:
     if not equal:
         return Verdict.DIFFERENT
     if line.ours:
@@ -93,6 +101,8 @@ def _verdict(line: PrintedLine, equal: bool, exact: bool) -> Verdict:
         return Verdict.MISPRINT
     if line.measured:
         return Verdict.MEASURED
+    if weak:
+        return Verdict.CONSISTENT
     return Verdict.EQUAL if exact else Verdict.ROUNDED
 
 

@@ -19,6 +19,7 @@ class Compared:
         text: the derived one as people read it.
         difference: derived minus printed, as the paper's file states it.
         values: of the names that stand in coefficients, for decimals.
+        weak: something is only larger or smaller, nothing says that it is equal.
     """
 
     printed: Sum
@@ -26,6 +27,7 @@ class Compared:
     text: str
     difference: Sum = field(default_factory=dict)
     values: Mapping[str, float] = field(default_factory=dict)
+    weak: bool = False
 
 
 def joined(parts: Mapping[str, Sum]) -> Sum:

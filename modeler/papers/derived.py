@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
 from fractions import Fraction
 from functools import cached_property
 
@@ -10,6 +9,7 @@ import sympy
 
 from modeler.base import BaseParameters, base_parameters
 from modeler.core.expression import parse
+from modeler.papers.paper import Variant
 from modeler.papers.quotation import Amount, Monomial, Sum, read_sum
 from modeler.robot import Robot, read_robot
 from modeler.symbolic import SymbolicModel, derive_model
@@ -45,6 +45,16 @@ class Derived:
         return frozenset(self.base.columns[p.column].name for p in self.base.parameters)
 
     @cached_property
+    def grouping(self) -> Mapping[str, list[sympy.Rational]]:
+        """By standard parameter: how much of it is in each base parameter, at nominal values."""
+        found = {name: [sympy.S.Zero] * self.base.rank for name in self.standard}
+        for k, parameter in enumerate(self.base.parameters):
+            for term in parameter.terms:
+                put = {s: self.values[s.name] for s in term.coefficient.free_symbols}
+                found[term.parameter][k] = sympy.Rational(float(term.coefficient.subs(put)))
+        return found
+
+    @cached_property
     def table(self) -> CoefficientTable:
         """Coefficients of the closed form."""
         return coefficient_table(self.model, self.base)
@@ -57,19 +67,16 @@ class Derived:
         return free | tied
 
 
-def derived_robot(name: str, gravity: tuple[str, ...] = (), of: str = "") -> Derived:
-    """A built-in robot, or one of that name with another direction of gravity."""
-    robot = read_robot(of or name)
-    if gravity:
-        x, y, z = (parse(text) for text in gravity)
-        robot = replace(robot, name=name, gravity=(x, y, z))
+def derived_robot(name: str, variant: Variant | None = None) -> Derived:
+    """A built-in robot, or one of that name that differs from a built-in one as `variant` says."""
+    robot = read_robot(name if variant is None else variant.of)
+    if variant is not None:
+        robot = replace(robot.opened() if variant.open else robot, name=name)
+        if variant.gravity:
+            x, y, z = (parse(text) for text in variant.gravity)
+            robot = replace(robot, gravity=(x, y, z))
     model = derive_model(robot)
     return Derived(robot, model, base_parameters(model))
-
-
-def select(names: tuple[str, ...] | frozenset[str], pattern: str) -> frozenset[str]:
-    """Names that a pattern such as `*11` or `??2[123]` describes; several with `|`."""
-    return frozenset(n for n in names if any(fnmatchcase(n, p) for p in pattern.split("|")))
 
 
 def _sum_of(terms: tuple[object, ...]) -> Sum:

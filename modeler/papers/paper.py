@@ -16,9 +16,9 @@ from modeler.core.errors import RobotError
 
 _FOLDER = Path(__file__).parent / "library"
 
-SLIPS = ("misprint", "omission", "error", "scan")
-"""Why a print differs: a slip of the pen, something left out, a wrong statement, or perhaps only
-the scanned text that was read and not the paper."""
+SLIPS = ("misprint", "omission", "error", "scan", "count")
+"""Why a print differs: a slip of the pen, something left out, a wrong statement, perhaps only the
+scanned text that was read and not the paper, or another way to count, which is no error."""
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,11 @@ class PrintedLine:
     """One statement about a robot: quoted, or ours.
 
     Attributes:
-        robot: built-in robot, or one of `Paper.variants`.
+        robot: built-in robot, or one of `Paper.variants`; that of the file's head if it has none.
         place: in the paper: section, equation or table.
         quote: the print; "" if the statement is our consequence.
         ours: our consequence, in our names; "" if it is printed.
-        check: how it is compared: "relation", "numbers", "names", "arithmetic", "row", "tied",
-            "rows", "angular", "energy", or one of the wrist's coefficient functions.
+        check: how it is compared: one of `modeler.papers.readings.READINGS`.
         given: further quotations that it rests on: assumptions, or sums put in.
         legs: what stands for i; one line each.
         gives: what is derived, one expression per number, or the expression of a set.
@@ -71,10 +70,11 @@ class PrintedLine:
 
 @dataclass(frozen=True)
 class Variant:
-    """A built-in robot with gravity along another axis."""
+    """A built-in robot with gravity along another axis, or as its virtual tree."""
 
     of: str
-    gravity: tuple[str, ...]
+    gravity: tuple[str, ...] = ()
+    open: bool = False
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Paper:
         names: the paper's names where they are not ours with another index: print -> ours.
         coefficients: robot whose file quotes the paper's coefficient functions, or "".
         slips: of these quotations: "function S112" -> kind, difference, reason.
-        notes: other slips of the print, which nothing here computes, one text each.
+        unchecked: what nothing here computes: place -> why.
     """
 
     name: str
@@ -101,7 +101,7 @@ class Paper:
     names: Mapping[str, str]
     coefficients: str = ""
     slips: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
+    unchecked: Mapping[str, str] = field(default_factory=dict)
 
 
 def paper_names() -> tuple[str, ...]:
@@ -118,7 +118,9 @@ def read_paper(name: str) -> Paper:
     if name not in paper_names():
         raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(paper_names())}')
     document = tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
-    lines = tuple(_line(entry) for entry in document["line"])
+    lines = tuple(
+        line for entry in document["line"] for line in _lines({"robot": document["robot"]} | entry)
+    )
     coefficients = document.get("coefficients", "")
     named = [name for line in lines for name in (line.robot, line.through) if name]
     robots = dict.fromkeys(named + [coefficients] * bool(coefficients))
@@ -127,15 +129,23 @@ def read_paper(name: str) -> Paper:
         title=document["title"],
         robots=tuple(robots),
         variants={
-            key: Variant(entry["of"], tuple(str(axis) for axis in entry["gravity"]))
-            for key, entry in document.get("variants", {}).items()
+            key: Variant(e["of"], tuple(map(str, e.get("gravity", ()))), e.get("open", False))
+            for key, e in document.get("variants", {}).items()
         },
         lines=lines,
         names=document.get("names", {}),
         coefficients=coefficients,
         slips=document.get("slips", {}),
-        notes=tuple(document.get("notes", [])),
+        unchecked=document.get("unchecked", {}),
     )
+
+
+def _lines(entry: dict[str, Any]) -> list[PrintedLine]:
+    """One line, or one for each of `quotes`: quotation -> its seal, or "" without one."""
+    quotes = entry.pop("quotes", None)
+    if quotes is None:
+        return [_line(entry)]
+    return [_line(entry | {"quote": quote, "seal": seal}) for quote, seal in quotes.items()]
 
 
 def _line(entry: Mapping[str, Any]) -> PrintedLine:

@@ -12,6 +12,8 @@ from collections.abc import Callable, Mapping
 from fnmatch import fnmatchcase
 from typing import Any
 
+import sympy
+
 from modeler.papers.derived import Derived
 from modeler.papers.quotation import QuotationError
 
@@ -71,7 +73,8 @@ def quantities(derived: Derived) -> dict[str, Any]:
     """What can be asked of a robot: sets of names, by pattern, and what counts them.
 
     `standard`, `base`, `zero` (without effect), `grouped` (neither base nor zero), `joints`,
-    `actuated`, `passive` (of the table, the platform's left out), `links`.
+    `actuated`, `passive` (of the table, the platform's left out), `links`; `within(a, b)`: what of
+    a is grouped with b.
     """
     robot, base = derived.robot, derived.base
     joints = [joint for joint in robot.moving if joint.name not in robot.platform]
@@ -96,6 +99,7 @@ def quantities(derived: Derived) -> dict[str, Any]:
         column.prefix for column in base.columns if column.name in names
     )
     found["efforts"] = lambda names: frozenset(f"Gamma{name}" for name in names)
+    found["within"] = lambda own, others: _within(derived, own, others)
     found["terms"] = lambda name: len(derived.relations.get(name, ()))
     found["symbol"] = lambda name: derived.values[name]
     return found | (_coefficients(derived) if robot.physical else {})
@@ -108,6 +112,15 @@ def _pattern(members: frozenset[str]) -> Callable[..., frozenset[str]]:
         return frozenset(n for n in members if any(fnmatchcase(n, p) for p in patterns))
 
     return chosen
+
+
+def _within(derived: Derived, own: frozenset[str], others: frozenset[str]) -> frozenset[str]:
+    """What of `own` is grouped and a combination of `others` and of what is kept of `own`."""
+    columns = derived.grouping
+    basis = [columns[name] for name in sorted(others | (own & derived.kept)) if any(columns[name])]
+    rank = sympy.Matrix(basis).rank()
+    grouped = (name for name in own - derived.kept if any(columns[name]))
+    return frozenset(n for n in grouped if sympy.Matrix([*basis, columns[n]]).rank() == rank)
 
 
 def _coefficients(derived: Derived) -> dict[str, Any]:

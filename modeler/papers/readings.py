@@ -7,7 +7,14 @@ from typing import Any
 
 from modeler.papers.compared import Compared
 from modeler.papers.derived import Derived
-from modeler.papers.motion import energy_reading, rotation_reading, square_reading
+from modeler.papers.motion import (
+    column_reading,
+    effort_reading,
+    element_reading,
+    energy_reading,
+    rotation_reading,
+    speed_reading,
+)
 from modeler.papers.naming import difference_of, renamer
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quantities import evaluate, quantities
@@ -21,7 +28,13 @@ from modeler.papers.quotation import (
     replaced,
     sum_text,
 )
-from modeler.papers.tables import matrix_reading, row_reading, tied_reading
+from modeler.papers.tables import (
+    closure_reading,
+    matrix_reading,
+    platform_reading,
+    row_reading,
+    tied_reading,
+)
 from modeler.papers.wrist import WRIST_READINGS
 
 Robots = Mapping[str, Derived]
@@ -150,7 +163,8 @@ def arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compa
             printed[((entry, 1),)] = _ONE
             derived = derived | ({((entry, 1),): _ONE} if holds else {})
             texts.append(f"{entry}: {'yes' if holds else 'no'}")
-    return Compared(printed, derived, ", ".join(texts), difference_of(line))
+    weak = any(re.search("[<>]", entry) for entry in line.gives)
+    return Compared(printed, derived, ", ".join(texts), difference_of(line), weak=weak)
 
 
 def _floats(numbers: Mapping[str, Amount]) -> dict[str, Any]:
@@ -177,7 +191,12 @@ READINGS: Mapping[str, Callable[[Paper, PrintedLine, Robots], Compared]] = {
     "tied": tied_reading,
     "rows": matrix_reading,
     "rotation": rotation_reading,
-    "square": square_reading,
+    "element": element_reading,
+    "column": column_reading,
     "energy": energy_reading,
+    "speed": speed_reading,
+    "effort": effort_reading,
+    "closure": closure_reading,
+    "platform": platform_reading,
     **WRIST_READINGS,
 }

@@ -1,14 +1,21 @@
 """Coefficient functions (PG, PJ, PS) that a robot file quotes from a paper, one line each."""
 
+import itertools
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from typing import Any
+
+import sympy
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression, ExpressionError, parse
 from modeler.papers.compared import Compared, joined
 from modeler.papers.derived import Derived
+from modeler.papers.motion import sum_of, without_squared_sines
+from modeler.papers.naming import difference_of
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quotation import Amount, QuotationError, Sum, amount, read_sum, sum_text
 from modeler.terms import CoefficientTable
@@ -18,6 +25,7 @@ from modeler.terms.checks import (
     wrong_definitions,
     wrong_functions,
 )
+from modeler.terms.friction import check_friction
 from modeler.terms.printed import Print
 from modeler.terms.text import monomial_text
 
@@ -154,6 +162,132 @@ def _terms(derived: Derived, function: str) -> list[tuple[str, Sum]]:
     return [(c.name, read_sum(monomial_text(c.exponents, names), str)) for c in found]
 
 
+@cache
+def _triads() -> dict[str, sympy.Matrix]:
+    """Unit vectors a1, ..., c3 along n: a turns about n1, b about a2, c about b1."""
+    q1, q2, q3 = _Q
+    about1, about2 = (lambda q: sympy.rot_axis1(-q)), (lambda q: sympy.rot_axis2(-q))
+    a = about1(q1)
+    b = a * about2(q2)
+    frames = {"n": sympy.eye(3), "a": a, "b": b, "c": b * about1(q3)}
+    return {f"{name}{k + 1}": at[:, k] for name, at in frames.items() for k in range(3)}
+
+
+_Q = sympy.symbols("q1:4")
+_T = sympy.Symbol("t")
+_IN_TIME = {q: sympy.Function(q.name)(_T) for q in _Q}
+_SPEEDS = {f.diff(_T): sympy.Symbol(f"qd{k}") for k, f in enumerate(_IN_TIME.values(), 1)}
+
+
+@cache
+def _speeds(body: str) -> tuple[sympy.Matrix, sympy.Matrix]:
+    """(velocity of the mass centre, angular velocity) of a body, along n."""
+    axes = _triads()
+    crossing = sympy.Symbol("al1") * axes["a1"]
+    last = crossing + sympy.Symbol("bl1") * axes["b1"]
+    origin = {"a": sympy.zeros(3, 1), "b": crossing, "c": last}
+    own = sum((sympy.Symbol(f"{body}t{k}") * axes[f"{body}{k}"] for k in (1, 2, 3)), origin[body])
+    turn = sympy.Matrix.hstack(*(axes[f"{body}{k}"] for k in (1, 2, 3))).subs(_IN_TIME)
+    spin = turn.diff(_T) * turn.T
+    back = {f: q for q, f in _IN_TIME.items()}
+    found = [own.subs(_IN_TIME).diff(_T), sympy.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])]
+    velocity, angular = (part.subs(_SPEEDS).subs(back) for part in found)
+    return velocity, angular
+
+
+def _along(text: str) -> sympy.Matrix:
+    """`-at3 qd1 a2 + at2 qd1 a3` along n: each term ends with its unit vector."""
+    total, axes = sympy.zeros(3, 1), _triads()
+    angles = {f"{f}{k}": getattr(sympy, g)(q) for f, g in (("s", "sin"), ("c", "cos"))
+              for k, q in enumerate(_Q, 1)}  # fmt: skip
+    depth, terms = 0, [""]
+    for letter in text:
+        depth += {"(": 1, ")": -1}.get(letter, 0)
+        if letter in "+-" and depth == 0:
+            terms.append("")
+        terms[-1] += letter
+    for term in filter(str.strip, terms):
+        factors, _, axis = term.strip().rpartition(" ")
+        if axis not in axes:
+            raise QuotationError(f'"{term}" ends with no unit vector')
+        plain = sum_text(read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str))
+        total += sympy.sympify(plain.replace("^", "**"), angles) * axes[axis]
+    return total
+
+
+def _vectors(found: sympy.Matrix) -> Sum:
+    return joined({str(k): sum_of(without_squared_sines(x)) for k, x in enumerate(found, 1)})
+
+
+def _velocity(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+    """Velocity of the mass centre of body `gives[0]`, or its angular velocity, from positions."""
+    body, _, angular = line.gives[0].partition(" ")
+    derived = _vectors(_speeds(body)[bool(angular)])
+    return Compared(_vectors(_along(line.text)), derived, "the same", difference_of(line))
+
+
+def _applied(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+    """`-am n3; tau1 a1; ...`: force and torque on each body, projected on its speeds.
+
+    The generalised forces of motors between bodies are tau_i; gravity's follow from the height.
+    """
+    cells = [cell.strip() for cell in line.text.split(";")]
+    printed, derived = sympy.zeros(3, 1), sympy.Matrix(sympy.symbols("tau1:4"))
+    rates, down = sympy.Matrix(list(_SPEEDS.values())), -sympy.Symbol("g") * _triads()["n3"]
+    for k, body in enumerate("abc"):
+        velocity, angular = _speeds(body)
+        for vector, cell in zip((velocity, angular), cells[2 * k : 2 * k + 2], strict=True):
+            printed += vector.jacobian(rates).T * _along(cell)
+        derived += velocity.jacobian(rates).T * sympy.Symbol(f"{body}m") * down
+    text = ", ".join(f"tau{k} - g{k}" for k in (1, 2, 3))
+    given = _vectors(printed)
+    if line.gives:  # the paper's unit of gravity
+        derived = derived.subs(sympy.Symbol("g"), sympy.Integer(line.gives[0]))
+    return Compared(given, _vectors(derived), text, difference_of(line))
+
+
+def _indices(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+    """`Jij ddotqi + Sijk qdj qdk + gi = taui`: the index of each term that no summation takes.
+
+    `gives` are the terms of the equation, `Jddotq`; an index that stands three times is doubled.
+    """
+    printed: dict[str, Sum] = {}
+    for term in re.split(r"[+=]", line.text):
+        letters = "".join(re.findall(r"[A-Za-z]+?([ijk]+)\b", term))
+        free = [x * (letters.count(x) // 2 + 1) for x in "ijk" if letters.count(x) % 2]
+        name = re.sub(r"([A-Za-z]+?)[ijk]+\b|[ ()]", r"\1", term)
+        printed[name] = read_sum("*".join(free) or "0", str)
+    derived = {name: read_sum("i", str) for name in line.gives}
+    return Compared(joined(printed), joined(derived), "i in every term", difference_of(line))
+
+
+def _friction(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+    """`Gii Cik sgn(qdk)` at the robot file's motion, against G' C sgn(G qd)."""
+    found = re.fullmatch(r"G([ijk]{2}) C([ijk]{2}) sgn\(qd([ijk])\)", line.text)
+    coupling = robots[line.robot].table.printed.coupling
+    if found is None or coupling is None:
+        raise QuotationError(f'"{line.text}" is no friction of coupled motors')
+    G, C = coupling.motor_from_joint, coupling.coulomb
+    places = {letter: range(3) for letter in "ijk"}
+    printed = dict.fromkeys(range(3), Fraction(0))
+    used = sorted({*"i", *found[1], *found[2], *found[3]})
+    for at in itertools.product(*(places[letter] for letter in used)):
+        index = dict(zip(used, at, strict=True))
+        (a, b), (c, d) = ([index[x] for x in pair] for pair in (found[1], found[2]))
+        speed = coupling.speed[index[found[3]]]
+        printed[index["i"]] += G[a][b] * C[c] * (c == d) * ((speed > 0) - (speed < 0))
+    derived = check_friction(coupling).derived
+    text = ", ".join(f"{float(value):g}" for value in derived)
+    return Compared(
+        _numbered(list(printed.values())), _numbered(list(derived)),
+        f"G' C sgn(G qd); at the motion of docs/wrist.md {text} N m", difference_of(line),
+    )  # fmt: skip
+
+
+def _numbered(values: list[Fraction]) -> Sum:
+    return {((f"in{k}", 1),): Amount(Fraction(v)) for k, v in enumerate(values, 1) if v}
+
+
 WRIST_READINGS: Mapping[str, Callable[[Paper, PrintedLine, Mapping[str, Derived]], Compared]] = {
     "function": _function,
     "definition": _definition,
@@ -161,4 +295,8 @@ WRIST_READINGS: Mapping[str, Callable[[Paper, PrintedLine, Mapping[str, Derived]
     "independent": _independent,
     "monomials": _monomials,
     "values": _values,
+    "velocity": _velocity,
+    "applied": _applied,
+    "indices": _indices,
+    "friction": _friction,
 }

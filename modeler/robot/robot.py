@@ -1,7 +1,7 @@
 """The robot as the user states it: data, no derivation."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from modeler.core.brief import Brief
@@ -177,6 +177,11 @@ class Robot(Presented):
     reference: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     notes: str = ""
     text: str = ""
+
+    def opened(self) -> "Robot":
+        """The virtual tree: no loops, no relations, every joint of the table actuated."""
+        joints = tuple(replace(joint, actuated=joint.moves) for joint in self.joints)
+        return replace(self, joints=joints, loops=(), relations={})
 
     @property
     def moving(self) -> tuple[Joint, ...]:

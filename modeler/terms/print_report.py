@@ -108,9 +108,12 @@ def _functions(table: CoefficientTable) -> str:
     lines += ["", "As printed:", "", "```text"]
     lines += [f"{check.name} = {check.printed}" for check in wrong]
     lines += ["```", ""]
-    missing = [name for name in table.closed.by_name if name not in table.printed.functions]
-    if missing:
-        lines += [f"Not printed at all: {', '.join(missing)}.", ""]
+    for name in table.closed.by_name:
+        if name not in table.printed.functions:
+            own = {c.name for c in table.coefficients if c.function == name}
+            holders = [f for f, text in table.printed.functions.items() if own & text.names]
+            where = f"; its terms stand in {', '.join(holders)}" if holders else ""
+            lines += [f"Without a name of its own in the print: {name}{where}.", ""]
     return "\n".join(lines)
 
 
@@ -195,8 +198,9 @@ def _friction(coupling: Coupling) -> str:
         [
             "### Friction of coupled motors",
             "",
-            "Printed: G_ii C_i sgn(qd_i). Virtual work gives (G^T C sgn(G qd))_i, with the signs "
-            "of the motor speeds G qd; what friction takes must be sum C_i |(G qd)_i|.",
+            "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work gives "
+            "(G^T C sgn(G qd))_i, with the signs of the motor speeds G qd; what friction takes "
+            "must be sum C_i |(G qd)_i|.",
             "",
             f"With G = [{matrix}], C = ({row(coupling.coulomb)}) N m, qd = ({row(coupling.speed)}) "
             f"rad/s the motors take {float(check.dissipated):g} W:",

@@ -1,6 +1,7 @@
 """The papers' identifications, run again."""
 
 import json
+import re
 
 import pytest
 
@@ -34,6 +35,10 @@ def test_every_identification_is_reproduced(name, capsys, tmp_path):
     assert all(t.startswith(s) for t, s in zip(titles, TITLES[name], strict=True))
     rows = [row for table in told["methods"] for row in table["rows"]]
     assert sum(row["outcome"] == "truth recovered" for row in rows) >= 7
+    for row in rows:
+        share = re.search(r"\(([\d.e+]+) %\)$", row["ours"])
+        if row["outcome"] == "truth recovered":
+            assert share is not None and float(share[1]) <= 50, row
 
 
 def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
@@ -50,6 +55,17 @@ def test_a_value_far_from_the_truth_is_not_recovered():
     assert recovered("M", "1", 1.0, 1.3, 0.1).outcome is Outcome.RECOVERED
     assert recovered("M", "1", 1.0, 1.5, 0.1).outcome is Outcome.FAILED
     assert recovered("M", "1", 1.0, 1.0, 0.0).outcome is Outcome.FAILED
+
+
+def test_a_value_whose_sigma_is_more_than_half_of_it_is_not_recovered():
+    """One rule for all papers, for a truth of 0 too."""
+    assert recovered("M", "1", 1.0, 1.0, 0.49).outcome is Outcome.RECOVERED
+    told = recovered("M", "1", 1.0, 1.0, 0.63)
+    assert told.outcome is Outcome.UNDETERMINED
+    assert told.why.startswith("sigma 63 %")
+    assert recovered("M", "-", 0.0, 0.0, 0.1).outcome is Outcome.UNDETERMINED
+    assert recovered("M", "-", 0.0, 0.01, 0.01).outcome is Outcome.UNDETERMINED
+    assert recovered("M", "1", 9.0, 1.0, 0.63).outcome is Outcome.FAILED
 
 
 def test_the_truth_of_a_simulation_is_read_from_the_quotations():

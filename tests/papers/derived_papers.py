@@ -18,6 +18,6 @@ def robots_of(name: str) -> dict[str, Derived]:
 def _robot(paper: str, robot: str) -> Derived:
     variant = read_paper(paper).variants.get(robot)
     if variant is not None:
-        return derived_robot(robot, variant.gravity, variant.of)
+        return derived_robot(robot, variant)
     found = module(robot)
     return Derived(read_robot(robot), found.model, found.base)

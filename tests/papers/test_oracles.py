@@ -1,0 +1,52 @@
+"""No print is called wrong, and none equal, on the word of one derivation."""
+
+from dataclasses import replace
+
+import pytest
+
+from modeler.papers import Verdict, check_line, coefficient_quotations, paper_names, read_paper
+from modeler.papers.check import written_out
+from tests.papers.derived_papers import robots_of
+from tests.papers.oracles import holds
+from tests.papers.test_mutations import altered
+
+LEAST = {"guegan-2003": 75, "briot-2012": 16, "houda": 43, "hanssen-2000": 75}
+"""Lines that the oracles judge."""
+
+
+@pytest.mark.parametrize("name", paper_names())
+def test_every_charge_and_every_equality_is_found_by_other_means(name):
+    """About 20 s for all papers."""
+    paper, robots = read_paper(name), robots_of(name)
+    lines = [*paper.lines, *coefficient_quotations(paper, robots)]
+    unproved, refuted, judged = [], [], 0
+    for line in (one for quoted in lines for one in written_out(quoted)):
+        verdict, found = check_line(paper, line, robots).verdict, holds(name, line)
+        judged += found is not None
+        if verdict is Verdict.MISPRINT and found is not False:
+            unproved.append(f"{line.place}: {line.text}")
+        if verdict not in (Verdict.MISPRINT, Verdict.DIFFERENT) and found is False:
+            refuted.append(f"{line.place}: {line.text}")
+    assert unproved == []
+    assert refuted == []
+    assert judged >= LEAST[name]
+
+
+FORMULAS = ("closure", "platform", "energy", "rotation", "element", "column", "speed",
+            "velocity", "applied", "friction")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", paper_names())
+def test_the_oracles_notice_what_is_altered(name):
+    """An oracle that says yes to everything proves nothing; about 5 s."""
+    survivors = []
+    for line in read_paper(name).lines:
+        if line.check in FORMULAS and holds(name, line):
+            for text in altered(line.quote, line.check):
+                try:
+                    found = holds(name, replace(line, quote=text))
+                except (ArithmeticError, LookupError, TypeError, ValueError):
+                    found = False
+                if found:
+                    survivors.append(f"{line.place}: {text}")
+    assert survivors == []
