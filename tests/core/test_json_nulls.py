@@ -3,6 +3,7 @@
 import argparse
 import json
 import math
+import shutil
 
 import numpy as np
 import pytest
@@ -45,6 +46,7 @@ def folder(tmp_path_factory):
         row[place] = "0"
     (found / "silent.csv").write_text("\n".join([head, *(",".join(row) for row in silent), ""]))
     assert main(["fit", ROBOT, str(found / "a.csv"), "--out", str(found / "m.json")]) == 0
+    shutil.copy(found / "m.json", found / "same.json")
     return found
 
 
@@ -52,7 +54,7 @@ COMMANDS = {
     "derive": (ROBOT,),
     "fit": (ROBOT, "a.csv", "--out", "f.json"),
     "compare": ("m.json", "silent.csv"),
-    "compare two": ("m.json", "f.json", "b.csv"),
+    "compare two": ("m.json", "same.json", "b.csv"),
     "log": ("silent.csv",),
     "physical": (ROBOT,),
     "home": ("five-bar",),
