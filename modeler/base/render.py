@@ -64,7 +64,7 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
         "unidentifiable": list(base.unidentifiable),
         "rank": base.rank,
         "counts": dict(base.counts()),
-        "rank_gap": list(base.proof.gap),
+        "rank_gap": [value or None for value in base.proof.gap],  # 0: there is none
         "proof": base.proof.kind,
         "certificate": _certificate(base.proof),
     }

@@ -16,6 +16,7 @@ from modeler.observation.apart import check_apart
 from modeler.pages.additions import write_additions
 from modeler.pages.following import after_add
 from modeler.pages.sheet import Origin
+from modeler.scoring.score import DIGITS, percent
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -108,5 +109,6 @@ def waterfall(model: IdentifiedModel) -> list[str]:
         name = f"+ {step.effect}" if step.effect else "model as fitted"
         name += f" @{step.joint}" if step.joint else ""
         bar = "#" * round(_WIDTH * step.error / largest)
-        lines.append(f"{name:<30} {step.error:7.2%} {bar}  (fitted {step.training_error:.2%})")
+        fitted = percent(step.training_error, DIGITS)
+        lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  (fitted {fitted})")
     return lines

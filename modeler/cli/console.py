@@ -16,6 +16,7 @@ from modeler.cli.loudness import Loudness, loudness, step
 from modeler.core.destination import Kind, destination
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
+from modeler.core.json_text import nulled
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -107,7 +108,7 @@ def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Js
     with redirect_stdout(io.StringIO()) if alone else nullcontext():
         content = run(args)
     if args.json is not None:
-        text = json.dumps(content, indent=1, allow_nan=False) + "\n"
+        text = json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
         if alone:
             write_stdout(text)
         else:

@@ -27,6 +27,7 @@ from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
 from modeler.core.brief import Brief
 from modeler.core.by_unit import POOLED
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
@@ -79,20 +80,20 @@ class Comparison(Presented):
 
     def as_dict(self) -> dict[str, Any]:
         """The comparison as plain numbers and text; undefined numbers are None."""
-        return {
+        return nulled({
             "robot": self.prediction.robot,
             "logs": list(self.prediction.logs),
             "samples": self.samples,
-            "relative_error": _defined(self.relative_error),
+            "relative_error": self.relative_error,
             "relative_error_pools": POOLED,
-            "by_unit": {unit: _defined(error) for unit, error in self.by_unit.items()},
+            "by_unit": dict(self.by_unit),
             "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
             "unjudged": dict(self.unjudged),
             "by_log": [_log_dict(log) for log in self.logs],
             "repeated": [
                 {"method": item.kind, "periods": list(item.periods)} for item in self.repeated
             ],
-        }
+        })  # fmt: skip
 
     def to_json(self) -> str:
         """JSON for scripts; fields may be added, never renamed."""
@@ -179,17 +180,13 @@ def _compare_joint(
     )
 
 
-def _defined(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def _joint_dict(item: JointComparison) -> dict[str, Any]:
     found, colour = item.structure, item.spectrum
     return {
         "relative_error": item.relative_error,
         "rms": item.rms,
         "max": item.largest.value,
-        "r2": _defined(item.r2),
+        "r2": item.r2,
         "max_at": {"log": item.largest.log, "time": item.largest.time},
         "unit": item.joint.effort_unit,
         "samples": item.samples,
@@ -210,7 +207,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
         if colour is None
         else {
             "memory": colour.memory,
-            "lag_one": _defined(float(colour.correlation[1])),
+            "lag_one": float(colour.correlation[1]),
             "peak": colour.peak,
             "peak_share": colour.peak_share,
         },
@@ -225,7 +222,7 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
 def _shares_dict(item: JointComparison) -> dict[str, Any]:
     found = item.shares
     return {
-        "explained": _defined(item.r2),
+        "explained": item.r2,
         "systematic": None if found is None else found.systematic,
         "floor": None if found is None else found.floor,
         "method": None if found is None else found.method,
@@ -237,7 +234,7 @@ def _log_dict(found: LogError) -> dict[str, Any]:
     return {
         "log": found.log,
         "samples": found.samples,
-        "relative_error": _defined(found.relative_error),
-        "by_unit": {unit: _defined(error) for unit, error in found.by_unit.items()},
-        "joints": {name: _defined(error) for name, error in found.joints},
+        "relative_error": found.relative_error,
+        "by_unit": dict(found.by_unit),
+        "joints": dict(found.joints),
     }

@@ -1,5 +1,6 @@
 """Where a joint fails: velocity regions and the worst moment."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,8 +68,8 @@ def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
                 samples=part.size,
                 time_share=part.size / e.size,
                 energy_share=energy / total if total else 0.0,
-                rms=float(np.sqrt(energy / part.size)) if part.size else 0.0,
-                bias=float(part.mean()) if part.size else 0.0,
+                rms=float(np.sqrt(energy / part.size)) if part.size else math.nan,
+                bias=float(part.mean()) if part.size else math.nan,
             )
         )
     return tuple(regions)

@@ -1,8 +1,9 @@
-"""JSON that others wrote, read strictly: one sentence for everything that is wrong with it."""
+"""JSON: what others wrote, read strictly; what we write, without a number that means nothing."""
 
 import json
 import math
 import reprlib
+from collections.abc import Mapping
 from typing import Any
 
 _LARGEST = 2**63
@@ -40,6 +41,18 @@ def parse_json(data: bytes | str) -> Any:
     except UnicodeEncodeError:
         raise JsonError("has an escape \\ud800 to \\udfff that is half a character") from None
     return value
+
+
+def nulled(content: Any) -> Any:
+    """Plain data with null for every number that is not finite; arrays become lists."""
+    if hasattr(content, "tolist"):
+        content = content.tolist()
+    if isinstance(content, Mapping):
+        return {key: nulled(value) for key, value in content.items()}
+    if isinstance(content, list | tuple):
+        return [nulled(value) for value in content]
+    unknown = isinstance(content, float) and not math.isfinite(content)
+    return None if unknown else content
 
 
 def shown(value: Any) -> str:

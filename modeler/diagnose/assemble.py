@@ -1,22 +1,23 @@
 """From a search to a diagnosis: errors on other motion, ties, closure, verdict."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from modeler.diagnose.blind import blind_spots
-from modeler.diagnose.closure import CLOSED, closure
+from modeler.diagnose.closure import closure, mean_square
 from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import SHORT, length
 from modeler.diagnose.detected import detected
 from modeler.diagnose.doubts import doubts
-from modeler.diagnose.errors import crossed_errors, held_out_squares, over, relative, touched_joints
+from modeler.diagnose.errors import compared, touched_joints, unseen
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.looks import Look
 from modeler.diagnose.plausible import objection
-from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, Pick, finite
-from modeler.diagnose.search import Search, Step
+from modeler.diagnose.result import Diagnosis, Finding, JointState, Key, Pick
+from modeler.diagnose.search import Search, Step, extended
 from modeler.diagnose.sentences import evidence, sentences
 from modeler.diagnose.values import named_intervals, profile_of, shape_units, values_of
 from modeler.effects import Acts
@@ -25,6 +26,7 @@ from modeler.hypotheses.candidates import Candidate
 from modeler.observation.channels import Fault
 from modeler.scoring.gains import gain_deviations, gain_visible, is_gain
 from modeler.scoring.propose import ruled_out
+from modeler.scoring.score import Change, Score, Unseen, errors_of
 from modeler.scoring.state import Data, State, state_of
 from modeler.scoring.systematic import systematic_share
 from modeler.scoring.timing import instrumental
@@ -60,13 +62,14 @@ def assembled(
         tick: called whenever something is done.
     """
     chain, shares = _chain(found), _shares(found.end, tick)
-    seen, errors = _errors(chain, other)
+    seen = [unseen(state, other) for state in chain]
     contradicted = any(fault.certain for fault in faults)
     every = []
     if not contradicted:
-        every = _findings(found, chain, window, errors, shares, seen, looks, tick)
+        every = _findings(found, chain, window, shares, seen, other, looks, tick)
+    joints = _joints(found, seen, shares)
+    every = [_doubted(finding, joints) for finding in every]
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
-    joints = _joints(found, errors, shares)
     diagnosis = Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell" if contradicted else verdict(effects, joints, found),
@@ -94,14 +97,11 @@ def _shares(state: State, tick: Callable[[], None]) -> list[float]:
     return shares
 
 
-def _errors(
-    chain: Sequence[State], other: Data | None
-) -> tuple[list[tuple[np.ndarray, np.ndarray]] | None, list[np.ndarray]]:
-    """Squares on held-out logs, if there are any, and relative errors (J,) of every state."""
-    if other is None:
-        return None, [crossed_errors(state) for state in chain]
-    seen = [held_out_squares(state, other) for state in chain]
-    return seen, [relative(*pair) for pair in seen]
+def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
+    """An event, where something acts all the time: what stood out of it may be none."""
+    if not finding.event or finding.objection or not any(j.unexplained for j in joints.values()):
+        return finding
+    return dataclasses.replace(finding, objection="something unexplained acts all the time")
 
 
 def _rivals(found: Search) -> tuple[tuple[str, str | None, float], ...]:
@@ -114,23 +114,29 @@ def _findings(
     found: Search,
     chain: Sequence[State],
     window: Window | None,
-    errors: Sequence[np.ndarray],
     systematic: Sequence[float],
-    seen: Sequence[tuple[np.ndarray, np.ndarray]] | None,
+    seen: Sequence[Unseen],
+    other: Data | None,
     looks: Sequence[tuple[Look, ...]],
     tick: Callable[[], None],
 ) -> list[Finding]:
-    """Effects that were put in, and those that are no columns."""
+    """Effects that were put in and lower the error there, and those that are no columns."""
     findings = []
+    squares = [np.array([mean_square(left) for left in own.residual]) for own in seen]
     for k, step in enumerate(found.steps):
         touched = touched_joints(step.judged, *chain[k : k + 2])
-        squares = [left for left, _ in seen[k:]] if seen else None
-        closed = closure(chain[k:], touched, systematic, squares)
-        finding = _finding(found, step, touched, errors[k : k + 2], closed)
-        if finding.error_after <= min(LOST, finding.error_before):
+        score = compared(seen[k], seen[k + 1], touched, found.end)
+        if score.better and score.whole.after <= LOST:
+            closed = closure(chain[k:], touched, systematic, squares[k:] if other else None)
+            finding = _finding(found, step, touched, score.whole, closed)
             findings.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
         tick()
-    return detected(found, window, errors[-1], findings)
+
+    def falls(candidate: Candidate) -> Score:
+        after = unseen(extended(found.end, candidate), other)
+        return compared(seen[-1], after, [candidate.index], found.end)
+
+    return detected(found, window, errors_of(seen[-1]), falls, findings)
 
 
 def _chain(found: Search) -> list[State]:
@@ -147,7 +153,7 @@ def _finding(
     found: Search,
     step: Step,
     touched: Sequence[int],
-    errors: Sequence[np.ndarray],
+    change: Change,
     closed: float,
 ) -> Finding:
     judged, pick = step.judged, step.pick
@@ -164,20 +170,19 @@ def _finding(
     named = values_of(found.end, pick, values, deviations)
     intervals = {} if along is None else named_intervals(along, named)
     parameters = named.value | dict(pick.shapes)
-    start, end = (finite(over(found.end, touched, error)) for error in errors)
     ties = tuple(dict.fromkeys([*(t.candidate.key for t in step.ties),
                                 *_same(judged, found)]))  # fmt: skip
     return Finding(
         effect=pick.effect.id,
         joint=pick.joint,
-        error_before=start,
-        error_after=end,
+        error_before=change.before,
+        error_after=change.after,
         parameters=parameters,
         sigmas=named.deviation | ({} if along is None else along.shape_deviations()),
         intervals=intervals,
         units=named.unit | shape_units(found.end, pick),
         ties=ties,
-        evidence=evidence(step, start, end),
+        evidence=evidence(step, change.before, change.after),
         closure=closed,
         refines=_refines(found, step),
         objection=objection(found.end, pick, parameters),
@@ -237,21 +242,21 @@ def _same_waves(first: Candidate, later: Candidate) -> bool:
 
 
 def _joints(
-    found: Search, errors: Sequence[np.ndarray], systematic: Sequence[float]
+    found: Search, seen: Sequence[Unseen], systematic: Sequence[float]
 ) -> dict[str, JointState]:
-    states = {}
+    states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
     for j, joint in enumerate(found.start.data.compiled.spec.joints):
         if not found.start.rows.y[j].size:
             continue
-        size = float(np.mean(found.start.rows.y[j] ** 2))
-        before, after = (float(np.mean(s.residual[j] ** 2)) for s in (found.start, found.end))
-        share = after / size if size > 0.0 else 0.0
+        size = mean_square(found.start.rows.y[j])
+        before, after = (mean_square(s.residual[j]) for s in (found.start, found.end))
+        share = after / size if size > 0.0 else math.nan
         states[joint.name] = JointState(
-            error_before=finite(errors[0][j]),
-            error_after=finite(errors[-1][j]),
+            error_before=ends[0].get(joint.name, math.nan),
+            error_after=ends[1].get(joint.name, math.nan),
             unit=joint.effort_unit,
-            rms_before=finite(np.sqrt(before)),
-            rms_after=finite(np.sqrt(after)),
+            rms_before=math.sqrt(before),
+            rms_after=math.sqrt(after),
             explained=1.0 - share,
             systematic=share * systematic[j],
             noise=share * (1.0 - systematic[j]),
@@ -268,13 +273,7 @@ def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Se
         found: of the training logs.
     """
     if effects:
-        first = effects[0]
-        closed = first.closure is None or first.closure >= CLOSED
-        if first.event and any(state.unexplained for state in joints.values()):
-            closed = False  # something acts all the time: what stood out of it may be no push
-        return (
-            "missing" if closed and first.stands and not first.objection else "closest description"
-        )
+        return "missing" if effects[0].stated else "closest description"
     if length(found.start) < SHORT or not any(y.size > 100 for y in found.start.y):
         return "cannot tell"
     if any(state.error_after > LOST for state in joints.values()):

@@ -32,7 +32,7 @@ def closure(
         systematic: (J,) share of the variance of each joint's last residual.
         held_out: (J,) mean squared residual on held-out logs, by state of the chain.
     """
-    squares = [_means(state) for state in chain]
+    squares = [np.array([mean_square(r) for r in state.residual]) for state in chain]
     noise = [(1.0 - systematic[j]) * squares[-1][j] for j in range(len(squares[-1]))]
     sigma = chain[0].base.sigma
     shares = [_share(squares, touched, noise, sigma)]
@@ -41,8 +41,9 @@ def closure(
     return min(shares)
 
 
-def _means(state: State) -> np.ndarray:
-    return np.array([float(np.mean(r**2)) if r.size else 0.0 for r in state.residual])
+def mean_square(values: np.ndarray) -> float:
+    """0 of none."""
+    return float(np.mean(values**2)) if values.size else 0.0
 
 
 def _share(

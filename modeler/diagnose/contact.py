@@ -1,22 +1,26 @@
 """Something pushed for a while: a torque that lasts on one or more joints and comes only once."""
 
 import dataclasses
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.scoring.state import State
+from modeler.diagnose.errors import compared, left_of
+from modeler.scoring.score import Change
+from modeler.scoring.state import Data, State
 
 MARGIN = 0.5
 """s before and after a push that are left out with it."""
 
 _CELL = 0.1  # s
+_PART = 0.05  # s of a window that are predicted from those beside
+_BESIDE = 4  # parts before and after
 _LENGTHS = range(2, 31)  # cells of a window; one of the longest is no push
 _APART = 2.0  # s between a push and what counts as elsewhere: the torque turns as the robot moves
 _STANDS_OUT = 4.0  # energy over the largest elsewhere; 1 to 2 without a push, whatever is hidden
 _ALSO = 2.0  # energy of what adjoins a push and is part of it, over the largest elsewhere
 _GAP = 0.15  # s
-_SEEN = 0.1  # of the direction felt most: a force that is felt less is taken as 0
 _BEGINNING = 2.0  # s of a log in which inner states of friction and cables are not known yet
 
 
@@ -28,14 +32,16 @@ class Window:
         log: index.
         start, end: s.
         ratio: energy of the steady torque there over the largest in any window elsewhere.
-        force: (3,) N on the last frame's origin, axes of frame 0; None without kinematics.
+        torque: its mean by joint, N m or N.
+        change: of the error of all joints by it, over all rows of the logs.
     """
 
     log: int
     start: float
     end: float
     ratio: float
-    force: np.ndarray | None
+    torque: Mapping[str, float] = field(default_factory=dict)
+    change: Change | None = None
 
     def with_part(self, other: "Window") -> "Window | None":
         """The push together with a part of it that was found later; None if it is another push."""
@@ -86,7 +92,7 @@ def contact_window(state: State) -> Window | None:
     began = float(windows.start[same].min())
     if start - began < _BEGINNING or end - start >= _LENGTHS[-1] * _CELL:
         return None
-    return Window(run, start, end, ratio, _force(state, run, start, end))
+    return Window(run, start, end, ratio)
 
 
 def _grown(windows: _Windows, loud: np.ndarray, start: float, end: float) -> tuple[float, float]:
@@ -138,25 +144,39 @@ def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
     return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
 
-def _force(state: State, log: int, start: float, end: float) -> np.ndarray | None:
-    """(3,) N: least squares of J^T f on the residual in the window, weighted."""
-    model = state.data.compiled
-    if model.spec.closure is not None:
+def explained(window: Window, state: State, data: Data) -> Window | None:
+    """The push with its torques, if these surely lower the error (`scored`); else None.
+
+    A torque of each joint that changes steadily is fitted to the residuals of the window, that of
+    each twentieth of a second to those around.
+
+    Args:
+        window: of the push.
+        state: fitted to the logs without the window.
+        data: the logs with it.
+    """
+    left = left_of(state, data)
+    inside = [
+        np.flatnonzero((run == window.log) & (time >= window.start) & (time < window.end))
+        for run, time in zip(left.run, left.time, strict=True)
+    ]
+    after = [residual.copy() for residual in left.residual]
+    for rest, time, rows in zip(after, left.time, inside, strict=True):
+        rest[rows] -= _from_others(time[rows] - window.start, rest[rows])
+    pushed = dataclasses.replace(left, residual=tuple(after))
+    score = compared(left, pushed, range(len(after)), state, _PART)
+    if not score.better:
         return None
-    A, b = [], []
-    for j in range(state.rows.joints):
-        time = state.rows.time[j]
-        own = (state.rows.run[j] == log) & (time >= start) & (time < end)
-        used = np.flatnonzero(state.data.observation.used[:, j])[own]
-        q = state.data.observation.q[used]
-        if not len(q):
-            continue
-        step = np.zeros(q.shape[1])
-        step[j] = 1e-6
-        ahead = model.forward_kinematics(q + step)[:, -1, :, 3]
-        behind = model.forward_kinematics(q - step)[:, -1, :, 3]
-        A.append((ahead - behind) / 2e-6 / state.base.sigma[j])
-        b.append(-state.residual[j][own] / state.base.sigma[j])
-    if not A:
-        return None
-    return np.asarray(np.linalg.lstsq(np.vstack(A), np.concatenate(b), rcond=_SEEN)[0])
+    parts = zip(left.names, left.residual, inside, strict=True)
+    torque = {name: float(np.mean(residual[rows])) for name, residual, rows in parts if rows.size}
+    return dataclasses.replace(window, torque=torque, change=score.whole)
+
+
+def _from_others(since: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """(r,) what a straight line through the values in the cells around says of those in one."""
+    cell, line = np.floor(since / _PART), np.vander(since, 2)
+    found = np.zeros(len(values))
+    for c in np.unique(cell):
+        out, beside = cell == c, (cell != c) & (np.abs(cell - c) <= _BESIDE)
+        found[out] = line[out] @ np.linalg.lstsq(line[beside], values[beside], rcond=None)[0]
+    return found

@@ -1,18 +1,20 @@
 """Findings that are no columns: a contact, play in a gear."""
 
 import dataclasses
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from modeler.diagnose.bursts import BURST, LOUD, burst_ratio
 from modeler.diagnose.contact import Window
-from modeler.diagnose.errors import over
 from modeler.diagnose.judge import GATE, SURE, Judged
-from modeler.diagnose.result import Finding, finite
+from modeler.diagnose.result import Finding
 from modeler.diagnose.search import Search
 from modeler.effects import Acts, Effect
+from modeler.hypotheses.candidates import Candidate
 from modeler.scoring.propose import ruled_out
+from modeler.scoring.score import Score, printed
 from modeler.scoring.state import State
 from modeler.scoring.systematic import knocking
 
@@ -30,6 +32,8 @@ AGAIN = 5.0
 
 _LEAST = 1e-3  # share that counts for a column of play that explains nothing
 
+_NO_FALL = "no column of play surely lowers the error"
+
 WEAK = 0.5
 """Gain of a column below which play that is heard without it comes first."""
 
@@ -37,7 +41,8 @@ WEAK = 0.5
 def detected(
     found: Search,
     window: Window | None,
-    errors: np.ndarray,
+    errors: Mapping[str, float],
+    falls: Callable[[Candidate], Score],
     findings: Sequence[Finding],
 ) -> list[Finding]:
     """The findings with contact and play among them.
@@ -49,18 +54,20 @@ def detected(
     Args:
         found: of the training logs.
         window: of a contact that was masked.
-        errors: (J,) relative, with all effects put in.
+        errors: relative, by joint, with all effects put in.
+        falls: the score of a column beside them.
         findings: that are columns.
     """
     contact = [_contact(found, window, errors)] if window is not None else []
     alone = all(f.refines for f in findings)
     rings = any(_rings(f) for f in findings)
-    play = _play(found, found.end, errors, BURST) or _faint(
-        found, errors, FAINT if alone else BESIDE, knocks=not rings
-    )
+    least = FAINT if alone else BESIDE
+    play = _play(found, found.end, BURST) or _faint(found, least, knocks=not rings)
+    play = [_scored(found, finding, errors, falls) for finding in play]
     if play:
         return [*(_knocked(f) for f in findings), *contact, *play]
-    first = _play(found, found.start, errors, LOUD)
+    first = _play(found, found.start, LOUD)
+    first = [_scored(found, finding, errors, falls) for finding in first]
     if not first or contact:
         return [*findings, *contact]
     own = [f for f in findings if f.joint == first[0].joint]
@@ -90,26 +97,27 @@ def _knocking(found: Search) -> list[Effect]:
     return [e for e in found.start.data.known.catalogue if e.knocks][:1]
 
 
-def _contact(found: Search, window: Window, errors: np.ndarray) -> Finding:
-    force = window.force if window.force is not None else np.zeros(3)
-    names = ("fx", "fy", "fz")
-    left = finite(over(found.end, range(len(errors)), errors))
+def _contact(found: Search, window: Window, errors: Mapping[str, float]) -> Finding:
+    units = {f"tau{j.name}": j.effort_unit for j in found.end.data.compiled.spec.joints}
+    torque = {f"tau{name}": value for name, value in window.torque.items()}
+    assert window.change is not None, "it lowers the error"
+    ends = window.change.before, window.change.after
     return Finding(
-        _event(found).id, None, left, left,
-        {"t0": window.start, "t1": window.end} | dict(zip(names, map(float, force), strict=True)),
-        {}, {"t0": "s", "t1": "s"} | dict.fromkeys(names, "N"), (),
+        _event(found).id, None, *ends,
+        {"t0": window.start, "t1": window.end} | torque, {}, {"t0": "s", "t1": "s"} | units, (),
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
-        f"explain, {window.ratio:.0f} times the energy of any other window; these rows are left "
-        "out of everything else",
+        f"explain, {window.ratio:.0f} times the energy of any other window: with it the error of "
+        f"these logs is {' -> '.join(printed(*ends))}; these rows are left out of everything else",
         None, False, _again(found.end, errors), event=True,
     )  # fmt: skip
 
 
-def _again(state: State, errors: np.ndarray) -> str:
+def _again(state: State, errors: Mapping[str, float]) -> str:
     """What speaks against a push: held-out motion that is not explained either."""
     names = [joint.name for joint in state.data.compiled.spec.joints]
-    for name, y, r, error in zip(names, state.rows.y, state.residual, errors, strict=True):
-        if y.size and error > AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300):
+    for name, y, r in zip(names, state.rows.y, state.residual, strict=True):
+        least = AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
+        if y.size and errors.get(name, 0.0) > least:
             return f"something unexplained acts on joint {name} in the held-out motion too"
     return ""
 
@@ -123,7 +131,7 @@ def _asked(found: Search) -> list[int]:
     ]  # fmt: skip
 
 
-def _play(found: Search, state: State, errors: np.ndarray, least: float) -> list[Finding]:
+def _play(found: Search, state: State, least: float) -> list[Finding]:
     """Play in a gear, on the joint that bursts most and whose column describes most."""
     ratios = {j: burst_ratio(state, j) for j in _asked(found)}
     bursting = [j for j, ratio in ratios.items() if ratio > least]
@@ -131,7 +139,7 @@ def _play(found: Search, state: State, errors: np.ndarray, least: float) -> list
         return []
     shares = {k: judged.share for k, judged in _columns(found).items()}
     j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), _LEAST))
-    return [_backlash(found, errors, [j, *bursting], _bursts(ratios[j]))]
+    return [_backlash(found, [j, *bursting], _bursts(ratios[j]))]
 
 
 def _bursts(ratio: float) -> str:
@@ -149,12 +157,11 @@ def _columns(found: Search) -> dict[int, Judged]:
     }  # fmt: skip
 
 
-def _faint(found: Search, errors: np.ndarray, least: float, knocks: bool) -> list[Finding]:
+def _faint(found: Search, least: float, knocks: bool) -> list[Finding]:
     """Play whose bursts noise covers, or that knocks without rule: its column tells it then.
 
     Args:
         found: of the training logs.
-        errors: (J,) relative.
         least: ratio of the bursts.
         knocks: False where something else may knock.
     """
@@ -165,31 +172,37 @@ def _faint(found: Search, errors: np.ndarray, least: float, knocks: bool) -> lis
     for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
         if ratio > least:
-            return [_backlash(found, errors, [j], _bursts(ratio))]
+            return [_backlash(found, [j], _bursts(ratio))]
         if knocks and share > KNOCKS:
             text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
-            return [_backlash(found, errors, [j], text, doubt)]
+            return [_backlash(found, [j], text, doubt)]
     return []
 
 
-def _backlash(
-    found: Search,
-    errors: np.ndarray,
-    bursting: Sequence[int],
-    text: str,
-    objection: str = "",
-) -> Finding:
-    """Play on the first of some joints; any of the others may be the one.
-
-    It has no column, so that the error stays.
-    """
+def _backlash(found: Search, bursting: Sequence[int], text: str, objection: str = "") -> Finding:
+    """Play on the first of some joints; any of the others may be the one."""
     names = [joint.name for joint in found.end.data.compiled.spec.joints]
     first = bursting[0]
     (effect,) = _knocking(found)
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
-    left = finite(errors[first])
     return Finding(
-        effect.id, names[first], left, left, {}, {}, {}, others,
+        effect.id, names[first], math.nan, math.nan, {}, {}, {}, others,
         f"joint {names[first]}: {text}", None, False, objection,
     )  # fmt: skip
+
+
+def _scored(
+    found: Search, play: Finding, errors: Mapping[str, float],
+    falls: Callable[[Candidate], Score],
+) -> Finding:  # fmt: skip
+    """Play with its errors; where its column does not lower them, it is a description at most."""
+    names = [joint.name for joint in found.end.data.compiled.spec.joints]
+    column = _columns(found).get(names.index(str(play.joint)))
+    score = None if column is None else falls(column.candidate)
+    if score is not None and score.better:
+        ends = score.whole.before, score.whole.after
+        text = f"{play.evidence}; error {' -> '.join(printed(*ends))}"
+        return dataclasses.replace(play, error_before=ends[0], error_after=ends[1], evidence=text)
+    before, doubt = errors.get(str(play.joint), math.nan), play.objection or _NO_FALL
+    return dataclasses.replace(play, error_before=before, objection=doubt)

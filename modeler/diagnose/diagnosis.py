@@ -12,7 +12,7 @@ from modeler.diagnose.analyse import analysed, bands_line
 from modeler.diagnose.assemble import assembled
 from modeler.diagnose.bursts import BURST, burst_ratio
 from modeler.diagnose.channel_faults import channel_faults
-from modeler.diagnose.contact import MARGIN, Window, contact_window
+from modeler.diagnose.contact import MARGIN, Window, contact_window, explained
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.looks import looked_again, other_looks
 from modeler.diagnose.meter import Meter
@@ -104,8 +104,7 @@ def _searched(
     meter: Meter,
 ) -> Search:  # fmt: skip
     meter.stage(_SEARCHED)
-    veto = vetoing(other) if other is not None else None
-    return search(data, beta, without, most, veto, meter.tick)
+    return search(data, beta, without, most, vetoing(other), meter.tick)
 
 
 def _aligned(data: Data, found: Search, model: IdentifiedModel, mending: Mending) -> Data | None:
@@ -181,7 +180,9 @@ def _push(data: Data, found: Search) -> Window | None:
         later = contact_window(state_of(_masked(data, window), found.end.picks, found.end.beta))
         more = window.with_part(later) if later is not None else None
         window = more or window
-    return window
+    if window is None:
+        return None
+    return explained(window, state_of(_masked(data, window), found.end.picks, found.end.beta), data)
 
 
 def _masked(data: Data, window: Window) -> Data:

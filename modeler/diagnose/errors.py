@@ -1,35 +1,29 @@
-"""Errors of a state on motion it was not fitted to."""
+"""Errors of a state on motion it was not fitted to, and whether an effect lowers them."""
 
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from modeler.diagnose.judge import Judged
-from modeler.scoring.score import Unseen, scored
+from modeler.scoring.score import Score, Unseen, scored
 from modeler.scoring.state import Data, State, picked_columns
 
 
-def relative(left: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Relative errors from mean squares of residual and torque; 0 without torque."""
-    return np.sqrt(left / np.where(size > 0.0, size, np.inf))
-
-
-def held_out_squares(state: State, data: Data) -> tuple[np.ndarray, np.ndarray]:
-    """(J,) mean squared residual on other logs, parameters of the state; and mean squared torque.
+def unseen(state: State, other: Data | None) -> Unseen:
+    """What a state leaves of held-out logs; without any, of its own, each fold from the others.
 
     Args:
         state: fitted.
-        data: held-out logs, in the same band.
+        other: held-out logs, in the same band.
     """
-    squares, size = np.zeros(data.rows.joints), np.zeros(data.rows.joints)
-    for j, left in enumerate(_held_out_residuals(state, data)):
-        if left.size:
-            squares[j], size[j] = np.mean(left**2), np.mean(data.rows.y[j] ** 2)
-    return squares, size
+    if other is not None:
+        return left_of(state, other)
+    left = (s * e for s, e in zip(state.base.sigma, state.base.left_out, strict=True))
+    return _of(state.data, tuple(left))
 
 
-def _held_out_residuals(state: State, data: Data) -> list[np.ndarray]:
-    """(rows_j,) by joint, N m or N."""
+def left_of(state: State, data: Data) -> Unseen:
+    """What a state leaves of logs, with its parameters as they are."""
     rows = data.about(state.reference)
     extra = picked_columns(rows, state.picks, data.cache)
     found = []
@@ -40,23 +34,27 @@ def _held_out_residuals(state: State, data: Data) -> list[np.ndarray]:
             if own is not None:
                 left = left - own @ values
         found.append(left)
-    return found
+    return _of(data, tuple(found))
 
 
-def crossed_errors(state: State) -> np.ndarray:
-    """(J,) the same by cross-validation over the folds of the training logs."""
-    size = np.array([float(np.sum((y / s) ** 2)) for y, s in
-                     zip(state.rows.y, state.base.sigma, strict=True)])  # fmt: skip
-    return np.sqrt(state.base.crossed.left / np.where(size > 0.0, size, 1.0))
+def _of(data: Data, left: tuple[np.ndarray, ...]) -> Unseen:
+    names = tuple(joint.name for joint in data.compiled.spec.joints)
+    return Unseen(names, left, data.rows.y, data.rows.time, data.rows.run)
 
 
-def over(state: State, concerned: Sequence[int], errors: np.ndarray) -> float:
-    """Relative error over some joints: the torque of each counts in units of what is left of it."""
-    torque = zip(state.rows.y, state.base.sigma, strict=True)
-    size = np.array([float(np.mean((y / s) ** 2)) if y.size else 0.0 for y, s in torque])
-    own = list(concerned)
-    total = float(size[own].sum())
-    return float(np.sqrt(float(np.sum(size[own] * errors[own] ** 2)) / max(total, 1e-300)))
+def compared(
+    before: Unseen, after: Unseen, concerned: Sequence[int], state: State, block: float = 0.0
+) -> Score:
+    """The score of an effect on the joints that it concerns, in blocks of some s.
+
+    The torque of each counts in units of what the state leaves of it, so that N m and N are never
+    added.
+    """
+    weights = {}
+    for j in concerned:
+        y = state.rows.y[j] / state.base.sigma[j]
+        weights[before.names[j]] = float(np.mean(y**2)) if y.size else 0.0
+    return scored(before, after, weights, block)
 
 
 KEPT = 0.2
@@ -82,26 +80,22 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
     return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
 
 
-def vetoing(data: Data) -> Callable[[State, State, Judged], bool]:
-    """A veto by held-out logs: True if a state with an effect more is not the better one there.
+def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
+    """A veto by unseen motion: True if a state with an effect more is not the better one there.
 
-    The error of the joints that it touches must fall by a good part of what the effect lets expect,
-    and by more than chance (`scored`).
+    The error of the joints that it touches must surely fall (`scored`), and on held-out logs by a
+    good part of what the effect lets expect.
 
     Args:
-        data: held-out logs.
+        other: held-out logs.
     """
 
     def veto(before: State, after: State, judged: Judged) -> bool:
         touched = touched_joints(judged, before, after)
-        old, new = (
-            over(before, touched, relative(*held_out_squares(state, data)))
-            for state in (before, after)
-        )
+        score = compared(unseen(before, other), unseen(after, other), touched, before)
         expected = judged.gain if judged.alone else _fall(touched, before, after)
-        if 1.0 - (new / max(old, 1e-300)) ** 2 < KEPT * expected:
-            return True
-        return not scored(*(_unseen(state, data) for state in (before, after))).better
+        least = 0.0 if other is None else KEPT * expected
+        return not score.better or score.whole.gain < least
 
     return veto
 
@@ -113,10 +107,3 @@ def _fall(joints: Sequence[int], before: State, after: State) -> float:
         for s in (before, after)
     ]
     return 1.0 - sums[1] / max(sums[0], 1e-300)
-
-
-def _unseen(state: State, data: Data) -> Unseen:
-    rows = data.rows
-    names = tuple(joint.name for joint in data.compiled.spec.joints)
-    left = _held_out_residuals(state, data)
-    return Unseen(names, tuple(left), rows.y, rows.time, rows.run)

@@ -11,6 +11,8 @@ from modeler.hypotheses.candidates import Candidate
 from modeler.hypotheses.rows import Columns
 from modeler.scoring.gram import VISIBLE, Pool
 from modeler.scoring.rank import Ranking
+from modeler.scoring.score import SURE as TIED
+from modeler.scoring.score import standard_errors
 from modeler.scoring.state import State
 from modeler.scoring.timing import confirmed
 
@@ -23,9 +25,6 @@ FELT = 0.002
 SURE = 4.5
 """Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
 chance with one candidate in a hundred thousand."""
-
-TIED = 2.0
-"""Paired differences over blocks below this many standard errors do not decide."""
 
 SAME = 0.3
 """Share of a rival's fall that may be left with the best put in, if both explain the same."""
@@ -102,8 +101,8 @@ class Judgement(Brief):
     best: Judged | None
 
     def others(self, best: Judged) -> tuple[Judged, ...]:
-        """All but that one."""
-        return tuple(j for j in self.ranked if j is not best)
+        """All but that effect on its joint."""
+        return tuple(j for j in self.ranked if j.candidate.key != best.candidate.key)
 
 
 def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> Judgement:
@@ -266,9 +265,7 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
     for other in others:
         if other is best or not other.possible or other.gain < GATE:
             continue
-        difference = best.drop - other.drop
-        spread = float(np.sqrt(np.sum((difference - difference.mean()) ** 2)))
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        if float(difference.sum()) <= TIED * spread or same:
+        if same or standard_errors(best.drop - other.drop) <= TIED:
             found.append(other)
     return found

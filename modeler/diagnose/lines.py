@@ -2,6 +2,7 @@
 
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.sentences import blind_spots
+from modeler.scoring.score import printed
 
 
 def lines(diagnosis: Diagnosis) -> list[str]:
@@ -12,7 +13,8 @@ def lines(diagnosis: Diagnosis) -> list[str]:
     found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
                  f"{diagnosis.band:g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
-        found.append(f"{name:<6}{joint.error_before:>9.2%}{joint.error_after:>14.2%}")
+        before, after = printed(joint.error_before, joint.error_after)
+        found.append(f"{name:<6}{before:>9}{after:>14}")
     blind = [what for what, _ in blind_spots(diagnosis)]
     if blind:
         found.append(f"these logs cannot show: {', '.join(blind)}")

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
+from modeler.diagnose.closure import CLOSED
 from modeler.diagnose.contact import Window
 from modeler.diagnose.looks import Key, Look
 from modeler.diagnose.search import Search
@@ -46,8 +48,8 @@ class Finding(Brief):
     Attributes:
         effect: id.
         joint: name; None for an effect of the whole robot.
-        error_before, error_after: relative error of its joints without and with it, held out: the
-            same rows, and the same weight of each joint.
+        error_before, error_after: relative error of its joints without and with it, on unseen
+            motion: the same rows, and the same weight of each joint. NaN where it is not known.
         parameters: its parameters and shapes by name, SI.
         sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
             hold for all shapes that the data do not refuse.
@@ -55,7 +57,7 @@ class Finding(Brief):
         ties: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
         closure: share of what is systematic on its joints that it explains itself; None for
-            contacts and play, which are no columns.
+            contacts and play, which are no columns of the model.
         refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
@@ -87,19 +89,28 @@ class Finding(Brief):
         return all(look.agrees for look in self.looks)
 
     @property
-    def gain(self) -> float:
-        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2.
+    def stated(self) -> bool:
+        """True if it is the cause, or one of those that these data do not tell apart."""
+        closed = self.closure is None or self.closure >= CLOSED
+        return closed and self.stands and not self.objection and not math.isnan(self.gain)
 
-        0 for what is no column, so that the error stays.
-        """
+    @property
+    def status(self) -> str:
+        """Either "fact", what is stated as missing, or "named"; a tie is no fact."""
+        return "fact" if self.stated and not self.refines and not self.ties else "named"
+
+    @property
+    def gain(self) -> float:
+        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2."""
         before = self.error_before
-        return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else 0.0
+        return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else math.nan
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
             "effect": self.effect,
             "joint": self.joint,
+            "status": self.status,
             "gain": self.gain,
             "error_before": self.error_before,
             "error_after": self.error_after,
@@ -123,7 +134,7 @@ class JointState(Brief):
         error_before, error_after: relative error, held out.
         unit: of the torque.
         rms_before, rms_after: of the residual on the training logs.
-        explained: share of the torque's variance that the model explains.
+        explained: share of the torque's variance that the model explains; NaN without torque.
         systematic: share of it that is left and is no noise: predictable, repeatable, lasting, or
             in outbursts.
         noise: the rest.
@@ -146,8 +157,7 @@ class JointState(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {k: (v if not isinstance(v, float) or math.isfinite(v) else None)
-                for k, v in vars(self).items()}  # fmt: skip
+        return dict(vars(self))
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,8 +210,8 @@ class Diagnosis(Presented):
         return self.search.start.data.kept is not None
 
     def to_json(self) -> dict[str, Any]:
-        """The `diagnose` object that scripts read."""
-        return {
+        """The `diagnose` object that scripts read; numbers that mean nothing are null."""
+        return nulled({
             "robot": self.robot,
             "verdict": self.verdict,
             "effects": [finding.to_json() for finding in self.effects],
@@ -222,9 +232,4 @@ class Diagnosis(Presented):
             "data": list(self.data),
             "changed": self.changed,
             "contradicted": self.contradicted,
-        }
-
-
-def finite(value: float) -> float:
-    """The number, or 0 where it means nothing."""
-    return float(value) if np.isfinite(value) else 0.0
+        })  # fmt: skip

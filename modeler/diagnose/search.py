@@ -120,7 +120,7 @@ def search(
         survey = surveyed(later, without)
         doubted, refused = _doubted(refused, best), survey.still(refused)
         after = survey.judged(refused, tick)
-        steps.append(_step(state, best, judgement.others(first), after, doubted))
+        steps.append(_step(state, best, judgement.others(best), after, doubted))
         state, judgement = later, after
     kept, state = _backward(state, steps, tick)
     return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))

@@ -6,6 +6,7 @@ from modeler.diagnose.result import Diagnosis, Finding, Key
 from modeler.diagnose.search import Step
 from modeler.diagnose.values import told_spread
 from modeler.effects import effect_named
+from modeler.scoring.score import percent, printed
 from modeler.scoring.systematic import knocking
 
 TOLD = 0.15
@@ -13,18 +14,13 @@ TOLD = 0.15
 
 MOST_REFUSED = 3
 
-_ONLY_HERE = "of these logs' error, but the error of the held-out motion does not fall with it"
+_ONLY_HERE = "of these logs' error, but that of motion left out does not surely fall with it"
 _PART = "it explains only part of what is systematic"
 
 _ONLY_TIMING = (
     "of the error, but so do errors of timing: it is not seen once encoder noise is smoothed out "
     "of the motion"
 )
-
-
-def percent(share: float) -> str:
-    """A share in percent, as in "3.4 %"."""
-    return f"{100.0 * share:.2g} %" if share < 0.1 else f"{100.0 * share:.3g} %"
 
 
 def where(joint: str | None) -> str:
@@ -58,7 +54,7 @@ def evidence(step: Step, before: float, after: float) -> str:
     """
     judged = step.judged
     text = (
-        f"{judged.candidate.effect.title}: error {percent(before)} -> {percent(after)} on motion "
+        f"{judged.candidate.effect.title}: error {' -> '.join(printed(before, after))} on motion "
         "that was held out"
     )
     rivals = [
@@ -101,9 +97,10 @@ def refused_lines(diagnosis: Diagnosis) -> list[str]:
     """What explains much of these logs and is not named all the same, the best first."""
     found = diagnosis.search
     timing = [judged for judged in found.last.ranked if not judged.confirmed]
-    named = {step.pick.key for step in found.steps}
+    named = {(f.effect, f.joint) for f in (*diagnosis.effects, *diagnosis.refinements)}
+    lost = [step.judged for step in found.steps if step.pick.key not in named]
     lines: dict[Key, tuple[float, str]] = {}
-    for refused, why in ((found.vetoed, ""), (timing, _ONLY_TIMING)):
+    for refused, why in (((*found.vetoed, *lost), ""), (timing, _ONLY_TIMING)):
         for judged in refused:
             because = why or (f"of the error, but {judged.why}" if judged.why else _ONLY_HERE)
             key = judged.candidate.key
@@ -128,12 +125,12 @@ def _outbursts(diagnosis: Diagnosis, name: str) -> str:
 def _headline(diagnosis: Diagnosis) -> str:
     first = diagnosis.effects[0] if diagnosis.effects else None
     if diagnosis.verdict == "missing" and first is not None:
-        return f"missing: {_named(first, diagnosis)}"
+        return f"missing: {_named(first, diagnosis)}{tied(first)}"
     if diagnosis.verdict == "closest description" and first is not None:
         reason = first.objection or other_names(first) or _PART
         return (
-            f"closest description: {_named(first, diagnosis)}; {reason}, so the cause may be "
-            "outside the catalogue"
+            f"closest description: {_named(first, diagnosis)}{tied(first)}; {reason}, so the cause "
+            "may be outside the catalogue"
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"
@@ -150,6 +147,16 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.refinements:
         return "nothing to add: a law that the model has can be refined"
     return "nothing to add: no effect of the catalogue surely lowers the error by more than 3 %"
+
+
+def tie_names(finding: Finding) -> str:
+    """What the data do not tell from it; empty without any."""
+    return ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
+
+
+def tied(finding: Finding) -> str:
+    """Behind its name: what it may be as well."""
+    return f", or {tie_names(finding)} (these data do not tell which)" if finding.ties else ""
 
 
 def other_names(finding: Finding) -> str:
@@ -186,13 +193,12 @@ def _effect_line(finding: Finding) -> str:
         f"{name} = {value:.4g}{_spread(finding, name)}{unit(finding, name)}"
         for name, value in finding.parameters.items()
     )
-    if finding.closure is None:  # it has a value, but no column whose error would fall
+    if finding.closure is None:
         return f"{where(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
-    ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in finding.ties)
-    tail = f"; these data do not tell it from {ties}" if ties else ""
+    tail = f"; these data do not tell it from {tie_names(finding)}" if finding.ties else ""
     for doubt in (finding.objection, other_names(finding)):
         tail += f"; {doubt}" if doubt else ""
-    change = f"{percent(finding.error_before)} -> {percent(finding.error_after)}"
+    change = " -> ".join(printed(finding.error_before, finding.error_after))
     return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
 
 

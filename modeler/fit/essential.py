@@ -88,7 +88,7 @@ def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Es
 def relative_error(data: Compressed, beta: np.ndarray) -> float:
     """||y - W beta|| / ||y|| over all rows, unweighted."""
     total = np.linalg.norm(data.torque_norms())
-    return float(np.linalg.norm(data.residual_norms(beta)) / total) if total > 0.0 else 0.0
+    return float(np.linalg.norm(data.residual_norms(beta)) / total) if total > 0.0 else np.nan
 
 
 def _eliminate(whole: np.ndarray, full: Estimate) -> tuple[list[int], list[int], float, float]:

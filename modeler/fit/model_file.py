@@ -73,7 +73,7 @@ class Addition(Presented):
         shape_intervals: 95 % intervals of the shapes.
         joints: relative error before and with it, by joint, on the logs of `error`.
         changed: joints whose error surely changed.
-        falls: True if the error falls on one of them at least and rises on none.
+        falls: True if the error surely falls, and no joint is spoilt (see `scoring.score`).
     """
 
     effect: str

@@ -9,6 +9,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.by_unit import POOLED, errors_by_unit, told_by_unit
 from modeler.core.errors import DataError, ManifestError
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.fit.bodies import bodies_told
 from modeler.fit.directions import Directed, directed_from_json, direction_lines
@@ -161,17 +162,17 @@ class FitResult(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
-        return {
+        return nulled({
             "robot": self.robot,
             "method": self.method,
             "status": self.status,
             "samples": self.samples,
             "rows": self.rows,
-            "condition_number": _finite(self.condition_number),
-            "condition_scaled": _finite(self.condition_scaled),
+            "condition_number": self.condition_number,
+            "condition_scaled": self.condition_scaled,
             "relative_error": self.relative_error,
             "relative_error_pools": POOLED,
-            "by_unit": {unit: _finite(error) for unit, error in self.by_unit.items()},
+            "by_unit": self.by_unit,
             "essential_error": self.essential_error,
             "joints": {
                 joint.name: {
@@ -196,7 +197,7 @@ class FitResult(Presented):
             "energy": None if self.energy is None else self.energy.to_json(),
             **_verdict_to_json(self.verdict),
             **({"reading": dict(self.reading)} if self.reading else {}),
-        }
+        })  # fmt: skip
 
 
 def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
@@ -214,8 +215,8 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             rows=int(raw["rows"]),
             condition_number=_number(raw["condition_number"]),
             condition_scaled=_number(raw["condition_scaled"]),
-            relative_error=float(raw["relative_error"]),
-            essential_error=float(raw["essential_error"]),
+            relative_error=_number(raw["relative_error"], float("nan")),
+            essential_error=_number(raw["essential_error"], float("nan")),
             joints=tuple(JointFit(name=name, **entry) for name, entry in raw["joints"].items()),
             parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
             covariance=covariance,
@@ -256,9 +257,5 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
 
 
-def _finite(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
-
-
-def _number(value: float | None) -> float:
-    return float("inf") if value is None else float(value)
+def _number(value: float | None, unknown: float = float("inf")) -> float:
+    return unknown if value is None else float(value)

@@ -1,12 +1,13 @@
 """What a fleet shows: findings, and the values behind them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.fleet.layout import Quantity
 from modeler.fleet.times import Unit
@@ -157,7 +158,7 @@ class Fleet(Presented):
         """The result for scripts; numbers that mean nothing are null."""
         from modeler.fleet.text import sentence
 
-        return {
+        return nulled({
             "robot": self.robot,
             "verdict": self.verdict,
             "time": self.unit,
@@ -171,7 +172,7 @@ class Fleet(Presented):
             "left_out": [{"log": place, "why": why} for place, why in self.left],
             "doubts": list(self.doubts),
             "notes": list(self.notes),
-        }  # fmt: skip
+        })  # fmt: skip
 
 
 def _finding(found: Finding) -> dict[str, Any]:
@@ -186,15 +187,15 @@ def _finding(found: Finding) -> dict[str, Any]:
         "from": found.begin,
         "to": found.end,
         "periods_since": found.since,
-        "before": _number(found.before),
-        "change": _number(found.change),
-        "change_percent": None if found.percent is None else _number(found.percent),
-        "sigma": _number(found.sigma),
-        "score": _number(found.score),
-        "chance": _number(found.chance),
+        "before": found.before,
+        "change": found.change,
+        "change_percent": found.percent,
+        "sigma": found.sigma,
+        "score": found.score,
+        "chance": found.chance,
         "temperature": None if warmth is None else {
             "lowest": warmth.lowest, "highest": warmth.highest,
-            "correlation": _number(warmth.correlation), "moves_along": warmth.along,
+            "correlation": warmth.correlation, "moves_along": warmth.along,
             "others_alike": warmth.shared,
         },
     }  # fmt: skip
@@ -206,21 +207,13 @@ def _followed(each: Followed) -> dict[str, Any]:
         "joint": each.quantity.joint,
         "parameter": each.quantity.parameter,
         "unit": each.quantity.unit,
-        "level": _number(each.level),
-        "scatter_factor": _number(each.factor),
-        "would_be_told": None if each.told is None else _number(each.told),
+        "level": each.level,
+        "scatter_factor": each.factor,
+        "would_be_told": each.told,
         "machines": {
-            name: {"periods": list(own.periods), "at": _numbers(own.at),
-                   "values": _numbers(own.values), "sigmas": _numbers(own.sigmas),
+            name: {"periods": list(own.periods), "at": own.at,
+                   "values": own.values, "sigmas": own.sigmas,
                    "score": each.scores.get(name)}
             for name, own in each.machines.items()
         },
     }  # fmt: skip
-
-
-def _numbers(values: Sequence[float] | np.ndarray) -> list[float | None]:
-    return [_number(value) for value in values]
-
-
-def _number(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None

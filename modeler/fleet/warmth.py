@@ -36,7 +36,7 @@ def warmth_of(
         return None
     span, total = float(np.ptp(degrees)), float(np.var(values))
     told = span > 0.0 and total > 0.0
-    correlation = float(np.corrcoef(degrees, values)[0, 1]) if told else 0.0
+    correlation = float(np.corrcoef(degrees, values)[0, 1]) if told else np.nan
     shape = 1.0 - float(np.var(values - line)) / total if told else 1.0
     along = span >= _SPAN and correlation**2 >= max(_LEAST, _ALONG * shape)
     slopes = [slope for other in others if (slope := _slope(other, joint, 0.5 * span)) is not None]

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.freerun.stability import Stability
 
@@ -157,7 +158,7 @@ class FreeRun(Presented):
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         s = self.stability
-        return {
+        return nulled({
             "robot": self.robot,
             "logs": list(self.logs),
             "window": self.window,
@@ -178,7 +179,7 @@ class FreeRun(Presented):
                 "torque": dict(self.controlled.torque),
             },
             "doubts": list(self.doubts),
-        }  # fmt: skip
+        })  # fmt: skip
 
 
 def _joint_json(joint: JointFreeRun) -> dict[str, Any]:

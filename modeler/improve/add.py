@@ -30,7 +30,7 @@ from modeler.improve.sure import with_shapes
 from modeler.improve.unseen import left_of, left_out
 from modeler.robot import robot_from_text
 from modeler.scoring.gains import gain_visible, is_gain
-from modeler.scoring.score import Score, Unseen, errors_of, rms_error, scored, told
+from modeler.scoring.score import Score, Unseen, errors_of, printed, rms_error, scored, told
 from modeler.scoring.state import Data, State, state_of
 from modeler.scoring.timing import instrumental
 
@@ -47,15 +47,17 @@ class _Fitted:
     Attributes:
         model: as fitted; its last effect has no verdict yet.
         rows: of the logs.
+        free: (c, k) base parameters that were fitted, by what they are made of; None: all.
     """
 
     model: IdentifiedModel
     rows: Rows
+    free: np.ndarray | None = None
 
     def unseen(self, refitted: bool) -> Unseen:
         """What it leaves of held-out logs; where there are none, of its own logs in turn."""
-        if not self.rows.held_out and refitted:
-            return left_out(self.model, self.rows.fitted)
+        if not self.rows.held_out and (refitted or self.free is not None):
+            return left_out(self.model, self.rows.fitted, self.free)
         return left_of(self.model, self.rows.compiled, self.rows.seen[-1])
 
 
@@ -136,8 +138,13 @@ def _with_gains(
 
 def _refused(score: Score) -> str:
     """Why a change is none for the better."""
-    verb = "rises" if score.spoilt else "does not fall by more than chance"
-    return f"the error {verb}: {told(score.errors, score.changed or (score.most.joint,))}"
+    if score.spoilt:
+        return f"the error rises: {told(score.errors, score.changed)}"
+    total = " -> ".join(printed(score.whole.before, score.whole.after))
+    return (
+        "the error does not fall by more than chance: "
+        f"{total} over all joints; {told(score.errors, score.changed)}"
+    )
 
 
 def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
@@ -210,6 +217,8 @@ def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
     after = _with(before, pick)
     refitted = pick.candidate.effect.acts is not Acts.LINK
     score = scored(before.unseen(refitted), after.unseen(refitted))
+    if not score.joints:
+        raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")
     history = before.model.history or (_step(before, {n: a for n, (a, _) in score.errors.items()}),)
     step = dataclasses.replace(
         _step(after, {n: b for n, (_, b) in score.errors.items()}),
@@ -250,7 +259,10 @@ def _with(before: _Fitted, pick: Pick) -> _Fitted:
     model, rows, effect = before.model, before.rows, pick.candidate.effect
     if effect.acts is Acts.LINK:
         felt = [p.name for p in body_parameters(pick.candidate, pick.state.rows.signals[0])]
-        return _Fitted(_loaded(model, rows.compiled, felt, pick.values), rows)
+        names = [p.name for p in model.spec.standard]
+        chi = np.eye(len(names))[[names.index(name) for name in felt]]
+        free = np.column_stack([rows.compiled.base_parameters(one) for one in chi])
+        return _Fitted(_loaded(model, free @ pick.values), rows, free)
     if effect.acts is Acts.TORQUE:
         seen = pick.state.data.observation.report.processing
         processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
@@ -277,14 +289,8 @@ def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> _Fitted:
     return _Fitted(IdentifiedModel(text, emitted.spec, emitted.files, fit, used), rows)
 
 
-def _loaded(
-    model: IdentifiedModel, compiled: CompiledModel, felt: Sequence[str], values: np.ndarray
-) -> IdentifiedModel:
-    """The model with a body more on a link: its base parameters, nothing else."""
-    chi = np.zeros(len(model.spec.standard))
-    for name, value in zip(felt, values, strict=True):
-        chi[[p.name for p in model.spec.standard].index(name)] = value
-    beta = model.beta + compiled.base_parameters(chi)
-    pairs = zip(model.fit.parameters, beta, strict=True)
+def _loaded(model: IdentifiedModel, body: np.ndarray) -> IdentifiedModel:
+    """The model with a body more on a link: its base parameters (c,), nothing else."""
+    pairs = zip(model.fit.parameters, model.beta + body, strict=True)
     parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
     return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))

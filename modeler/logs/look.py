@@ -9,6 +9,7 @@ import numpy as np
 
 from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.logs.columns import Stream
 from modeler.logs.guess import Guess, guesses
@@ -35,10 +36,10 @@ class Clock:
 
     Attributes:
         column: in the file.
-        rate: Hz, by the median step.
+        rate: Hz, by the median step; NaN where most steps are 0.
         jitter: standard deviation of the steps without gaps, as a share of the median.
         gaps: steps of more than 1.5 medians; `lost` rows would fit into them.
-        largest: gap, s; `at`: s, where it begins.
+        largest: gap, s; `at`: s, where it begins, NaN without any.
         repeated: steps of 0; `back`: steps to an earlier time.
         duration: s.
         tick: s; what the steps differ by at least, 0 if they lie on no grid.
@@ -119,16 +120,18 @@ class Look(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data, without the values; a number that is not there is null."""
-        return {
+        return nulled({
             "log": self.name,
             "rows": self.rows,
-            "clock": None if self.clock is None else dataclasses.asdict(self.clock),
-            "channels": [_plain(dataclasses.asdict(channel)) for channel in self.channels],
+            "clock": None if self.clock is None else dataclasses.asdict(self.clock)
+            | {"tick": self.clock.tick or None},
+            "channels": [dataclasses.asdict(channel) | {"resolution": channel.resolution or None}
+                         for channel in self.channels],
             "streams": [dataclasses.asdict(stream) for stream in self.streams],
             "notes": list(self.notes),
             "doubts": list(self.doubts),
             "suggested": self.suggested,
-        }
+        })  # fmt: skip
 
 
 def look(
@@ -196,11 +199,6 @@ def _dead(
         for channel, name in zip(channels, names, strict=True)
         if channel.constant and not (name in rest and channel.low == 0.0)
     ]
-
-
-def _plain(channel: dict[str, Any]) -> dict[str, Any]:
-    unlike = {k: None for k, v in channel.items() if isinstance(v, float) and not np.isfinite(v)}
-    return channel | unlike
 
 
 def _numbers(block: Table, names: Iterable[str]) -> dict[str, np.ndarray]:
@@ -290,7 +288,8 @@ def _clock_over(seen: Clock, clocks: Sequence[Clock], duration: float) -> Clock:
         for name in ("gaps", "lost", "repeated", "back")
     }
     widest = max(clocks, key=lambda own: own.largest)
-    jitter = float(np.sqrt(np.mean([own.jitter**2 for own in clocks])))
+    jitters = [own.jitter**2 for own in clocks if np.isfinite(own.jitter)] or [np.nan]
+    jitter = float(np.sqrt(np.mean(jitters)))
     return dataclasses.replace(
         widest, rate=seen.rate, tick=seen.tick, jitter=jitter, duration=duration, **sums
     )
@@ -326,18 +325,18 @@ def _clock(
     steps = np.diff(known)
     if not len(steps):
         raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
-    step = float(np.median(steps)) if seen is None else 1.0 / (seen.rate or np.inf)
+    step = float(np.median(steps)) if seen is None else 1.0 / seen.rate
     even = steps[(steps > 0.0) & (steps <= _GAP * step)]
     gaps = np.flatnonzero(steps > _GAP * step) if step > 0.0 else np.array([], dtype=int)
     widest = int(gaps[np.argmax(steps[gaps])]) if gaps.size else 0
     return time, Clock(
         column=table.called(name),
-        rate=1.0 / step if step > 0.0 else 0.0,
-        jitter=float(np.std(even)) / step if even.size and step > 0.0 else 0.0,
+        rate=1.0 / step if step > 0.0 else np.nan,
+        jitter=float(np.std(even)) / step if even.size and step > 0.0 else np.nan,
         gaps=int(gaps.size),
         lost=int(np.sum(np.round(steps[gaps] / step) - 1.0)) if gaps.size else 0,
         largest=float(steps[widest]) if gaps.size else 0.0,
-        at=float(known[widest]) if gaps.size else 0.0,
+        at=float(known[widest]) if gaps.size else np.nan,
         repeated=int(np.sum(steps == 0.0)),
         back=int(np.sum(steps < 0.0)),
         duration=float(known.max() - known.min()),

@@ -78,7 +78,7 @@ def errors_picture(diagnosis: Diagnosis) -> Picture:
 def _error_bars(diagnosis: Diagnosis, after: bool) -> Bars:
     joints = diagnosis.joints.values()
     values = np.array([100.0 * (j.error_after if after else j.error_before) for j in joints])
-    texts = tuple(f"{value:.2f}" for value in values)
+    texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
     return Bars("error", tuple(diagnosis.joints), values, texts, Style(ORANGE if after else BLUE))
 
 

@@ -152,7 +152,7 @@ def _diagnosis_tables(diagnosis: Diagnosis) -> Tables:
 
 
 def _effects(diagnosis: Diagnosis) -> Table:
-    rows = [_finding(f, "missing") for f in diagnosis.effects]
+    rows = [_finding(f, "missing" if f.status == "fact" else "named") for f in diagnosis.effects]
     rows += [_finding(f, "refines the model") for f in diagnosis.refinements]
     columns = (("effect", ""), ("joint", ""), ("error before", "%"), ("error after", "%"),
                ("gain", "%"), ("values", "SI"), ("what", ""), ("evidence", ""))  # fmt: skip

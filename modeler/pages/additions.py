@@ -1,9 +1,9 @@
 """The page of a model's history: the error after every effect that was added, and the values."""
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.diagnose.sentences import percent
 from modeler.effects import Effect, effect_named
 from modeler.fit import Addition, IdentifiedModel
 from modeler.pages.sheet import (
@@ -22,6 +22,7 @@ from modeler.pages.sheet import (
 from modeler.pages.values import added_names, chosen, joints_table, shapes_table, values_table
 from modeler.pages.waterfall_picture import joints_picture, step_name, waterfall_picture
 from modeler.robot import robot_from_text
+from modeler.scoring.score import DIGITS, percent, printed
 
 
 def write_additions(
@@ -49,7 +50,7 @@ def write_additions(
     several = len(history[-1].joints) > 1
     sheet = Sheet(
         title=f"{robot}: effects added",
-        headline=(percent(last), f"error left of {percent(history[0].error)}"
+        headline=(percent(last, DIGITS), f"error left of {percent(history[0].error, DIGITS)}"
                   + (", rms over the joints" if several else "")),
         sections=_sections(model, left_out),
         origin=origin or Origin(robot, held, bool(held)),
@@ -70,8 +71,8 @@ def _facts(
         start, end = (_errors(step) for step in (history[0], history[-1]))
         most = max(end, key=lambda name: start.get(name, 0.0) - end[name], default=None)
         if most is not None:
-            facts.append(("Gains most", f"joint {most}: {percent(start.get(most, 0.0))} \u2192 "
-                          f"{percent(end[most])}"))  # fmt: skip
+            change = " \u2192 ".join(printed(start.get(most, math.nan), end[most]))
+            facts.append(("Gains most", f"joint {most}: {change}"))
     if left_out:
         facts.append(("Refused", f"{len(left_out)}, see below"))
     if model.fit.verdict is not None:

@@ -17,7 +17,8 @@ from modeler.pages.sheet import (
 from modeler.pictures.files import write_files
 from modeler.pictures.picture import Picture
 from modeler.scoring.contest import DOUBT, Contest, JointContest
-from modeler.scoring.contest_text import contest_sentences, headline_of, percent
+from modeler.scoring.contest_text import contest_sentences, headline_of
+from modeler.scoring.score import percent
 
 
 def write_contest(

@@ -8,7 +8,6 @@ import numpy as np
 from modeler.compare.band import DEVIATIONS
 from modeler.diagnose.judge import Judged
 from modeler.diagnose.search import Step
-from modeler.diagnose.sentences import percent
 from modeler.pages.bins import bins_of
 from modeler.pages.sheet import Cell, Table
 from modeler.pages.shown import Shown
@@ -30,6 +29,7 @@ from modeler.pictures.picture import (
     Style,
 )
 from modeler.scoring.orders import order_spectrum
+from modeler.scoring.score import percent
 
 ROWS = Style(GREY, 2.0, 0.35)
 MEANS = Style(BLACK, 0.0)

@@ -34,7 +34,7 @@ def after_diagnosis(
     model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: Diagnosis
 ) -> list[str]:
     """Add the first effect that has columns; nothing where none was found."""
-    first = next((f for f in diagnosis.effects if f.closure is not None), None)
+    first = next((f for f in diagnosis.effects if f.pick is not None), None)
     if first is None:
         return []
     joint = f" --joint {shlex.quote(first.joint)}" if first.joint else ""

@@ -73,8 +73,10 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
 
 def clock_line(clock: Clock) -> str:
     """The clock in words."""
-    parts = [f"{clock.column}: {clock.rate:.6g} Hz over {clock.duration:.4g} s"]
-    parts.append(f"jitter {100 * clock.jitter:.2g} % of a step" if clock.jitter > 1e-6 else "even")
+    rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
+    parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
+    uneven = f"jitter {100 * clock.jitter:.2g} % of a step"
+    parts += [uneven if clock.jitter > 1e-6 else "even"] * (clock.rate > 0.0)
     if clock.gaps:
         parts.append(
             f"{clock.gaps} gap{'s' * (clock.gaps > 1)}, about {clock.lost} rows lost, "

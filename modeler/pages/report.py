@@ -5,7 +5,7 @@ from pathlib import Path
 
 from modeler.diagnose import Diagnosis, Finding
 from modeler.diagnose.search import Step
-from modeler.diagnose.sentences import blind_spots, percent, unit, where
+from modeler.diagnose.sentences import blind_spots, tie_names, tied, unit, where
 from modeler.effects import effect_named
 from modeler.pages.event_pictures import play_picture, push_picture
 from modeler.pages.evidence import evidence_picture, rivals_of, rivals_table
@@ -23,6 +23,7 @@ from modeler.pages.sheet import (
 )
 from modeler.pages.shown import figures, shown
 from modeler.pages.torque_picture import torque_picture
+from modeler.scoring.score import percent, printed
 
 
 def write_diagnosis(
@@ -66,18 +67,15 @@ def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
     first = diagnosis.effects[0]
     effect = effect_named(first.effect, diagnosis.search.start.data.known.catalogue)
     assert effect is not None
-    size = f"{percent(first.error_before)} \u2192 {percent(first.error_after)}"
-    if first.closure is None:  # no column, so that the error stays
-        size = percent(first.error_before)
-    return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}"
+    size = " \u2192 ".join(printed(first.error_before, first.error_after))
+    return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}{tied(first)}"
 
 
 def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     facts = []
     if diagnosis.effects:
         first = diagnosis.effects[0]
-        ties = ", ".join(f"{effect} on {where(joint)}" for effect, joint in first.ties)
-        facts.append(("What the data do not tell apart", ties or _runner_up(diagnosis)))
+        facts.append(("What the data do not tell apart", tie_names(first) or _runner_up(diagnosis)))
     left = [
         f"joint {name}: {percent(j.systematic / (j.systematic + j.noise))} systematic"
         for name, j in diagnosis.joints.items()
@@ -199,8 +197,7 @@ def _row(finding: Finding, drawn: bool) -> list[str | Cell]:
         Cell(name, "text", link=_id(finding.effect, finding.joint) if drawn else ""),
         Cell(finding.joint or "all", "text"),
         Cell(values, "values"),
-        percent(finding.error_before),
-        percent(finding.error_after),
+        *printed(finding.error_before, finding.error_after),
         Cell(percent(finding.gain), "bar", max(0.0, finding.gain)),
         Cell(finding.evidence, "why"),
     ]
@@ -214,11 +211,8 @@ def _joints(diagnosis: Diagnosis) -> Table:
     rows = [
         [
             name,
-            percent(j.error_before),
-            percent(j.error_after),
-            f"{100 * j.explained:.3f} %",
-            f"{100 * j.systematic:.4f} %",
-            f"{100 * j.noise:.4f} %",
+            *printed(j.error_before, j.error_after),
+            *(percent(share, 5) for share in (j.explained, j.systematic, j.noise)),
         ]
         for name, j in diagnosis.joints.items()
     ]

@@ -6,10 +6,10 @@ import numpy as np
 
 from modeler.core.by_unit import WORDS
 from modeler.diagnose.search import Search, Step
-from modeler.diagnose.sentences import percent
 from modeler.pages.axes import Axis, axis_of
 from modeler.pages.bins import Bins, bins_of, calm_rows
 from modeler.pages.law_band import law_sigma
+from modeler.scoring.score import percent
 from modeler.scoring.state import State, columns_of, state_of
 from modeler.scoring.systematic import rival
 

@@ -7,6 +7,7 @@ import numpy as np
 from modeler.core.by_unit import WORDS
 from modeler.fit import Addition
 from modeler.pictures.picture import BLUE, GREEN, ORANGE, SKY, Bars, Panel, Picture, Style
+from modeler.scoring.score import DIGITS
 
 HELD, FITTED = Style(BLUE), Style(ORANGE)
 SAME, CHANGED = Style(SKY), Style(GREEN)
@@ -98,5 +99,5 @@ def _joint(history: Sequence[Addition], name: str, unit: str) -> Panel:
 
 def _bars(label: str, names: tuple[str, ...], errors: np.ndarray, style: Style) -> Bars:
     return Bars(
-        label, names, errors, tuple("" if np.isnan(e) else f"{e:.2f}" for e in errors), style
+        label, names, errors, tuple("" if np.isnan(e) else f"{e:.{DIGITS}g}" for e in errors), style
     )

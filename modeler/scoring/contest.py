@@ -11,8 +11,8 @@ from scipy.special import stdtr
 from modeler.compare.prediction import JointInfo, Prediction, relative_error, unit_errors
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
-from modeler.scoring.score import FELT
 
 DOUBT = 0.0027
 """Chance that two models that are equally good are told apart on one joint: three deviations."""
@@ -24,6 +24,9 @@ SHORTEST = 1.0
 """s, of a block; where there are fewer than `LEAST` of them nothing is beyond doubt."""
 
 LEAST = 6
+
+FELT = 0.01
+"""Share of an error by which it must change to be worth a word."""
 
 
 @dataclass(frozen=True)
@@ -72,11 +75,11 @@ class Contest(Presented):
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """The `models` of `compare --json`: errors of each, and where it is the best."""
-        return [
+        return nulled([
             {
                 "model": name,
-                "relative_error": _defined(self.pooled[k]),
-                "by_unit": {unit: _defined(e) for unit, e in self.by_unit[k].items()},
+                "relative_error": self.pooled[k],
+                "by_unit": self.by_unit[k],
                 "joints": {
                     item.joint.name: {
                         "relative_error": item.errors[k],
@@ -90,7 +93,7 @@ class Contest(Presented):
                 "best_on": self.wins(k),
             }
             for k, name in enumerate(self.names)
-        ]
+        ])  # fmt: skip
 
 
 def contest(names: Sequence[str], predictions: Sequence[Prediction]) -> Contest:
@@ -179,7 +182,3 @@ def _blocks(prediction: Prediction) -> np.ndarray:
         number[prediction.run == r] = count + np.minimum((share * pieces).astype(int), pieces - 1)
         count += pieces
     return number
-
-
-def _defined(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -1,9 +1,8 @@
 """Models side by side in words and as a table of text."""
 
-import math
-
 from modeler.compare.table import aligned
 from modeler.scoring.contest import Contest, JointContest
+from modeler.scoring.score import percent
 
 MARK = "*"
 
@@ -54,11 +53,6 @@ def headline_of(found: Contest) -> tuple[str, str]:
     lost = sum(wins) - wins[top]
     rest = f"; others on {lost}" if lost else "; no other on any"
     return count, f"joints that {found.names[top]} predicts best, beyond doubt{rest}"
-
-
-def percent(error: float) -> str:
-    """Three digits and more: models side by side may differ by little."""
-    return f"{100.0 * error:.3g} %" if math.isfinite(error) else "-"
 
 
 def _open(item: JointContest) -> str:

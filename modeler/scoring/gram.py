@@ -104,11 +104,18 @@ class Base(Brief):
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
-        left = np.zeros(len(self.y))
-        for j, (columns, y, block) in enumerate(zip(self.columns, self.y, self.block, strict=True)):
-            predicted = np.take_along_axis(columns @ beta.T, place[block][:, None], axis=1)
-            left[j] = float(np.sum((y - predicted[:, 0]) ** 2))
-        return Crossed(place, inverse, beta, left)
+        return Crossed(place, inverse, beta)
+
+    @cached_property
+    def left_out(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
+        if self.finer is not None:
+            return self.finer.left_out
+        fits = self.crossed
+        return tuple(
+            y - np.einsum("ij,ij->i", columns, fits.beta[fits.place[block]])
+            for columns, y, block in zip(self.columns, self.y, self.block, strict=True)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,13 +126,11 @@ class Crossed(Brief):
         place: (blocks,) index of the fit that a block is held out of.
         inverse: (F, r, r) of the Gram matrices.
         beta: (F, r) parameters.
-        left: (J,) squared residual on rows that were held out.
     """
 
     place: np.ndarray
     inverse: np.ndarray
     beta: np.ndarray
-    left: np.ndarray
 
 
 def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:

@@ -46,7 +46,7 @@ def rank(base: Base, pool: Pool) -> Ranking:
     gamma, deviation = every.gamma[0], every.deviation[0]
     return Ranking(
         fall(base, pool),
-        base.crossed.left,
+        np.array([float(left @ left) for left in base.left_out]),
         every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
         gamma / pool.scale,
         deviation / pool.scale,

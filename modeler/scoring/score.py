@@ -1,4 +1,8 @@
-"""Did a change of a model lower the error on motion that it was not fitted to? On which joints?"""
+"""Is a change of a model for the better? The one rule of `diagnose`, `add` and `auto`.
+
+A change is kept, or stated as missing, if the error that is printed for it falls as printed on
+blocks of time that were not fitted, by more than two standard errors of the paired differences.
+"""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -9,10 +13,10 @@ import numpy as np
 from modeler.hypotheses.blocks import BLOCK, MOST
 
 SURE = 2.0
-"""Standard errors beyond which a change is sure."""
+"""Standard errors beyond which differences over blocks of time are more than chance."""
 
-FELT = 0.01
-"""Share of an error by which it must change to be worth a word."""
+DIGITS = 4
+"""Most significant digits of an error that is printed: what does not differ in them is the same."""
 
 LEAST = 1e-3
 """Relative errors below are as good as none."""
@@ -42,13 +46,12 @@ class Unseen:
 
 @dataclass(frozen=True)
 class Change:
-    """One joint before and after, or all of them.
+    """One joint before and after, or some of them together.
 
     Attributes:
         joint: name.
-        before, after: relative error on unseen motion.
-        scatter: change over its standard error, from blocks of time; positive where the error
-            falls.
+        before, after: relative error on unseen motion; NaN where none is known.
+        scatter: fall of its square over the standard error of that, from blocks of time.
     """
 
     joint: str
@@ -57,19 +60,24 @@ class Change:
     scatter: float
 
     @property
-    def sure(self) -> bool:
-        """True if the change is more than chance."""
-        return abs(self.scatter) > SURE
+    def differs(self) -> bool:
+        """True if the two printed numbers differ."""
+        return len(set(printed(self.before, self.after))) > 1
 
     @property
     def falls(self) -> bool:
         """True if the error surely falls."""
-        return self.sure and self.ratio < 1.0 - FELT
+        return self.scatter > SURE and self.differs
 
     @property
     def rises(self) -> bool:
         """True if it surely rises."""
-        return self.sure and self.ratio > 1.0 + FELT
+        return self.scatter < -SURE and self.differs
+
+    @property
+    def gain(self) -> float:
+        """Fall of the squared error, as a share of it."""
+        return 1.0 - (self.after / self.before) ** 2 if self.before > 0.0 else 0.0
 
     @property
     def ratio(self) -> float:
@@ -83,7 +91,7 @@ class Score:
 
     Attributes:
         joints: those with rows and torque.
-        whole: product over them, so that each counts in units of its own error; 1 before.
+        whole: the error that is printed for the change: root mean square over joints.
     """
 
     joints: tuple[Change, ...]
@@ -91,15 +99,8 @@ class Score:
 
     @property
     def better(self) -> bool:
-        """True if the whole falls by more than its standard error, or a joint surely falls.
-
-        The latter counts if none surely rises and the whole falls at all; neither, if a joint is
-        spoilt.
-        """
-        shown = any(c.scatter > 1.0 and c.ratio < 1.0 - FELT for c in self.joints)
-        alone = any(c.falls for c in self.joints) and not any(c.rises for c in self.joints)
-        falls = (shown and self.whole.scatter > 1.0) or (alone and self.whole.ratio < 1.0)
-        return falls and not self.spoilt
+        """True if the printed error surely falls, and no joint is spoilt."""
+        return self.whole.falls and not self.spoilt
 
     @property
     def spoilt(self) -> bool:
@@ -112,51 +113,52 @@ class Score:
         return {change.joint: (change.before, change.after) for change in self.joints}
 
     @property
-    def most(self) -> Change:
-        """The joint whose error changes most."""
-        return max(self.joints, key=lambda change: abs(math.log(change.ratio)))
-
-    @property
     def changed(self) -> tuple[str, ...]:
         """Joints whose error falls or rises."""
         return tuple(change.joint for change in self.joints if change.falls or change.rises)
 
 
-def scored(before: Unseen, after: Unseen) -> Score:
+def scored(
+    before: Unseen, after: Unseen, weights: Mapping[str, float] | None = None, block: float = 0.0
+) -> Score:
     """The score of a change.
 
-    S_jb and T_jb are the sums of the squared residuals of joint j over block b of time, before and
-    after; S_j and T_j those over all B blocks. The change of a joint is L_j = log(S_j / T_j),
-    twice the logarithm of the ratio of its errors, so that each joint counts in units of its own
-    noise. Blocks are paired, and residuals are coloured within them but not beyond: the variance
-    of L_j is B / (B - 1) sum_b u_jb^2 with u_jb = S_jb / S_j - T_jb / T_j, that of sum_j L_j the
-    same with sum_j u_jb.
+    With S_jb and T_jb the sums of the squared residuals of joint j over block b of time, before and
+    after, and Y_j those of its torque over all B blocks, the squared relative errors of the joint
+    are sum_b S_jb / Y_j and sum_b T_jb / Y_j. Their difference is sum_b d_b with
+    d_b = (S_jb - T_jb) / Y_j: blocks are paired, and residuals are coloured within them but not
+    beyond, so its standard error is `sqrt(B / (B - 1) sum_b (d_b - mean)^2)`. The whole is the
+    weighted mean of the squares over joints, and its d_b that of the joints.
 
     Args:
         before: residuals of the model without the change.
         after: with it, on the same logs.
+        weights: of the joints, by name; None: the same of all.
+        block: s; 0: half a second, longer where logs are long.
     """
-    grid = _Grid.of(before)
+    grid = _Grid.of(before, block)
     old, new = errors_of(before), errors_of(after)
-    changes, shares = [], np.zeros(grid.blocks)
-    for j, name in enumerate(before.names):
-        if name not in old or name not in new:
-            continue
-        sums = [grid.sums(seen, j) for seen in (before, after)]
-        share = np.subtract(*(of / max(float(of.sum()), 1e-300) for of in sums))
-        blocks = int(np.count_nonzero(sums[0]))
-        changes.append(_judged(name, old[name], new[name], share, blocks))
-        shares += share
-    mean = math.exp(sum(math.log(c.ratio) for c in changes))
-    return Score(tuple(changes), _judged("", 1.0, mean, shares, grid.blocks))
+    known = [(j, name) for j, name in enumerate(before.names) if name in old and name in new]
+    falls = {name: grid.shares(before, j) - grid.shares(after, j) for j, name in known}
+    changes = tuple(
+        Change(name, old[name], new[name], standard_errors(fall)) for name, fall in falls.items()
+    )
+    share = {name: 1.0 if weights is None else weights.get(name, 0.0) for name in falls}
+    total = sum(share.values())
+    if not total > 0.0:
+        return Score(changes, Change("", math.nan, math.nan, 0.0))
+    first, last = (math.sqrt(sum(share[name] * of[name] ** 2 for name in falls) / total)
+                   for of in (old, new))  # fmt: skip
+    fall = np.sum([share[name] * fall for name, fall in falls.items()], axis=0)
+    return Score(changes, Change("", first, last, standard_errors(fall)))
 
 
-def _judged(name: str, before: float, after: float, shares: np.ndarray, blocks: int) -> Change:
-    """A change whose scatter over blocks has the shares u_b."""
-    log = 2.0 * math.log(max(before, LEAST) / max(after, LEAST))
-    spread = float(np.sqrt(np.sum(shares**2) * blocks / max(1, blocks - 1)))
-    scatter = log / max(spread, 1e-9) if blocks > 1 else 0.0
-    return Change(name, before, after, scatter)
+def standard_errors(differences: np.ndarray) -> float:
+    """The sum of differences (blocks,) over its standard error; 0 of fewer than two blocks."""
+    count = len(differences)
+    spread = float(np.std(differences)) * count / math.sqrt(max(1, count - 1))
+    total = float(np.sum(differences))
+    return total / max(spread, 1e-9 * abs(total), 1e-300) if count > 1 else 0.0
 
 
 def rms_error(errors: Iterable[float]) -> float:
@@ -172,15 +174,25 @@ def errors_of(seen: Unseen) -> dict[str, float]:
     return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
 
 
+def percent(share: float, digits: int = 3) -> str:
+    """A share in percent, as in "3.41 %"; "-" where it is not known."""
+    return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"
+
+
+def printed(before: float, after: float) -> tuple[str, str]:
+    """Two errors in percent, with a digit more where they are alike in three."""
+    pair, finer = ((percent(before, digits), percent(after, digits)) for digits in (3, DIGITS))
+    return finer if pair[0] == pair[1] and finer[0] != finer[1] else pair
+
+
 def told(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
-    """The errors that change: "joint 7 11.4 -> 7.1 %; joint 2 rises, 3 -> 3.2 %".
+    """The errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
 
     Args:
         joints: error before and after, by joint.
         changed: joints whose error falls or rises.
     """
-    pairs = {name: "{:.3g} -> {:.3g} %".format(*(100.0 * e for e in joints[name]))
-             for name in changed}  # fmt: skip
+    pairs = {name: " -> ".join(printed(*joints[name])) for name in changed}
     rising = [name for name in changed if joints[name][1] > joints[name][0]]
     parts = [", ".join(f"joint {name} {text}" for name, text in pairs.items()
                        if name not in rising)]  # fmt: skip
@@ -200,22 +212,23 @@ class _Grid:
     blocks: int
 
     @classmethod
-    def of(cls, seen: Unseen) -> "_Grid":
-        """Of half a second, longer where logs are long."""
+    def of(cls, seen: Unseen, block: float) -> "_Grid":
+        """Of that many s; of 0, half a second, longer where logs are long."""
         run, time = np.concatenate(seen.run), np.concatenate(seen.time)
         spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
-        length = max(BLOCK, sum(b - a for a, b in spans.values()) / MOST)
+        length = block or max(BLOCK, sum(b - a for a, b in spans.values()) / MOST)
         count, ends = 0, {}
         for r, (a, b) in spans.items():
             last = count + int((b - a) / length)
             ends[r], count = (count, last), last + 1
         return cls({r: float(a) for r, (a, _) in spans.items()}, ends, float(length), count)
 
-    def sums(self, seen: Unseen, j: int) -> np.ndarray:
-        """(blocks,) squared residuals of one joint."""
+    def shares(self, seen: Unseen, j: int) -> np.ndarray:
+        """(blocks,) squared residuals of one joint, over its squared torque in all of them."""
         number = np.zeros(len(seen.run[j]), dtype=int)
         for r, start in self.start.items():
             own = seen.run[j] == r
             since = np.floor((seen.time[j][own] - start) / self.length).astype(int)
             number[own] = np.clip(self.ends[r][0] + since, *self.ends[r])
-        return np.bincount(number, seen.residual[j] ** 2, self.blocks)
+        size = float(seen.torque[j] @ seen.torque[j])
+        return np.bincount(number, seen.residual[j] ** 2, self.blocks) / size

@@ -14,6 +14,7 @@ import pyarrow.parquet as pq
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
+from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.simulate.hidden import HiddenEffect
 from modeler.simulate.settings import SimulationSettings
@@ -138,7 +139,7 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "hidden": told_hidden(log),
         "drive_gains": dict(log.settings.drive_gains),
     }
-    write_atomically(Path(path), json.dumps(content, indent=1) + "\n")
+    write_atomically(Path(path), json.dumps(nulled(content), indent=1, allow_nan=False) + "\n")
 
 
 def told_hidden(log: SimulatedLog) -> list[dict[str, object]]:

@@ -2,6 +2,7 @@
 
 import json
 
+from modeler.core.json_text import nulled
 from modeler.core.latex_lines import Equation, display
 from modeler.terms.closed_form import ClosedForm, Function
 from modeler.terms.text import LATEX, TEXT, Style, form_text, monomial_text
@@ -75,7 +76,7 @@ def closed_form_json(closed: ClosedForm) -> str:
         "gravity_factor": closed.gravity_factor,
         "functions": functions,
     }
-    return json.dumps(content, indent=1) + "\n"
+    return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
 
 
 def equation(closed: ClosedForm) -> str:

@@ -3,6 +3,7 @@
 import json
 from dataclasses import dataclass
 
+from modeler.core.json_text import nulled
 from modeler.core.latex_lines import Equation, display
 from modeler.terms.coefficients import Coefficient, CoefficientTable
 from modeler.terms.render import equation, latex_function
@@ -130,4 +131,4 @@ def coefficients_json(table: CoefficientTable) -> str:
             "determinant": None if determinant is None else polynomial_text(determinant, static),
         },
     }
-    return json.dumps(content, indent=1) + "\n"
+    return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"

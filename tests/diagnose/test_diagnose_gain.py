@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.diagnose import diagnose
-from modeler.diagnose.sentences import percent
 from modeler.observation import Log
+from modeler.scoring.score import printed
 from tests.diagnose.conftest import Case, motion, on_joint
 
 
@@ -42,10 +42,9 @@ def test_gain_is_computed_from_the_printed_errors(case: Case, hidden, held_out: 
     for plain, finding in zip([*told["effects"], *told["refinements"]], findings, strict=True):
         before, after = plain["error_before"], plain["error_after"]
         assert math.isclose(plain["gain"], 1.0 - (after / before) ** 2, abs_tol=1e-12)
-        if finding.pick is None:
-            assert plain["gain"] == 0.0
-        else:
-            assert f"error {percent(before)} -> {percent(after)} on motion" in finding.evidence
+        numbers = printed(before, after)
+        assert numbers[0] != numbers[1] and after < before
+        assert " -> ".join(numbers) in finding.evidence
 
 
 def test_an_effect_of_one_joint_has_the_errors_of_that_joint(case: Case) -> None:

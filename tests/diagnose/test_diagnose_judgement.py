@@ -1,13 +1,15 @@
 """What a diagnosis may not say: effects a joint cannot have, sizes, errors beyond all measure."""
 
 import dataclasses
+import math
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from modeler.core.json_text import nulled
 from modeler.diagnose import Known, doubts, errors, search
-from modeler.diagnose.assemble import verdict
+from modeler.diagnose.assemble import _doubted, verdict
 from modeler.diagnose.braking import DRIVES
 from modeler.diagnose.judge import Judged, decide, possible
 from modeler.diagnose.looks import Look
@@ -17,6 +19,7 @@ from modeler.diagnose.survey import Survey
 from modeler.effects import effect_named
 from modeler.hypotheses.candidates import Candidate, candidates, scales_of
 from modeler.observation.channels import Fault
+from modeler.scoring.score import Change, Score
 from tests.diagnose.conftest import Case
 
 TURNING = ("counterbalance", "constant_force_spring", "encoder_eccentricity")
@@ -98,9 +101,19 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
     effect: str, left: bool, said: str
 ) -> None:
     event = effect == "external_force"
-    first = SimpleNamespace(effect=effect, closure=None, objection="", stands=True, event=event)
+    finding = Finding(effect, None, 0.2, 0.1, {}, {}, {}, (), "", None, False, event=event)
     joints = {"1": SimpleNamespace(error_after=0.1, unexplained=left)}
+    first = _doubted(finding, joints)  # type: ignore[arg-type]
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+    assert first.status == ("fact" if said == "missing" else "named")
+
+
+def test_what_does_not_lower_the_error_is_no_fact() -> None:
+    play = Finding("backlash", "1", 0.2, math.nan, {}, {}, {}, (), "", None, False)
+    assert verdict((play,), {}, None) == "closest description"  # type: ignore[arg-type]
+    raw = nulled(play.to_json())
+    assert (raw["error_before"], raw["error_after"], raw["gain"]) == (0.2, None, None)
+    assert raw["status"] == "named"
 
 
 @pytest.mark.parametrize(("agrees", "said"), [(True, "missing"), (False, "closest description")])
@@ -176,10 +189,12 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
     vetoed.append(at("offset", "1", 0.8))  # named later
     last = SimpleNamespace(ranked=ranked)
-    found = SimpleNamespace(search=SimpleNamespace(vetoed=vetoed, steps=steps, last=last))
+    search = SimpleNamespace(vetoed=vetoed, steps=steps, last=last)
+    named = (SimpleNamespace(effect="offset", joint="1"),)
+    found = SimpleNamespace(search=search, effects=named, refinements=())
     first, second, third = refused_lines(found)  # type: ignore[arg-type]
     assert "(elasticity), joint 2, explains 60 %" in first and "errors of timing" in first
-    assert "(spring), joint 1, explains 50 %" in second and "held-out motion" in second
+    assert "(spring), joint 1, explains 50 %" in second and "motion left out" in second
     assert "(drift), joint 2, explains 40 %" in third and "would drive" in third
 
 
@@ -191,15 +206,16 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
     monkeypatch: pytest.MonkeyPatch, after: float, expected: float, refused: bool
 ) -> None:
     """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
-    seen = {"before": np.ones(1), "after": np.array([after**2])}
-    monkeypatch.setattr(errors, "held_out_squares", lambda state, data: (seen[state], np.ones(1)))
+    change = Change("", 1.0, after, 5.0)
     monkeypatch.setattr(errors, "touched_joints", lambda judged, before, after: [0])
-    monkeypatch.setattr(errors, "over", lambda state, joints, error: float(error[0]))
-    monkeypatch.setattr(errors, "_unseen", lambda state, data: state)
-    monkeypatch.setattr(errors, "scored", lambda *a: SimpleNamespace(better=True))
-    veto = errors.vetoing(None)  # type: ignore[arg-type]
+    monkeypatch.setattr(errors, "unseen", lambda state, other: state)
+    monkeypatch.setattr(errors, "compared", lambda *a: Score((change,), change))
+    veto = errors.vetoing("held out")  # type: ignore[arg-type]
     judged_at = SimpleNamespace(gain=expected, alone=True)
     assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]
+    chance = Change("", 1.0, after, 1.9)
+    monkeypatch.setattr(errors, "compared", lambda *a: Score((chance,), chance))
+    assert veto("before", "after", judged_at), "no more than chance"  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,16 @@ from modeler.diagnose.detected import detected
 from modeler.effects import effect_named
 from modeler.pages.event_pictures import play_picture
 from modeler.pages.report import write_diagnosis
+from modeler.scoring.score import Change, Score
 from tests.diagnose.conftest import Case, motion, on_joint
 
-ERRORS = np.full(3, 0.05)
+ERRORS = {"1": 0.05, "2": 0.05, "3": 0.05}
+
+
+def falls(after):
+    """What the column of play makes of an error of 5 %."""
+    change = Change("", 0.05, after, 5.0)
+    return lambda candidate: Score((change,), change)
 
 
 class Found(SimpleNamespace):
@@ -48,7 +55,7 @@ def column(effect, joint, gain, refines=False):
 
 
 def said(found, findings=()):
-    every = detected(found, None, ERRORS, list(findings))
+    every = detected(found, None, ERRORS, falls(0.04), list(findings))
     return [(f.effect, f.joint) for f in every if not f.refines]
 
 
@@ -85,7 +92,7 @@ def test_faint_bursts_count_where_the_column_of_play_explains_something(
 def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
     knocks, columns = (0.0, 0.9, 0.0), {1: (0.1, 0.1, 5.0)}
     found = searched(monkeypatch, QUIET, QUIET, knocks, columns)
-    (play,) = detected(found, None, ERRORS, [])
+    (play,) = detected(found, None, ERRORS, falls(0.04), [])
     assert (play.effect, play.joint) == ("backlash", "2")
     assert "do not follow the sign of the load" in play.objection
     assert "90 % of the residual's energy" in play.evidence
@@ -96,9 +103,23 @@ def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
 def test_the_joint_bursts_most_and_its_column_describes_most(monkeypatch):
     loud = (14.0, 52.0, 30.0)
     columns = {0: (0.5, 0.25, 9.0), 1: (0.4, 0.22, 9.0), 2: (0.1, 0.0, 9.0)}
-    (play,) = detected(searched(monkeypatch, loud, loud, columns=columns), None, ERRORS, [])
+    found = searched(monkeypatch, loud, loud, columns=columns)
+    (play,) = detected(found, None, ERRORS, falls(0.04), [])
     assert play.joint == "2"
     assert play.ties == (("backlash", "1"), ("backlash", "3"))
+
+
+def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
+    """And what nobody knows is not told as a number."""
+    loud = (1.0, 52.0, 1.0)
+    for columns, after in (({}, 0.04), ({1: (0.4, 0.2, 9.0)}, 0.05)):
+        found = searched(monkeypatch, loud, loud, columns=columns)
+        (play,) = detected(found, None, ERRORS, falls(after), [])
+        assert not play.stated and "no column of play" in play.objection
+        assert play.error_before == 0.05 and np.isnan([play.error_after, play.gain]).all()
+    (play,) = detected(found, None, ERRORS, falls(0.04), [])
+    assert play.status == "fact" and (play.error_before, play.error_after) == (0.05, 0.04)
+    assert "error 5 % -> 4 %" in play.evidence
 
 
 @pytest.mark.parametrize(("gain", "named"), [(0.2, False), (0.9, True)])
@@ -119,6 +140,7 @@ def test_a_gear_that_rattles_is_no_push(monkeypatch):
     state = SimpleNamespace(rows=SimpleNamespace(joints=1), picks=(), beta=None)
     found = SimpleNamespace(end=state, last=SimpleNamespace(ranked=(1,)))
     monkeypatch.setattr(diagnosis, "contact_window", lambda state: window)
+    monkeypatch.setattr(diagnosis, "explained", lambda window, state, data: window)
     monkeypatch.setattr(diagnosis, "_masked", lambda data, window: data)
     monkeypatch.setattr(diagnosis, "state_of", lambda *a: state)
     monkeypatch.setattr(diagnosis.dataclasses, "replace", lambda data, **changes: data)

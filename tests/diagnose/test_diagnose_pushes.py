@@ -12,6 +12,7 @@ from modeler.hypotheses.candidates import candidates, scales_of
 from modeler.observation import Log
 from modeler.pages.event_pictures import push_picture
 from modeler.pages.report import write_diagnosis
+from modeler.scoring.score import printed
 from tests.diagnose.conftest import Case, motion, on_joint
 
 
@@ -36,6 +37,14 @@ def test_a_push_as_small_as_the_noise_is_found_by_its_duration(case: Case) -> No
     assert first.effect == "external_force"
     assert first.parameters["t0"] == pytest.approx(12.0, abs=0.3)
     assert first.parameters["t1"] == pytest.approx(13.2, abs=0.3)
+
+
+def test_a_push_too_short_to_be_sure_is_not_named(case: Case) -> None:
+    """Or the error falls by it as printed: one twentieth of a second does not answer for others."""
+    for size in (0.2, 1.0):
+        for finding in once(pushed((12.0, 12.15), size=size), case).effects:
+            assert len(set(printed(finding.error_before, finding.error_after))) == 2
+            assert finding.error_after < finding.error_before
 
 
 def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: Path) -> None:
@@ -90,11 +99,14 @@ def lever(log: Log, helical: bool) -> np.ndarray:
 @pytest.mark.parametrize("helical", [True, False])
 def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical: bool) -> None:
     model, train, holdout = case.hidden(lambda log: lever(log, helical))
-    first = diagnose(model, case.compiled, [train], [holdout]).effects[0]
+    diagnosis = diagnose(model, case.compiled, [train], [holdout])
+    first = diagnosis.effects[0]
     names = ("counterbalance", "constant_force_spring")
     named, other = names if helical else names[::-1]
     assert (first.effect, first.joint) == (named, "2")
     assert (other, "2") in first.ties
+    assert first.status == "named", "a tie is no fact"
+    assert f"or {other} on joint 2 (these data do not tell which)" in diagnosis.sentences[0]
 
 
 @pytest.mark.parametrize("ruled_out", ["counterbalance@2", "counterbalance", "balancer@2"])

@@ -148,6 +148,6 @@ def _key(data: Mapping[str, Any]) -> Key:
 
 
 def _fall(first: Mapping[str, Any] | None) -> float | None:
-    if first is None or not first["error_before"]:
+    if first is None or not first["error_before"] or first["error_after"] is None:
         return None
     return 1 - first["error_after"] / first["error_before"]

@@ -124,7 +124,7 @@ def test_resolution_limits_and_missing_values(capsys, tmp_path, table):
     table["tau_3"][40:47] = np.nan
     raw, _ = seen(capsys, tmp_path, table)
     by = {channel["name"]: channel for channel in raw["channels"]}
-    assert by["pos_1"]["resolution"] == pytest.approx(step) and by["tau_1"]["resolution"] == 0.0
+    assert by["pos_1"]["resolution"] == pytest.approx(step) and by["tau_1"]["resolution"] is None
     encoder = 4.0 * 360.0 / SimulationSettings().encoder_counts  # deg
     assert by["pos_2"]["resolution"] == pytest.approx(encoder, rel=1e-6)
     ((end, share),) = by["tau_2"]["limits"]

@@ -37,8 +37,8 @@ def improvement(answers: Sequence[Answer]) -> str:
     header = ["set", "direction", "held-out error by joint, %", "whole", "scatter", "seconds"]
     rows = [[*_case(answer)[:2], *_change(answer)] for answer in answers]
     said = (
-        "A `!` stands behind an error that surely rises. *whole*: product over the joints of the "
-        "errors after over before; *scatter*: its fall in standard errors.\n\n"
+        "A `!` stands behind an error that surely rises. *whole*: rms over the joints, "
+        "with the effects; *scatter*: its fall in standard errors.\n\n"
     )
     steps = "\n".join(_steps(answer) for answer in answers)
     return said + _table(header, rows) + "\n" + steps

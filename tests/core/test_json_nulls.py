@@ -1,0 +1,87 @@
+"""No number that means nothing in what is written for machines: null, in every command's JSON."""
+
+import argparse
+import json
+import math
+import shutil
+
+import numpy as np
+import pytest
+
+from modeler.api import load
+from modeler.cli import main
+from modeler.cli.console import run_command
+from modeler.core.json_text import nulled, parse_json
+from modeler.simulate import SimulationSettings, simulate, write_log
+
+ROBOT = "two-link"
+
+
+def test_what_is_not_finite_is_null_and_all_else_as_it_was():
+    raw = {"a": [1.5, math.nan, (0.0, -math.inf)], "b": {"c": np.float64("nan"), "d": "nan"}}
+    raw |= {"e": np.array([[1.0, np.inf]]), "f": np.int64(3), "g": True, "h": None}
+    assert nulled(raw) == {
+        "a": [1.5, None, [0.0, None]], "b": {"c": None, "d": "nan"},
+        "e": [[1.0, None]], "f": 3, "g": True, "h": None,
+    }  # fmt: skip
+
+
+def test_whatever_a_command_returns_is_json(tmp_path):
+    place = tmp_path / "x.json"
+    run_command(argparse.Namespace(json=str(place)), lambda args: {"x": math.nan, "y": [np.inf]})
+    assert json.loads(place.read_text()) == {"x": None, "y": [None]}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Two runs, a model, and a run of which nobody measured the torque of joint 2."""
+    found = tmp_path_factory.mktemp("nulls")
+    for name, seed in (("a", 1), ("b", 2)):
+        log = simulate(load(ROBOT), SimulationSettings(duration=6.0, rate=200.0, seed=seed))
+        write_log(found / f"{name}.csv", log)
+    head, *rows = (found / "b.csv").read_text().splitlines()
+    place = head.split(",").index("tau2")
+    silent = [row.split(",") for row in rows]
+    for row in silent:
+        row[place] = "0"
+    (found / "silent.csv").write_text("\n".join([head, *(",".join(row) for row in silent), ""]))
+    assert main(["fit", ROBOT, str(found / "a.csv"), "--out", str(found / "m.json")]) == 0
+    shutil.copy(found / "m.json", found / "same.json")
+    return found
+
+
+COMMANDS = {
+    "derive": (ROBOT,),
+    "fit": (ROBOT, "a.csv", "--out", "f.json"),
+    "compare": ("m.json", "silent.csv"),
+    "compare two": ("m.json", "same.json", "b.csv"),
+    "log": ("silent.csv",),
+    "physical": (ROBOT,),
+    "home": ("five-bar",),
+    "effects": (),
+    "robots": (),
+    "estimators": (),
+    "simulate": (ROBOT, "--duration", "2", "--rate", "100", "--out", "s.csv", "--truth", "t.json"),
+    "fleet": (ROBOT, "a.csv", "b.csv"),
+    "diagnose": ("m.json", "a.csv", "--holdout", "silent.csv", "--report", "d.html"),
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_json_of_a_command_holds_no_number_that_is_none(command, folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    status = main([command.split()[0], *COMMANDS[command], "--json", "out.json"])
+    assert status == 0, capsys.readouterr().err
+    raw = parse_json((folder / "out.json").read_bytes())  # refuses NaN and Infinity
+    out = capsys.readouterr().out
+    assert "nan" not in out.replace("nance", "").lower().split()
+    if command == "log":
+        assert raw["clock"]["gaps"] == 0 and raw["clock"]["at"] is None
+    if command == "compare":
+        assert set(raw["joints"]) == {"1"} and raw["by_log"][0]["joints"]["2"] is None
+    if command == "diagnose":
+        joint = raw["joints"]["2"]
+        assert joint["error_before"] is joint["error_after"] is None and joint["rms_before"] > 0.0
+        (line,) = (line for line in out.splitlines() if line.startswith("2 "))
+        assert line.split() == ["2", "-", "-"]
+        assert "nan %" not in (folder / "d.html").read_text()
