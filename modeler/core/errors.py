@@ -40,6 +40,11 @@ class LoopError(ModelerError):
     """A kinematic loop leaves too much or too little free, is singular, or cannot close."""
 
 
+def installing(part: str) -> str:
+    """What installs an optional part; by name, the public index has another project."""
+    return f"pip install '.[{part}]' in the checkout"
+
+
 def on_one_line(message: str) -> str:
     """The message as one line: line ends, other control characters and what is endless made short.
 
