@@ -1,4 +1,4 @@
-"""Writing files so that nothing is ever half-written, and nothing but a file replaced."""
+"""Files: none is read without end, none half-written, and nothing but a file replaced."""
 
 import contextlib
 import errno
@@ -9,9 +9,61 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from modeler.core.destination import Destination, Kind, destination
-from modeler.core.errors import ModelerError
+from modeler.core.errors import DataError, ModelerError
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+
+
+LARGEST = 64 * 2**20
+"""Bytes of a text that is read whole: a robot, a model, a map, a list."""
+
+PACKED = 100
+"""Times that a log may be larger unpacked than its file: measured numbers pack 20 times at best."""
+
+UNPACKED = 256 * 2**20
+"""Bytes that any log may unpack to, however small its file."""
+
+
+def read_file(path: Path, most: int = LARGEST) -> bytes:
+    """Content of a regular file of at most so many bytes.
+
+    Raises:
+        OSError: it cannot be read, is a pipe or device, which may never end, or is larger.
+    """
+    mode = path.stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise OSError(errno.EINVAL, "a pipe or a device, no file", str(path))
+    with path.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise OSError(errno.EFBIG, f"larger than {most >> 20} MiB", str(path))
+    return content
+
+
+def read_text(path: Path) -> str:
+    r"""The same as text in UTF-8, a byte order mark taken off; line ends are `\n`.
+
+    Raises:
+        OSError: as `read_file`.
+        UnicodeDecodeError: it is no UTF-8.
+    """
+    return read_file(path).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def check_unpacked(path: Path, size: int) -> None:
+    """Refuse a log that would fill the memory, before it is unpacked to so many bytes.
+
+    Raises:
+        DataError: more than `PACKED` times its file, and more than `UNPACKED`.
+    """
+    inside = path.rglob("*") if path.is_dir() else (path,)
+    packed = sum(one.stat().st_size for one in inside)
+    if size > max(UNPACKED, PACKED * packed):
+        raise DataError(
+            f"{path}: unpacks to {size / 2**20:,.0f} MiB or more from {packed / 2**20:.3g} MiB; "
+            f"expected at most {PACKED} times the file, or {UNPACKED >> 20} MiB: no measurement "
+            "packs like that; write it again with the samples of the motion alone"
+        )
 
 
 def write_atomically(path: Path, content: bytes | str) -> None:

@@ -1,8 +1,10 @@
-"""JSON that others wrote, read strictly: one sentence for everything that is wrong with it."""
+"""JSON and TOML that others wrote: one sentence for everything that is wrong with it."""
 
 import json
 import math
 import reprlib
+import sys
+import tomllib
 from typing import Any
 
 _LARGEST = 2**63
@@ -11,6 +13,10 @@ _BYTE_ORDER = (b"\xff\xfe", b"\xfe\xff")
 
 class JsonError(ValueError):
     """What is wrong with the text, without its place; readers add the file and what to do."""
+
+
+class TomlError(ValueError):
+    """What is wrong with a TOML text, without its place."""
 
 
 def parse_json(data: bytes | str) -> Any:
@@ -40,6 +46,23 @@ def parse_json(data: bytes | str) -> Any:
     except UnicodeEncodeError:
         raise JsonError("has an escape \\ud800 to \\udfff that is half a character") from None
     return value
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The table of a TOML text.
+
+    Raises:
+        TomlError: not such a text; says why, where if that is known.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise TomlError(str(error)) from None
+    except RecursionError:
+        raise TomlError("lists or tables are nested hundreds deep; write them flat") from None
+    except ValueError:  # the one that is left: Python's limit against endless conversions
+        most = sys.get_int_max_str_digits()
+        raise TomlError(f"an integer has more than {most} digits; write a shorter one") from None
 
 
 def shown(value: Any) -> str:

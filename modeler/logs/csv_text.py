@@ -7,6 +7,7 @@ from modeler.core.errors import DataError
 
 _MARKS = {";": "semicolons", "\t": "tabs", "|": "bars"}
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d")
+_LINE = 2**24  # bytes of the longest line that is looked at
 _BOM = "\ufeff"
 
 
@@ -19,8 +20,14 @@ def check_csv(path: Path) -> None:
         OSError: the file cannot be read.
     """
     with path.open("rb") as file:
-        written = (line for line in file if line.strip())  # the parser skips blank lines too
+        lines = iter(lambda: file.readline(_LINE), b"")
+        written = (line for line in lines if line.strip())  # the parser skips blank lines too
         header = _header(path, next(written, b""))
+        if len(header) >= _LINE:
+            raise DataError(
+                f"{path}: the first line does not end within {_LINE >> 20} MiB; expected the names "
+                "of the columns; write the file again"
+            )
         # Text columns are left out, so what they hold need not be readable.
         first = next(written, b"").decode("utf-8", errors="replace")
     if header.lstrip().startswith("#"):
