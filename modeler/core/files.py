@@ -116,7 +116,7 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
                     _stage(found, staged[-1][0], data)
                 else:
                     _pour(_opened(found), data)
-        with _undisturbed():
+        with undisturbed():
             while staged:
                 beside, place = staged.pop(0)
                 with _told(place):
@@ -134,7 +134,7 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
 
 
 @contextlib.contextmanager
-def _undisturbed() -> Iterator[None]:
+def undisturbed() -> Iterator[None]:
     """Signals that end a program wait until this is over."""
     names = ("SIGINT", "SIGTERM", "SIGHUP")
     here = threading.current_thread() is threading.main_thread()  # who alone hears of signals

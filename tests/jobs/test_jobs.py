@@ -1,6 +1,11 @@
 """Jobs here and in processes: the same results to the bit, and what is told of those that fail."""
 
+import os
+import signal
+import subprocess
 import sys
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -45,6 +50,33 @@ def test_processes_give_what_this_one_gives() -> None:
 def test_a_process_that_ends_is_told() -> None:
     with open_workers(processes=2) as others, pytest.raises(DataError, match="a process ended in"):
         others.each(ends_always, "", range(2))
+
+
+@pytest.mark.parametrize("seconds", [0.0, 1.0])
+@pytest.mark.parametrize("killed", [False, True])
+def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(
+    seconds: float, killed: bool
+) -> None:
+    """Ctrl-C goes to all processes of a terminal; a kill to the first alone."""
+    program = (
+        "from modeler.jobs import open_workers\n"
+        "from tests.jobs.work import third\n"
+        "if __name__ == '__main__':\n"
+        "    with open_workers(processes=3) as workers:\n"
+        "        waiting = workers.begun(third, 'x' * 10**6, range(9), None)\n"
+        "        print('begun', flush=True)\n"
+        "        import time; time.sleep(20)\n"
+    )
+    running = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        start_new_session=True, cwd=Path(__file__).parents[2],
+    )  # fmt: skip
+    assert running.stdout is not None and running.stdout.readline() == "begun\n"
+    time.sleep(seconds)
+    (os.kill if killed else os.killpg)(running.pid, signal.SIGKILL if killed else signal.SIGINT)
+    err = running.communicate(timeout=60)[1]  # which all processes hold, so that all have ended
+    assert err.count("Traceback") == (0 if killed else 1), err
+    assert "resource_tracker" not in err
 
 
 def test_this_process_does_what_it_is_given() -> None:
