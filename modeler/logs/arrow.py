@@ -13,9 +13,13 @@ import pyarrow.compute as pc
 import pyarrow.csv
 import pyarrow.parquet
 
+from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
 from modeler.logs.columns import Columns, NotNumbers, Wanted, unreadable
 from modeler.logs.csv_text import check_csv
+
+_UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
+"""What Arrow says of a row; it counts the header."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +96,14 @@ def told(path: Path, what: str) -> Iterator[None]:
     try:
         yield
     except (pa.ArrowException, OSError) as error:
-        raise unreadable(path, what, error, "write the file again") from None
+        match = _UNEVEN.search(str(error))
+        if match is None:
+            raise unreadable(path, what, error, "write the file again") from None
+        quote = ', where a quote (") is open' if match[4].count('"') % 2 else ""
+        raise DataError(
+            f"{path}: row {int(match[1]) - 1}: got {match[3]} entries for {match[2]} "
+            f"columns{quote}; expected one each; correct that row"
+        ) from None
 
 
 def _parsed(path: Path) -> pa.Table:

@@ -35,6 +35,11 @@ def check_csv(path: Path) -> None:
             f'{path}: starts with a comment, "{header[:40]}"; expected the names of the columns; '
             'delete the lines before them, and a "#" in front of them'
         )
+    if header.count('"') % 2:
+        raise DataError(
+            f'{path}: the first line has a quote (") that is not closed; expected the names of the '
+            "columns; close it, or delete it"
+        )
     if "," not in header:
         for mark, name in _MARKS.items():
             if mark in header:

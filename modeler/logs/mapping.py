@@ -45,6 +45,11 @@ class Entry:
     where: str = ""
     strict: bool = False
 
+    def like(self, other: "Entry") -> bool:
+        """True if the same number means the same to both."""
+        kept = ("unit", "sign", "scale", "offset")
+        return all(getattr(self, name) == getattr(other, name) for name in kept)
+
     def of(self, joint: str, place: int, name: str) -> "Entry":
         """The entry of a pattern for one joint."""
         tokens = {"{j}": joint, "{n}": f"{place + 1}", "{n-1}": f"{place}", "{name}": name}
