@@ -27,6 +27,12 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
     Raises:
         DataError: there is none, its ending is unknown, its package is missing, or it is damaged.
     """
+    try:
+        path.stat()
+    except FileNotFoundError:
+        pass  # told below
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if path.is_dir():
         if not (path / BAG).is_file():
             raise DataError(

@@ -78,7 +78,7 @@ def _table(path: Path) -> pa.Table:
             check_unpacked(path, 8 * file.metadata.num_rows * file.metadata.num_columns)
             return file.read()
         return pacsv.read_csv(io.BytesIO(content))
-    except (pa.ArrowInvalid, pa.ArrowKeyError) as error:
+    except (pa.ArrowException, OSError) as error:
         first = str(error).splitlines()[0]
         raise DataError(
             f"{path}: no table of columns ({first}); expected .csv or .parquet"
