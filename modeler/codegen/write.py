@@ -48,7 +48,7 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
     both = {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}}
     files = [(folder / name, new[name]) for name in changed]
     if files or gone:
-        texts = [(folder / RECORD, record_text(both)), *files]
+        texts = [(folder / RECORD, record_text(both).encode()), *files]
         write_together(texts, [folder / name for name in gone])
     last = {**{n: s for n, s in record.items() if (folder / n).is_file()}, **sums}
     if last != known:

@@ -101,7 +101,7 @@ def open_processes(count: int) -> Iterator[Processes]:
             except KeyboardInterrupt:
                 for process in multiprocessing.active_children():
                     process.terminate()
-                pool._call_queue.cancel_join_thread()  # type: ignore  # nobody reads what waits
+                pool._call_queue.cancel_join_thread()  # type: ignore[attr-defined]  # nobody reads what waits
                 raise
     finally:
         for name, value in before.items():

@@ -96,11 +96,11 @@ class Table:
             there = next((name for name in entry.columns if name in self._columns), None)
             if there is not None:
                 found[own] = there
-        for own, column in found.items():
-            alike = next(o for o, c in found.items() if c == column)
-            if alike != own and self._entries[own].like(self._entries[alike]):
+        for own, taken in found.items():
+            first = next(o for o, c in found.items() if c == taken)
+            if first != own and self._entries[own].like(self._entries[first]):
                 raise DataError(
-                    f"{self.path}: column {column} is taken as {alike} and as {own}; expected a "
+                    f"{self.path}: column {taken} is taken as {first} and as {own}; expected a "
                     "column for each; correct [log] or --map"
                 )
         for own, entry in self._entries.items():

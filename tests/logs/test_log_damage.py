@@ -172,7 +172,5 @@ def test_an_hdf5_file_that_reads_another_is_refused(tmp_path, how: str) -> None:
             layout = h5py.VirtualLayout((100,), "f8")
             layout[:] = h5py.VirtualSource("other.h5", "time", (100,))
             file.create_virtual_dataset("time", layout)
-    with pytest.raises(
-        DataError, match=r"time lies in another file, .*other.*; copy them into one"
-    ):
+    with pytest.raises(DataError, match="time lies in another file"):
         Table(tmp_path / "log.h5")
