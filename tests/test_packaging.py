@@ -120,6 +120,9 @@ _FORBIDDEN = {
     + r"-url|--find"
     + r"-links|trusted"
     + r"-host",
+    "another project, which the public index has by this name": r"install\s+(?:-\S+\s+)*['\"]?mod"
+    + r"eler\b|['\"]mod"
+    + r"eler\[",
     "a path of one machine": r"(?<![\w./~}])/(?:work|tmp|root|home|opt)" + r"/\w",
 }
 
@@ -143,6 +146,9 @@ def test_nothing_names_a_registry_or_a_machine() -> None:
         "see https://py" + "pi.org/x",
         "pip install --index" + "-url x",
         'open("' + "/tmp" + '/x")',
+        "pip install mod" + "eler",
+        "pip install -U 'mod" + "eler[gpu]'",
+        "'mod" + "eler[dask]'",
         "in " + "/work" + "/main",
     ],
 )

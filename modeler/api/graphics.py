@@ -7,7 +7,7 @@ from modeler.derivation import Derivation, generate
 def on_gpu(derivation: Derivation) -> GpuModel:
     """The base regressor of a robot without loops on the graphics processor of this machine.
 
-    It needs CuPy: `pip install 'modeler[gpu]'`.
+    It needs CuPy: `pip install '.[gpu]'`.
 
     Raises:
         BuildError: no CuPy, no graphics processor, or the compiler refused.

@@ -32,3 +32,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("modeler: interrupted\n")
         return 130
+    except Exception as error:
+        from modeler.core.errors import short_of_memory
+
+        if not short_of_memory(error):
+            raise
+        sys.stderr.write(
+            "modeler: memory: this process may not have more of it; expected room for all that is "
+            "read; raise its limit (ulimit -v), or give parts of the logs: FILE@START:END\n"
+        )
+        return 1

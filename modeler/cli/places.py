@@ -97,7 +97,7 @@ def model_or_log(text: str) -> Input:
     if path.suffix.lower() == ".json":
         return ModelFile(text)
     try:
-        with path.open("rb") as file:
+        with path.open("rb") if path.is_file() else io.BytesIO() as file:  # a pipe may never end
             begins = file.read(64).lstrip()[:1] == b"{"
     except OSError:
         return LogFile(text)  # which says what is wrong with it

@@ -8,7 +8,7 @@ from modeler.codegen.examples import EXAMPLES
 from modeler.codegen.record import RECORD, Record, checksum, read_record, record_text
 from modeler.core.contract import Emitted
 from modeler.core.errors import ModelerError
-from modeler.core.files import check_room, write_atomically
+from modeler.core.files import write_atomically, write_together
 
 
 def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[str, ...]:
@@ -43,13 +43,16 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
         _check(folder, [name for name in changed if old[name] is not None], old, known)
     record = {name: sums for name, sums in (known or {}).items() if (folder / name).is_file()}
     sums = {name: frozenset([checksum(content)]) for name, content in new.items()}
-    check_room(folder, sum(len(new[name]) for name in changed))
-    # Both are known while files are replaced, so that a run that was stopped can be repeated.
-    _save(folder, {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}})
-    for name in changed:
-        write_atomically(folder / name, new[name])
-    gone = _remove(folder, {n: s for n, s in record.items() if n in _unwanted(emitted)})
-    _save(folder, {**{n: s for n, s in record.items() if n not in gone}, **sums})
+    gone = _unedited(folder, {n: s for n, s in record.items() if n in _unwanted(emitted)})
+    # Both are known while files are replaced, so that a run that was killed can be repeated.
+    both = {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}}
+    files = [(folder / name, new[name]) for name in changed]
+    if files or gone:
+        texts = [(folder / RECORD, record_text(both).encode()), *files]
+        write_together(texts, [folder / name for name in gone])
+    last = {**{n: s for n, s in record.items() if (folder / n).is_file()}, **sums}
+    if last != known:
+        write_atomically(folder / RECORD, record_text(last))
     return tuple(changed)
 
 
@@ -71,16 +74,14 @@ def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
     return sorted(known.keys() & _unwanted(emitted))
 
 
-def _remove(folder: Path, stale: Record) -> set[str]:
-    """Removes the files of an earlier run that say what it wrote; returns their names."""
-    gone = set()
+def _unedited(folder: Path, stale: Record) -> set[str]:
+    """Names of the files of an earlier run that say what it wrote."""
+    same = set()
     for name, sums in stale.items():
-        path = folder / name
-        with suppress(OSError):  # what cannot be read or removed stays
-            if checksum(path.read_bytes()) in sums:
-                path.unlink()
-                gone.add(name)
-    return gone
+        with suppress(OSError):  # what cannot be read stays
+            if checksum((folder / name).read_bytes()) in sums:
+                same.add(name)
+    return same
 
 
 def _content(path: Path) -> bytes | None:
@@ -111,9 +112,3 @@ def _check(
             f"{folder}: would write over {'; and over '.join(told)}; choose another folder, or "
             "write over them with --force"
         )
-
-
-def _save(folder: Path, record: Record) -> None:
-    path, text = folder / RECORD, record_text(record)
-    if not path.is_file() or path.read_bytes() != text.encode():
-        write_atomically(path, text)

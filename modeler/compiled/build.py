@@ -29,6 +29,10 @@ def build_library(sources: Mapping[str, str]) -> Path:
     try:
         kept = _intact(folder)
         return kept if kept is not None else _build(sources, tools, folder)
+    except IsADirectoryError as error:
+        raise BuildError(
+            f"{error.filename}: is a folder; expected a compiled library of the cache; remove it"
+        ) from None
     except OSError as error:
         raise BuildError(
             f"{folder}: the compiled library cannot be written ({error.strerror}); set "

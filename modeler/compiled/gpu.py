@@ -1,6 +1,6 @@
 """The base regressor of a robot on a graphics processor, through CuPy; nothing else knows CuPy.
 
-CuPy is an optional part: `pip install 'modeler[gpu]'`. The kernels are compiled for the processor
+CuPy is an optional part: `pip install '.[gpu]'`. The kernels are compiled for the processor
 at hand when they are first asked for.
 """
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from modeler.core.checks import as_mask, as_samples, no_signals, same_samples
 from modeler.core.contract import CUDA_THREADS, Emitted, ModuleSpec
-from modeler.core.errors import BuildError, ManifestError, ShapeError
+from modeler.core.errors import BuildError, ManifestError, ShapeError, installing
 
 _BLOCKS = 1024
 """Blocks that sum products, at most: fixed, so that sums do not depend on the processor."""
@@ -148,7 +148,7 @@ def _cupy() -> Any:
     try:
         import cupy
     except ImportError:
-        raise BuildError("GPU: CuPy is not installed; pip install 'modeler[gpu]'") from None
+        raise BuildError(f"GPU: CuPy is not installed; {installing('gpu')}") from None
     try:
         count = cupy.cuda.runtime.getDeviceCount()
     except Exception as error:  # of CUDA, with a class of its own

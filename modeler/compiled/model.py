@@ -13,6 +13,7 @@ from modeler.compiled.tiling import Tiling, checked_out
 from modeler.core.checks import as_samples, as_vector, no_signals, same_samples
 from modeler.core.contract import MANIFEST, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.errors import LoopError, ManifestError, ShapeError
+from modeler.core.files import read_file
 from modeler.core.presented import Presented
 
 _STATUS = {
@@ -316,6 +317,6 @@ def load_folder(folder: Path | str) -> CompiledModel:
 
 def _content(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        return read_file(path)
     except OSError as error:
         raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None

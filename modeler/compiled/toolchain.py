@@ -151,6 +151,11 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
     # Threads only wait here: each for a compiler that is a process of its own.
     objects = list(mapped(compile_one, sources))
     _checked(tools, ["-shared", "-o", str(output), *objects, "-lm"])
+    if not output.is_file():
+        raise BuildError(
+            f"C compiler: {shlex.join(tools.command)} ended without a mistake, and made nothing; "
+            "expected a C compiler, such as gcc; correct CC"
+        )
 
 
 def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:

@@ -40,6 +40,21 @@ class LoopError(ModelerError):
     """A kinematic loop leaves too much or too little free, is singular, or cannot close."""
 
 
+def installing(part: str) -> str:
+    """What installs an optional part; by name, the public index has another project."""
+    return f"pip install '.[{part}]' in the checkout"
+
+
+_SHORT_OF_MEMORY = (
+    "failed to map segment", "Cannot allocate memory", "start new thread", "launch worker thread",
+)  # fmt: skip
+
+
+def short_of_memory(error: BaseException) -> bool:
+    """True where memory ran out, in whatever words the system or a library says so."""
+    return isinstance(error, MemoryError) or any(w in str(error) for w in _SHORT_OF_MEMORY)
+
+
 def on_one_line(message: str) -> str:
     """The message as one line: line ends, other control characters and what is endless made short.
 

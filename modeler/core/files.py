@@ -1,17 +1,71 @@
-"""Writing files so that nothing is ever half-written, and nothing but a file replaced."""
+"""Files: none is read without end, none half-written, and nothing but a file replaced."""
 
 import contextlib
 import errno
 import os
+import signal
 import stat
 import sys
-from collections.abc import Callable, Iterator
+import threading
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from modeler.core.destination import Destination, Kind, destination
-from modeler.core.errors import ModelerError
+from modeler.core.errors import DataError, ModelerError
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+
+
+LARGEST = 64 * 2**20
+"""Bytes of a text that is read whole: a robot, a model, a map, a list."""
+
+PACKED = 100
+"""Times that a log may be larger unpacked than its file: measured numbers pack 20 times at best."""
+
+UNPACKED = 256 * 2**20
+"""Bytes that any log may unpack to, however small its file."""
+
+
+def read_file(path: Path, most: int = LARGEST) -> bytes:
+    """Content of a regular file of at most so many bytes.
+
+    Raises:
+        OSError: it cannot be read, is a pipe or device, which may never end, or is larger.
+    """
+    mode = path.stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise OSError(errno.EINVAL, "a pipe or a device, no file", str(path))
+    with path.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise OSError(errno.EFBIG, f"larger than {most >> 20} MiB", str(path))
+    return content
+
+
+def read_text(path: Path) -> str:
+    r"""The same as text in UTF-8, a byte order mark taken off; line ends are `\n`.
+
+    Raises:
+        OSError: as `read_file`.
+        UnicodeDecodeError: it is no UTF-8.
+    """
+    return read_file(path).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def check_unpacked(path: Path, size: int) -> None:
+    """Refuse a log that would fill the memory, before it is unpacked to so many bytes.
+
+    Raises:
+        DataError: more than `PACKED` times its file, and more than `UNPACKED`.
+    """
+    inside = path.rglob("*") if path.is_dir() else (path,)
+    packed = sum(one.stat().st_size for one in inside)
+    if size > max(UNPACKED, PACKED * packed):
+        raise DataError(
+            f"{path}: unpacks to {size / 2**20:,.0f} MiB or more from {packed / 2**20:.3g} MiB; "
+            f"expected at most {PACKED} times the file, or {UNPACKED >> 20} MiB: no measurement "
+            "packs like that; write it again with the samples of the motion alone"
+        )
 
 
 def write_atomically(path: Path, content: bytes | str) -> None:
@@ -29,14 +83,73 @@ def write_atomically(path: Path, content: bytes | str) -> None:
             missing or not writable; says which.
         BrokenPipeError: the reader of a pipe has gone.
     """
-    data = content.encode(errors="backslashreplace") if isinstance(content, str) else content
-    path = Path(path)
-    with _told(path):
-        found = destination(path)
-        if found.kind in (Kind.NEW, Kind.FILE):
-            _replace(found, data)
-        else:
-            _pour(_opened(found), data)
+    write_together([(path, content)])
+
+
+def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Path] = ()) -> None:
+    """The same of several files, in their order: an interrupt leaves all as it was, or all new.
+
+    All are written beside their places first; then nothing stops their renaming but the end of the
+    process at once (SIGKILL, a power cut).
+
+    Args:
+        files: places and contents; of two contents for one place the last stays.
+        gone: files that are removed together with that, where they can be.
+
+    Raises:
+        ModelerError, BrokenPipeError: as above; nothing has changed.
+    """
+    staged, made = list[tuple[Path, Path]](), list[Path]()
+    try:
+        for path, content in files:
+            with _told(path):
+                data = (
+                    content
+                    if isinstance(content, bytes)
+                    else content.encode(errors="backslashreplace")
+                )
+                found = destination(Path(path))
+                if found.kind in (Kind.NEW, Kind.FILE):
+                    folders = (found.place.parent, *found.place.parent.parents)
+                    made += [folder for folder in folders if not folder.exists()]
+                    staged.append((_beside(found.place.parent), found.place))
+                    _stage(found, staged[-1][0], data)
+                else:
+                    _pour(_opened(found), data)
+        with undisturbed():
+            while staged:
+                beside, place = staged.pop(0)
+                with _told(place):
+                    beside.replace(place)
+            for path in gone:
+                with contextlib.suppress(OSError):  # what cannot be removed stays
+                    path.unlink()
+    except BaseException:
+        with contextlib.suppress(OSError):
+            for beside, _ in staged:
+                beside.unlink(missing_ok=True)
+            for folder in made:
+                folder.rmdir()
+        raise
+
+
+@contextlib.contextmanager
+def undisturbed() -> Iterator[None]:
+    """Signals that end a program wait until this is over."""
+    names = ("SIGINT", "SIGTERM", "SIGHUP")
+    here = threading.current_thread() is threading.main_thread()  # who alone hears of signals
+    numbers = [getattr(signal, name) for name in names if here and hasattr(signal, name)]
+    held = list[int]()
+    before = {number: signal.getsignal(number) for number in numbers}
+    for number in numbers:
+        signal.signal(number, lambda number, _: held.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler or signal.SIG_DFL)
+        for number in held:
+            signal.raise_signal(number)
 
 
 def check_writable(path: Path) -> None:
@@ -68,23 +181,6 @@ def check_folder_writable(folder: Path) -> None:
         _check_folder(Path(os.path.realpath(folder)))
 
 
-def check_room(folder: Path, size: int) -> None:
-    """Refuse a folder into which so many bytes do not fit, before the first of several files.
-
-    Raises:
-        ModelerError: says why; nothing is left there.
-    """
-    folder = Path(folder)
-    with _told(folder):
-        place = Path(os.path.realpath(folder))
-        there = next(one for one in (place, *place.parents) if one.exists())
-        beside = _beside(there)
-        try:
-            _pour(os.open(beside, _CREATE, 0o600), bytes(size))
-        finally:
-            beside.unlink(missing_ok=True)
-
-
 def page_place(path: Path, name: str) -> Path:
     """Where a page goes that is given as an `.html` file, as a pipe or device, or as a folder.
 
@@ -113,21 +209,14 @@ def _told(path: Path) -> Iterator[None]:
         ) from error
 
 
-def _replace(found: Destination, data: bytes) -> None:
-    place = found.place
-    place.parent.mkdir(parents=True, exist_ok=True)
+def _stage(found: Destination, beside: Path, data: bytes) -> None:
+    """Write what will be renamed to its place."""
+    beside.parent.mkdir(parents=True, exist_ok=True)
     _check_access(found)
-    beside = _beside(place.parent)
-    try:
-        # What replaces a private file is private from the start.
-        handle = os.open(beside, _CREATE, 0o666 if found.status is None else 0o600)
-        _pour(handle, data)
-        if found.status is not None:
-            _make_like(beside, found.status)
-        beside.replace(place)
-    except BaseException:
-        beside.unlink(missing_ok=True)
-        raise
+    # What replaces a private file is private from the start.
+    _pour(os.open(beside, _CREATE, 0o666 if found.status is None else 0o600), data)
+    if found.status is not None:
+        _make_like(beside, found.status)
 
 
 def _beside(folder: Path) -> Path:

@@ -1,8 +1,10 @@
-"""JSON: what others wrote, read strictly; what we write, without a number that means nothing."""
+"""JSON and TOML that others wrote, read strictly; JSON that we write, without false numbers."""
 
 import json
 import math
 import reprlib
+import sys
+import tomllib
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,6 +14,10 @@ _BYTE_ORDER = (b"\xff\xfe", b"\xfe\xff")
 
 class JsonError(ValueError):
     """What is wrong with the text, without its place; readers add the file and what to do."""
+
+
+class TomlError(ValueError):
+    """What is wrong with a TOML text, without its place."""
 
 
 def parse_json(data: bytes | str) -> Any:
@@ -53,6 +59,23 @@ def nulled(content: Any) -> Any:
         return [nulled(value) for value in content]
     unknown = isinstance(content, float) and not math.isfinite(content)
     return None if unknown else content
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The table of a TOML text.
+
+    Raises:
+        TomlError: not such a text; says why, where if that is known.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise TomlError(str(error)) from None
+    except RecursionError:
+        raise TomlError("lists or tables are nested hundreds deep; write them flat") from None
+    except ValueError:  # the one that is left: Python's limit against endless conversions
+        most = sys.get_int_max_str_digits()
+        raise TomlError(f"an integer has more than {most} digits; write a shorter one") from None
 
 
 def shown(value: Any) -> str:

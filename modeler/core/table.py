@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.core.brief import Brief
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, installing
 
 _SHOWN = 60  # rows of a long table on a page: half of them from each end
 _LATEX = {
@@ -114,8 +114,7 @@ class Table(Brief):
             import pandas
         except ImportError:
             raise DataError(
-                "to_frame: pandas is not installed; install it, or modeler with it: "
-                "pip install 'modeler[notebook]'"
+                f"to_frame: pandas is not installed; {installing('notebook')}"
             ) from None
         names = [name for name, _ in self.columns]
         rows = [[_bare(cell) for cell in row] for row in self.rows]

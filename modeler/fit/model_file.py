@@ -12,7 +12,7 @@ import numpy as np
 
 from modeler.core.contract import ModuleSpec, module_from_plain
 from modeler.core.errors import ManifestError
-from modeler.core.files import write_atomically
+from modeler.core.files import read_file, read_text, write_atomically
 from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, check_fields, plain
 from modeler.core.presented import Presented
@@ -256,7 +256,7 @@ def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        raw = parse_json(path.read_bytes())
+        raw = parse_json(read_file(path))
     except OSError as error:
         raise ManifestError(
             f"{path}: cannot be read ({error.strerror}); check the path; expected a model, which "
@@ -282,7 +282,7 @@ def _read(path: Path) -> dict[str, Any]:
 
 def _is_robot_file(path: Path) -> bool:
     try:
-        return "mdh" in tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        return "mdh" in tomllib.loads(read_text(path))
     except (ValueError, RecursionError):  # of TOML, or of UTF-8
         return path.suffix.lower() == ".toml"
 

@@ -3,12 +3,13 @@
 import csv
 import itertools
 import re
-import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from modeler.core.errors import DataError
+from modeler.core.files import read_text
+from modeler.core.json_text import parse_toml
 
 PATTERN = "{machine}/{period}.*"
 """How logs are named where nobody says it: the folder is the machine, the file the period."""
@@ -129,7 +130,7 @@ def listed_logs(path: Path) -> tuple[Named, ...]:
         DataError: it cannot be read, or an entry is missing; says where.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_text(path)
     except OSError as error:
         raise DataError(
             f"{path}: cannot be read ({error.strerror}); expected a list of logs"
@@ -154,8 +155,8 @@ def _csv_rows(path: Path, text: str) -> list[tuple[str, ...]]:
 
 def _toml_rows(path: Path, text: str) -> list[tuple[str, ...]]:
     try:
-        entries = tomllib.loads(text).get("log", [])
-    except tomllib.TOMLDecodeError as error:
+        entries = parse_toml(text).get("log", [])
+    except ValueError as error:
         raise DataError(f"{path}: {error}; expected TOML with [[log]] tables") from None
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
         raise DataError(f"{path}: log is no list of tables; expected [[log]] before each log")

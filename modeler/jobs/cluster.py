@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, installing
 from modeler.jobs.run import LOCAL, Done, J, R, S, pairs, tell
 
 if TYPE_CHECKING:
@@ -77,8 +77,7 @@ def open_cluster(address: str) -> Iterator[Cluster]:
         from distributed import Client, LocalCluster
     except ImportError:
         raise DataError(
-            f"--dask {address}: Dask is not installed; pip install 'modeler[dask]', or leave "
-            "--dask out"
+            f"--dask {address}: Dask is not installed; {installing('dask')}, or leave --dask out"
         ) from None
     for name in ("distributed", "distributed.worker", "distributed.nanny", "distributed.scheduler"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
@@ -116,8 +115,8 @@ def _checked(client: "Client", address: str) -> Cluster:
         versions = client.run(version)
     except ImportError as error:
         raise DataError(
-            f"--dask {address}: a worker lacks a package ({error}); install modeler {__version__} "
-            "where the workers run"
+            f"--dask {address}: a worker lacks a package ({error}); install version "
+            f"{__version__} from its checkout where the workers run"
         ) from None
     for worker, found in versions.items():
         if found != __version__:

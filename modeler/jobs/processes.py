@@ -2,14 +2,18 @@
 
 import multiprocessing
 import os
+import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 
 from modeler.core.errors import DataError
+from modeler.core.files import undisturbed
 from modeler.jobs.run import Done, J, R, S, in_pairs, tell
 
+_WARNINGS = "PYTHONWARNINGS"
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -37,7 +41,8 @@ class Processes:
         return lambda: in_pairs(_gathered(futures, None), merge)
 
     def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> "list[Future[R]]":
-        return [self._pool.submit(work, shared, job) for job in jobs]
+        with undisturbed(), _deaf_to_interrupts():  # here they are started
+            return [self._pool.submit(work, shared, job) for job in jobs]
 
 
 def _gathered(futures: "Sequence[Future[R]]", done: Done | None) -> list[R]:
@@ -51,20 +56,53 @@ def _gathered(futures: "Sequence[Future[R]]", done: Done | None) -> list[R]:
             "a process ended in the middle of its work, as when memory runs out; use fewer "
             "--workers"
         ) from None
-    finally:
+    except Exception:
         for future in futures:
             future.cancel()
+        raise
+
+
+def _attend() -> None:
+    """A process ends, without a word, when the one that started it has: even if that was killed."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def attend() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=attend, daemon=True).start()
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """What is started meanwhile leaves Ctrl-C, which a terminal sends to all, to this process."""
+    mask = getattr(signal, "pthread_sigmask", None)
+    before = mask(signal.SIG_BLOCK, {signal.SIGINT}) if mask else ()
+    try:
+        yield
+    finally:
+        if mask:
+            mask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
 def open_processes(count: int) -> Iterator[Processes]:
     """A pool of so many fresh processes; what they inherit is one thread each."""
-    before = {name: os.environ.get(name) for name in _THREADS}
+    before = {name: os.environ.get(name) for name in (*_THREADS, _WARNINGS)}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
+    # Where this process is killed, a helper of Python's counts what it could not give back.
+    os.environ[_WARNINGS] = f"{before[_WARNINGS] or 'default'},ignore:resource_tracker"
     try:
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(count, mp_context=context) as pool:
-            yield Processes(pool)
+        with ProcessPoolExecutor(count, mp_context=context, initializer=_attend) as pool:
+            try:
+                yield Processes(pool)
+            except KeyboardInterrupt:
+                for process in multiprocessing.active_children():
+                    process.terminate()
+                pool._call_queue.cancel_join_thread()  # type: ignore[attr-defined]  # nobody reads what waits
+                raise
     finally:
         for name, value in before.items():
             if value is None:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -13,8 +14,12 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from modeler.core.errors import DataError
-from modeler.logs.columns import Columns, NotNumbers, Wanted
+from modeler.core.files import check_unpacked
+from modeler.logs.columns import Columns, NotNumbers, Wanted, unreadable
 from modeler.logs.csv_text import check_csv
+
+_UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
+"""What Arrow says of a row; it counts the header."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +74,20 @@ def read_parquet(path: Path, wanted: Wanted) -> Columns:
     """The columns of a Parquet file."""
     del wanted
     with told(path, "PARQUET"):
-        return arrow_columns(pa.parquet.ParquetFile(path).read())  # read_table refuses equal names
+        return arrow_columns(opened(path).read())  # read_table refuses equal names
+
+
+def opened(path: Path, **how: Any) -> pa.parquet.ParquetFile:
+    """A Parquet file whose columns have room.
+
+    Raises:
+        DataError: it unpacks to more than a log does.
+    """
+    file = pa.parquet.ParquetFile(path, **how)
+    meta = file.metadata
+    groups = [meta.row_group(place).total_byte_size for place in range(meta.num_row_groups)]
+    check_unpacked(path, max(8 * meta.num_rows * meta.num_columns, sum(groups)))
+    return file
 
 
 @contextmanager
@@ -78,9 +96,13 @@ def told(path: Path, what: str) -> Iterator[None]:
     try:
         yield
     except (pa.ArrowException, OSError) as error:
-        words = str(error).strip().split("\n")[0]
+        match = _UNEVEN.search(str(error))
+        if match is None:
+            raise unreadable(path, what, error, "write the file again") from None
+        quote = ', where a quote (") is open' if match[4].count('"') % 2 else ""
         raise DataError(
-            f"{path}: cannot be read as {what} ({words}); write the file again"
+            f"{path}: row {int(match[1]) - 1}: got {match[3]} entries for {match[2]} "
+            f"columns{quote}; expected one each; correct that row"
         ) from None
 
 

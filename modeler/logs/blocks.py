@@ -10,7 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet
 
 from modeler.core.errors import DataError
-from modeler.logs.arrow import arrow_columns, told
+from modeler.logs.arrow import arrow_columns, opened, told
 from modeler.logs.columns import Columns, Values
 from modeler.logs.csv_blocks import CsvBlocks
 from modeler.logs.unchanged import State, check_unchanged, state_of
@@ -125,7 +125,7 @@ class ParquetBlocks:
         return arrow_columns(pa.concat_tables(parts), start)
 
     def _open(self) -> pa.parquet.ParquetFile:
-        return pa.parquet.ParquetFile(self._path, buffer_size=_BYTES, pre_buffer=False)
+        return opened(self._path, buffer_size=_BYTES, pre_buffer=False)
 
     def _read(
         self, groups: Sequence[_Group], size: int, names: Sequence[str]

@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, short_of_memory
 
 _NONE: Mapping = MappingProxyType({})
 
@@ -113,8 +113,18 @@ def reading(path: Path, what: str, advice: str = "write the file again") -> Iter
     except DataError:
         raise
     except Exception as error:  # a flipped bit takes these readers anywhere
-        words = " ".join(str(error).split())[:200] or type(error).__name__
-        raise DataError(f"{path}: cannot be read as {what} ({words}); {advice}") from None
+        raise unreadable(path, what, error, advice) from None
+
+
+def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataError:
+    """What another's reader raised, as one line."""
+    if short_of_memory(error):
+        return DataError(
+            f"{path}: more memory is asked for than there is; expected {what} that fits; raise the "
+            "limit (ulimit -v) or free some; if the file is small, it is damaged: write it again"
+        )
+    words = str(error).strip().split("\n")[0][:200] or type(error).__name__
+    return DataError(f"{path}: cannot be read as {what} ({words}); {advice}")
 
 
 def missing_package(path: Path, what: str, package: str) -> DataError:

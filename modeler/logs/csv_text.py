@@ -7,6 +7,7 @@ from modeler.core.errors import DataError
 
 _MARKS = {";": "semicolons", "\t": "tabs", "|": "bars"}
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d")
+_LINE = 2**24  # bytes of the longest line that is looked at
 _BOM = "\ufeff"
 
 
@@ -19,14 +20,25 @@ def check_csv(path: Path) -> None:
         OSError: the file cannot be read.
     """
     with path.open("rb") as file:
-        written = (line for line in file if line.strip())  # the parser skips blank lines too
+        lines = iter(lambda: file.readline(_LINE), b"")
+        written = (line for line in lines if line.strip())  # the parser skips blank lines too
         header = _header(path, next(written, b""))
+        if len(header) >= _LINE:
+            raise DataError(
+                f"{path}: the first line does not end within {_LINE >> 20} MiB; expected the names "
+                "of the columns; write the file again"
+            )
         # Text columns are left out, so what they hold need not be readable.
         first = next(written, b"").decode("utf-8", errors="replace")
     if header.lstrip().startswith("#"):
         raise DataError(
             f'{path}: starts with a comment, "{header[:40]}"; expected the names of the columns; '
             'delete the lines before them, and a "#" in front of them'
+        )
+    if header.count('"') % 2:
+        raise DataError(
+            f'{path}: the first line has a quote (") that is not closed; expected the names of the '
+            "columns; close it, or delete it"
         )
     if "," not in header:
         for mark, name in _MARKS.items():

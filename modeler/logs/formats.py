@@ -27,6 +27,12 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
     Raises:
         DataError: there is none, its ending is unknown, its package is missing, or it is damaged.
     """
+    try:
+        path.stat()
+    except FileNotFoundError:
+        pass  # told below
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if path.is_dir():
         if not (path / BAG).is_file():
             raise DataError(
@@ -41,7 +47,8 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
         )
     if reader is None or not path.is_file():
         ending = "" if reader else ", which ends in .parquet, .csv or another ending of a log"
-        raise DataError(f"{path}: there is no such file; check the path{ending}")
+        what = "a pipe or a device, no file" if path.exists() else "there is no such file"
+        raise DataError(f"{path}: {what}; check the path{ending}")
     if path.stat().st_size == 0:
         raise DataError(f"{path}: the file is empty; record or copy it again")
     return reader(path, wanted)

@@ -1,11 +1,14 @@
 """HDF5 files as columns; datasets stay on disk until they are asked for."""
 
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from modeler.core.errors import DataError
+from modeler.core.files import check_unpacked
 from modeler.logs.arrays import Held, columns_of, with_fields
 from modeler.logs.columns import Columns, Wanted, missing_package, reading
 
@@ -32,7 +35,7 @@ class _Stored:
 
 @dataclass
 class _Visitor:
-    """Lists the datasets of a file; links to other files are not followed."""
+    """Lists the datasets of a file; refuses what lies in other files."""
 
     path: Path
     found: list[_Stored] = field(default_factory=list)
@@ -40,10 +43,24 @@ class _Visitor:
     def __call__(self, name: str, item: Any) -> None:
         import h5py
 
-        if isinstance(item, h5py.Dataset) and item.shape is not None:
+        if isinstance(item, h5py.Group):
+            for key in item:
+                if isinstance(link := item.get(key, getlink=True), h5py.ExternalLink):
+                    raise self._outside(f"{name}/{key}".strip("/"), link.filename)
+        elif item.external:
+            raise self._outside(name, item.external[0][0])
+        elif item.is_virtual and (outside := {s.file_name for s in item.virtual_sources()} - {"."}):
+            raise self._outside(name, min(outside))
+        elif item.shape is not None:
             unit = next((_text(item.attrs[u]) for u in _UNITS if u in item.attrs), "")
             kind = _text(item.attrs.get("MATLAB_class", ""))
             self.found.append(_Stored(self.path, name, item.shape, item.dtype, kind, unit))
+
+    def _outside(self, name: str, place: str) -> DataError:
+        return DataError(
+            f"{self.path}: {name} lies in another file, {place}; expected all data in the log "
+            "itself, for what a file names may be anybody's; copy them into one (h5repack, h5copy)"
+        )
 
 
 def read_hdf5(path: Path, wanted: Wanted) -> Columns:
@@ -72,11 +89,14 @@ def read_mat73(path: Path, wanted: Wanted) -> Columns:
 def _datasets(path: Path, what: str) -> list[_Stored]:
     try:
         import h5py
-    except ImportError:
+    except ModuleNotFoundError:
         raise missing_package(path, what, "h5py") from None
     visitor = _Visitor(path)
     with h5py.File(path, "r") as file:
+        visitor("", file)
         file.visititems(visitor)
+    sizes = [math.prod(one.shape) * one.dtype.itemsize for one in visitor.found]
+    check_unpacked(path, max(sizes, default=0))  # they are read one by one
     return visitor.found
 
 

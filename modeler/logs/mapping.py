@@ -3,7 +3,6 @@
 import dataclasses
 import difflib
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +11,8 @@ from typing import Any
 
 from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
-from modeler.core.json_text import shown
+from modeler.core.files import read_text
+from modeler.core.json_text import parse_toml, shown
 from modeler.logs.units import EXAMPLES, Unit, find_unit
 
 _NONE: Mapping = MappingProxyType({})
@@ -44,6 +44,11 @@ class Entry:
     offset: float = 0.0
     where: str = ""
     strict: bool = False
+
+    def like(self, other: "Entry") -> bool:
+        """True if the same number means the same to both."""
+        kept = ("unit", "sign", "scale", "offset")
+        return all(getattr(self, name) == getattr(other, name) for name in kept)
 
     def of(self, joint: str, place: int, name: str) -> "Entry":
         """The entry of a pattern for one joint."""
@@ -177,12 +182,12 @@ def _number(text: str, where: str) -> float:
 
 def _of_file(path: Path) -> LogMap:
     try:
-        document = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        document = parse_toml(read_text(path))
     except OSError as error:
         raise DataError(
             f"--map {path}: cannot be read ({error.strerror}); check the path"
         ) from None
-    except (ValueError, RecursionError) as error:  # TOML, UTF-8, endless numbers
+    except ValueError as error:  # of TOML, or of UTF-8
         raise DataError(f"--map {path}: not TOML ({error}); correct that line") from None
     return map_from_table(document.get("log", document), f"{path}: [log]", strict=True)
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler.core.files import check_unpacked
 from modeler.logs.arrays import columns_of, with_fields
 from modeler.logs.columns import Columns, Wanted, reading
 
@@ -20,5 +21,6 @@ def read_numpy(path: Path, wanted: Wanted) -> Columns:
             arrays = with_fields(name, content)
         else:
             with content:
+                check_unpacked(path, sum(member.file_size for member in content.zip.infolist()))
                 arrays = [a for name in content.files for a in with_fields(name, content[name])]
     return columns_of(path, "numpy file", arrays, wanted)

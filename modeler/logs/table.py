@@ -74,9 +74,10 @@ class Table:
         self._columns = dict(self.found.columns)
         if len(self._columns) < len(names):
             twice = sorted(name for name in self._columns if names.count(name) > 1)
+            places = [f"{k}" for k, name in enumerate(names, start=1) if name == twice[0]]
             raise DataError(
-                f"{self.path}: column {twice[0]} appears {names.count(twice[0])} times; "
-                "keep one of them"
+                f"{self.path}: column {twice[0]} appears {len(places)} times (as columns "
+                f"{', '.join(places)}); expected each name once; delete or rename the others"
             )
         if self.rows < LEAST_ROWS and self._part is None:
             raise DataError(
@@ -95,6 +96,13 @@ class Table:
             there = next((name for name in entry.columns if name in self._columns), None)
             if there is not None:
                 found[own] = there
+        for own, taken in found.items():
+            first = next(o for o, c in found.items() if c == taken)
+            if first != own and self._entries[own].like(self._entries[first]):
+                raise DataError(
+                    f"{self.path}: column {taken} is taken as {first} and as {own}; expected a "
+                    "column for each; correct [log] or --map"
+                )
         for own, entry in self._entries.items():
             if entry.strict and own not in found:
                 alike = [o for o, e in self._entries.items() if e.where == entry.where]
@@ -229,7 +237,13 @@ class Table:
         """The same of something that was measured: specks are 0, what is beyond all measure NaN."""
         values = self.numbers(name)
         values[np.abs(values) < _TINY] = 0.0
-        values[~(np.abs(values) <= _HUGE)] = np.nan
+        if (beyond := np.abs(values) > _HUGE).any():
+            row = int(np.argmax(beyond))
+            raise DataError(
+                f"{self.path}: column {self.called(name)}, row {self.before + row + 1}: got "
+                f"{values[row]:.3g}; expected a measurement, below {_HUGE:g} in any unit; repair "
+                "it, or leave the entry empty"
+            )
         return values
 
     def absent(self, *names: str) -> str:
@@ -240,8 +254,13 @@ class Table:
         there = [column for column, _ in self.found.columns]
         entry = self._entries.get(name)
         wanted = name if entry is None else entry.columns[-1]
+        other = next((own for own, column in self._taken.items() if column == wanted), None)
+        hint = f" (it is taken as {other})" if other else near(wanted, there)
+        head, colon, unit = wanted.rpartition(":")
+        if colon and head in there:
+            hint = f' (if column {head} is meant, "{unit}" is no unit that is known)'
         return (
-            f"no column {self.called(name)}{near(wanted, there)}; the columns are "
+            f"no column {name if wanted == name else f'{wanted} ({name})'}{hint}; the columns are "
             f"{', '.join(there[:_SHOWN])}; add it or rename the one that holds it, or say which "
             f"it is: --map {name}=COLUMN"
         )

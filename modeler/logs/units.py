@@ -107,8 +107,11 @@ _WORDS = {
 _PREFIXES = {
     "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
 }  # fmt: skip
+_DECADES = 100  # that no unit is away from SI
 _PREFIXED = {"m", "g", "s", "rad", "deg", "A", "V", "N", "Nm", "Hz"}
-_FACTOR = re.compile(r"\s*([*/·.]?)\s*([A-Za-zµμ°%]+|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?:\^?(-?\d))?")
+_FACTOR = re.compile(
+    r"\s*([*/·.]?)\s*([A-Za-zµμ°%]+|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?:\^?(-?\d+))?"
+)
 
 EXAMPLES = "deg, rev, rpm, deg/s, mm, ms, us, N m, mN m, kN, kg cm, lb in, mA, A, rev/8192"
 """Units that a message names."""
@@ -135,7 +138,11 @@ def find_unit(text: str) -> Unit | None:
         one = None if match is None else _simple(match[2])
         if match is None or one is None or (match[1] and count == 0):
             return None
+        if len(match[3] or "") > len("-9") or abs(int(match[3] or 1)) > 9:
+            return None
         power = int(match[3] or 1) * (-1 if match[1] == "/" else 1)
+        if abs(power * math.log10(one.factor)) > _DECADES:
+            return None
         factor *= one.factor**power
         powers = tuple(a + power * b for a, b in zip(powers, one.powers, strict=True))
         zero = one.zero

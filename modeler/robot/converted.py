@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from modeler.core.errors import RobotError
+from modeler.core.files import read_file
 from modeler.robot.par import Converted, par_to_toml
 
 _NOT_READ = {".urdf": "URDF", ".xacro": "xacro", ".sdf": "SDF", ".mjcf": "MJCF", ".xml": "XML"}
@@ -19,7 +20,7 @@ def converted(path: Path) -> Converted:
     """
     check_known_format(path)
     try:
-        data = path.read_bytes()
+        data = read_file(path)
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if path.suffix.lower() == ".toml":

@@ -7,13 +7,13 @@ do. Nothing is guessed except what the format says may be left out.
 import dataclasses
 import fnmatch
 import re
-import sys
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import RobotError
+from modeler.core.files import read_text
+from modeler.core.json_text import TomlError, parse_toml
 from modeler.robot.builtin import builtin_names, builtin_text
 from modeler.robot.cells import (
     check_name_length,
@@ -77,8 +77,8 @@ def read_robot(robot: str | Path) -> Robot:
     if path.suffix.lower() == ".par":
         return robot_from_text(converted(path).text, f"{path}, as a robot file")
     try:
-        found = path.is_file()
-        text = path.read_text(encoding="utf-8-sig") if found else ""
+        found = path.exists() and not path.is_dir()
+        text = read_text(path) if found else ""
     except UnicodeDecodeError as error:
         raise RobotError(
             f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
@@ -205,26 +205,19 @@ def _not_found(path: Path) -> str:
 
 def _document(text: str, place: Place) -> dict[str, Any]:
     try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        document = parse_toml(text)
+    except TomlError as error:
         match = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", str(error), re.DOTALL)
-        if match is None:
+        if str(error).endswith("(at end of document)"):
             lines = text.count("\n") + 1
             raise place.at(f"line {lines}").error(
                 f"not TOML ({error}); the file ends too early: close the last string or list"
             ) from None
+        if match is None:
+            raise place.error(f"cannot be read as TOML: {error}") from None
         raise place.at(f"line {match[2]}, column {match[3]}").error(
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
-        ) from None
-    except RecursionError:
-        raise place.error(
-            "cannot be read as TOML: lists or tables are nested hundreds deep; write them flat"
-        ) from None
-    except ValueError:  # the one that is left: Python's limit against endless conversions
-        raise place.error(
-            f"cannot be read as TOML: an integer has more than {sys.get_int_max_str_digits()} "
-            "digits; write a shorter one"
         ) from None
     for key in document:
         if key not in _KEYS:

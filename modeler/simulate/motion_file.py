@@ -11,9 +11,11 @@ import pyarrow.parquet as pq
 from scipy.interpolate import BPoly, make_interp_spline
 
 from modeler.core.errors import DataError
+from modeler.core.files import check_unpacked, read_file
 from modeler.simulate.trajectory import Reference
 
 _DEGREE = 5  # of the spline through positions where derivatives are not given
+_LARGEST = 2**30  # bytes
 _FEWEST = _DEGREE + 1  # samples
 
 
@@ -64,7 +66,7 @@ def at_rate(motion: Reference, rate: float) -> Reference:
 
 def _table(path: Path) -> pa.Table:
     try:
-        content = path.read_bytes()
+        content = read_file(path, _LARGEST)
     except OSError as error:
         raise DataError(
             f"{path}: cannot be read ({error.strerror}); expected the file of a motion, or "
@@ -72,9 +74,11 @@ def _table(path: Path) -> pa.Table:
         ) from None
     try:
         if path.suffix == ".parquet":
-            return pq.read_table(io.BytesIO(content))
+            file = pq.ParquetFile(io.BytesIO(content))
+            check_unpacked(path, 8 * file.metadata.num_rows * file.metadata.num_columns)
+            return file.read()
         return pacsv.read_csv(io.BytesIO(content))
-    except (pa.ArrowInvalid, pa.ArrowKeyError) as error:
+    except (pa.ArrowException, OSError) as error:
         first = str(error).splitlines()[0]
         raise DataError(
             f"{path}: no table of columns ({first}); expected .csv or .parquet"

@@ -1,13 +1,14 @@
 """Values of physical parameters as people give them: "am=12+-0.1,bm=6", or a CAD file."""
 
 import math
-import tomllib
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import RobotError
+from modeler.core.files import read_text
+from modeler.core.json_text import parse_toml
 from modeler.robot import Robot
 from modeler.robot.place import near
 from modeler.terms.physical_system import PhysicalSystem
@@ -107,10 +108,10 @@ def cad_from_file(path: Path, system: PhysicalSystem) -> Given:
         RobotError: no such file, no TOML, an unknown name, no number.
     """
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+        raw = parse_toml(read_text(path))
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except ValueError as error:
         raise RobotError(f"{path}: no TOML ({error}); expected lines such as am = 12.0") from None
     share = _sigma(raw.pop(_CAD_KEY, 0.0), f"{path}, {_CAD_KEY}")
     values: dict[str, float] = {}

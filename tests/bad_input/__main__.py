@@ -1,5 +1,9 @@
-"""`python -m tests.bad_input [WORD]`: every row with its outcome, and the share that is right."""
+"""`python -m tests.bad_input [WORD]`: every row with its outcome, and the share that is right.
 
+`python -m tests.bad_input --mutants N --seed S --out FILE`: so many mutants, and all that was said.
+"""
+
+import argparse
 import contextlib
 import os
 import sys
@@ -8,6 +12,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import faults
 from tests.bad_input.table import ROWS
 from tests.bad_input.yard import Ground, Yard
@@ -39,5 +44,22 @@ def table(words: list[str]) -> int:
     return failing
 
 
+def mutants(words: list[str]) -> int:
+    """Draw and run mutants; the number that ends as none may."""
+    parser = argparse.ArgumentParser(prog="python -m tests.bad_input")
+    parser.add_argument("--mutants", type=int, default=500, help="how many")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=lambda place: Path(place).resolve(), help="file of all lines")
+    args = parser.parse_args(words)
+    with tempfile.TemporaryDirectory() as name:
+        with contextlib.redirect_stdout(None):
+            ground = Ground(Path(name))
+        bad = run_mutants(args.mutants, args.seed, args.out, ground)
+    print("\n".join(bad))
+    return len(bad)
+
+
 if __name__ == "__main__":
-    sys.exit(min(table(sys.argv[1:]), 1))
+    given = sys.argv[1:]
+    run = mutants if given and given[0].startswith("--") else table
+    sys.exit(min(run(given), 1))

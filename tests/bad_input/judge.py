@@ -39,7 +39,7 @@ REMEDY = re.compile(
     r"\b(expected|write|use|choose|give|leave|check|add|remove|declare|did you mean|delete|record"
     r"|install|set|move|save|keep|close|make|state|sample|split|rename|take|lower|raise|put|fit"
     r"|needs?|pass|name (it|one)|number|correct|mend|free|try|log|drop|must|there are|takes?|again"
-    r"|lists|built-in are|already|go from)\b"
+    r"|end it|lists|built-in are|already|go from)\b"
 )
 """A word that says what to do."""
 

@@ -2,6 +2,7 @@
 
 import datetime
 import decimal
+import os
 
 import numpy as np
 import pyarrow as pa
@@ -59,7 +60,11 @@ CSV = [
         "50|51"),
     texts("cut in mid-row", "refused", lambda t: _line(t, 800, "3.9").partition("3.9\n")[0] + "3.9",
           "bad.csv"),
-    texts("an open quote", "refused", lambda t: _line(t, 50, '"0.245,0,0,0,0,1,1'), "bad.csv"),
+    texts("an open quote", "refused", lambda t: _line(t, 50, '"0.245,0,0,0,0,1,1'), "row 50",
+          "quote"),
+    texts("a quote opened in the header", "refused", lambda t: '"' + t, "quote", "not closed"),
+    texts("a torque of 1e300", "refused", lambda t: _line(t, 50, "0.245,0,0,0,0,1e300,1"), "tau1",
+          "row 50", "1e+300"),
     texts("text in a torque", "refused", lambda t: _line(t, 50, "0.245,0,0,0,0,high,1"),
           "bad.csv", "tau1", "row 50", "high"),
     texts("ERR in a position", "refused", lambda t: _line(t, 50, "0.245,ERR,0,0,0,1,1"),
@@ -70,7 +75,7 @@ CSV = [
     texts("a total at the end", "refused", lambda t: t + "mean,0,0,0,0,1,1\n", "time", "mean"),
     texts("two headers", "refused", lambda t: t + t, "time", "row 1601"),
     texts("header twice only", "refused", ("\n", "\ntime,q1,q2,qc1,qc2,tau1,tau2\n"), "row 1"),
-    texts("a column twice", "refused", ("qc2", "q2"), "bad.csv", "q2", "twice|2 times"),
+    texts("a column twice", "refused", ("qc2", "q2"), "q2", "2 times", "columns 3, 5"),
     texts("time twice", "refused", ("qc2", "time"), "bad.csv", "time", "twice|2 times"),
     texts("Time in capitals", "refused", ("time", "Time"), "bad.csv", "time", "Time"),
     texts("t for time", "refused", ("time", "t"), "bad.csv", "time"),
@@ -100,6 +105,12 @@ CSV = [
 ]  # fmt: skip
 
 FILES = [
+    row("log file: a unit of a huge power", "refused",
+        "fit two-link a.csv --map q1=q1:rad^999999999 --out f.json", "rad^999999999", "no unit"),
+    row("log file: one column for two joints", "refused",
+        "fit two-link a.csv --map q1=q1 --map q2=q1 --out f.json", "taken as q1 and as q2"),
+    row("log file: a pipe", "refused", "fit two-link x.csv --out f.json", "x.csv", "pipe",
+        make=lambda y: os.mkfifo(y.path("x.csv"))),
     row("log file: none", "refused", "fit two-link nowhere.csv --out f.json", "nowhere.csv"),
     row("log file: a folder", "refused", "fit two-link c_code --out f.json", "c_code"),
     row("log file: a folder called like a log", "refused", "fit two-link x.csv --out f.json",

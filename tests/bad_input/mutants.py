@@ -56,6 +56,13 @@ def edited_bytes(
     return data
 
 
+VALUES_DRAWN = (
+    None, True, 0, -1, 3, 10**19, 0.5, 1e308, -0.0, float("nan"), float("inf"), "", "q1", "pi/2",
+    "1/0", "sin(", "all", "L1", "q1 + q2", "x" * 500, "\x00", "../../x", "𝛑", [], {}, [[]],
+    [1, [2, [3]]], {"a": {"b": 1}},
+)  # fmt: skip
+"""Some of what may stand anywhere in a structure."""
+
 VALUES = st.one_of(
     st.none(), st.booleans(), st.integers(-(10**20), 10**20), st.floats(), st.text(max_size=8),
     st.sampled_from([[], {}, [[]], [1, [2, [3]]], {"a": {"b": 1}}, "q1", "pi/2", "1/0", "sin(",

@@ -4,6 +4,7 @@ from collections import Counter
 
 import pytest
 
+from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import disturbed, ending, faults
 from tests.bad_input.row import Result
 from tests.bad_input.row import row as made
@@ -20,6 +21,11 @@ def ground(tmp_path_factory: pytest.TempPathFactory) -> Ground:
 def test_a_bad_input_ends_as_it_must(row, ground, tmp_path):
     found = faults(row, Yard(tmp_path, ground))
     assert not found, f"{row.command[:200]}\n" + "\n".join(found)
+
+
+def test_mutants_of_every_format_end_in_one_line(ground):
+    """A few, always the same; `python -m tests.bad_input --mutants 500 --seed N` draws others."""
+    assert run_mutants(40, 90210, None, ground) == []
 
 
 def test_the_table_is_large_and_no_row_stands_twice():

@@ -2,12 +2,14 @@
 
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from modeler.cli import main
@@ -43,6 +45,36 @@ def test_done_at_fault_wrong_usage(words: str, status: int) -> None:
         assert done.stderr.startswith("modeler: ") and done.stderr.count("\n") == 1
     if status == 2:
         assert done.stderr.startswith("usage: modeler")
+
+
+def test_memory_runs_out_in_a_log(tmp_path: Path) -> None:
+    """A log of 4 GB (holes, no disk) for a process of 2 GB."""
+    with (tmp_path / "x.npy").open("wb") as file:
+        shape = {"descr": "<f8", "fortran_order": False, "shape": (2**29,)}
+        np.lib.format.write_array_header_1_0(file, shape)
+        file.truncate(2**32 + 1024)
+
+    def limited() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (2**31, 2**31))
+
+    done = run("log", "x.npy", cwd=tmp_path, preexec_fn=limited)
+    assert done.returncode == 1 and re.fullmatch(r"modeler: x.npy: .*ulimit -v.*\n", done.stderr)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [MemoryError(), ImportError("x.so: failed to map segment from shared object"),
+     RuntimeError("can't start new thread"), OSError(12, os.strerror(12))],
+)  # fmt: skip
+def test_memory_runs_out_in_any_words(error: Exception, monkeypatch, capsys) -> None:
+    import modeler.cli.program as program
+
+    def fails(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(program, "_carried_out", fails)
+    assert main(["robots"]) == 1
+    assert re.fullmatch(r"modeler: memory: .*\n", capsys.readouterr().err)
 
 
 def test_interrupted(tmp_path: Path) -> None:

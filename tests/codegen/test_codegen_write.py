@@ -3,12 +3,13 @@
 import dataclasses
 import os
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from modeler.codegen import leftovers, write, write_emitted
+from modeler.codegen import leftovers, write_emitted
 from modeler.codegen.record import RECORD, checksum
 from modeler.core.contract import Emitted
 from modeler.core.errors import ModelerError
@@ -138,20 +139,56 @@ def test_a_record_removes_nothing_outside_of_its_folder(emitted, tmp_path):
 def test_a_run_that_was_stopped_can_be_repeated(emitted, tmp_path, monkeypatch):
     write_emitted(emitted, tmp_path)
     new = changed(emitted, *emitted.files)
-    real, calls = write.write_atomically, []
+    real, calls = Path.replace, []
 
-    def stopped(path: Path, content: bytes | str) -> None:
+    def killed(path: Path, place: Path) -> None:
         calls.append(path)
         if len(calls) == 4:
-            raise KeyboardInterrupt
-        real(path, content)
+            raise SystemExit
+        real(path, place)
 
-    monkeypatch.setattr(write, "write_atomically", stopped)
-    with pytest.raises(KeyboardInterrupt):
+    monkeypatch.setattr(Path, "replace", killed)
+    with pytest.raises(SystemExit):
         write_emitted(new, tmp_path)
     monkeypatch.undo()
     assert len(write_emitted(new, tmp_path)) == len(emitted.files) - 2
     assert write_emitted(new, tmp_path) == ()
+
+
+@pytest.mark.parametrize("call", ["open", "write", "replace"])
+@pytest.mark.parametrize("number", [1, 5, 12])
+def test_an_interrupt_leaves_the_old_folder_or_the_new(
+    emitted, tmp_path, monkeypatch, call: str, number: int
+):
+    """At the given call of the system; a first folder is not there at all then."""
+    files = emitted.files | {EXAMPLE: "old"}
+    new = changed(emitted, *emitted.files)
+    real, calls = getattr(Path if call == "replace" else os, call), []
+
+    def interrupted(*args, **more):
+        calls.append(args)
+        if len(calls) == number:
+            os.kill(os.getpid(), signal.SIGINT)
+        return real(*args, **more)
+
+    for before in (None, dataclasses.replace(emitted, files=files)):
+        folder = tmp_path / ("first" if before is None else "again")
+        if before is not None:
+            write_emitted(before, folder)
+        old = contents(folder) if folder.exists() else {}
+        calls.clear()
+        handler = signal.signal(signal.SIGINT, signal.default_int_handler)
+        with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+            patch.setattr(Path if call == "replace" else os, call, interrupted)
+            write_emitted(new, folder)
+        signal.signal(signal.SIGINT, handler)
+        left = contents(folder) if folder.exists() else None
+        if call == "replace":
+            assert {name: left[name].decode() for name in new.files} == new.files
+            assert left.keys() == {*new.files, RECORD}
+        else:
+            assert left == (old or None)
+        assert write_emitted(new, folder) == (() if call == "replace" else tuple(new.files))
 
 
 def test_a_file_that_only_has_the_name_of_the_record_stays(emitted, tmp_path):

@@ -27,7 +27,7 @@ from modeler.observation.survey import Known, survey
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, ends_once, refused, third
 
-WHY = "NOT CHECKED: no Dask; pip install 'modeler[dask]'"
+WHY = "NOT CHECKED: no Dask; pip install '.[dask]'"
 ROWS = 256  # of a chunk
 
 

@@ -1,6 +1,11 @@
 """Jobs here and in processes: the same results to the bit, and what is told of those that fail."""
 
+import os
+import signal
+import subprocess
 import sys
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -47,6 +52,33 @@ def test_a_process_that_ends_is_told() -> None:
         others.each(ends_always, "", range(2))
 
 
+@pytest.mark.parametrize("seconds", [0.0, 1.0])
+@pytest.mark.parametrize("killed", [False, True])
+def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(
+    seconds: float, killed: bool
+) -> None:
+    """Ctrl-C goes to all processes of a terminal; a kill to the first alone."""
+    program = (
+        "from modeler.jobs import open_workers\n"
+        "from tests.jobs.work import third\n"
+        "if __name__ == '__main__':\n"
+        "    with open_workers(processes=3) as workers:\n"
+        "        waiting = workers.begun(third, 'x' * 10**6, range(9), None)\n"
+        "        print('begun', flush=True)\n"
+        "        import time; time.sleep(20)\n"
+    )
+    running = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        start_new_session=True, cwd=Path(__file__).parents[2],
+    )  # fmt: skip
+    assert running.stdout is not None and running.stdout.readline() == "begun\n"
+    time.sleep(seconds)
+    (os.kill if killed else os.killpg)(running.pid, signal.SIGKILL if killed else signal.SIGINT)
+    err = running.communicate(timeout=60)[1]  # which all processes hold, so that all have ended
+    assert err.count("Traceback") == (0 if killed else 1), err
+    assert "resource_tracker" not in err
+
+
 def test_this_process_does_what_it_is_given() -> None:
     shares: list[float] = []
     with open_workers() as workers:
@@ -60,5 +92,5 @@ def test_without_dask_one_line_says_how_to_get_it(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(DataError) as error, open_workers("local"):
         pass
-    told = "--dask local: Dask is not installed; pip install 'modeler[dask]', or leave --dask out"
-    assert str(error.value) == told
+    told = "--dask local: Dask is not installed; pip install '.[dask]' in the checkout, or leave"
+    assert str(error.value) == f"{told} --dask out"

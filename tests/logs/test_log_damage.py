@@ -1,10 +1,15 @@
 """Damaged files of every format: one clear line, or what is left; never a traceback."""
 
 import random
+import struct
 import sys
+from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
+import scipy.io
 
 from modeler.cli import main
 from modeler.core.errors import DataError
@@ -116,3 +121,56 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch, name, package):
     words = f"needs the package {package}; run: pip install {package}$"
     with pytest.raises(DataError, match=words):
         Table(tmp_path / name)
+
+
+def _bomb(path: Path) -> None:
+    """Zeros of 300 MB and more, in what is less than 1 MB."""
+    count = 40_000_000
+    if path.suffix == ".npz":
+        np.savez_compressed(path, time=np.zeros(count))
+    elif path.suffix == ".mat":
+        scipy.io.savemat(path, {"time": np.zeros(count)}, do_compression=True)
+    elif path.suffix == ".parquet":
+        column = pa.array(np.zeros(count // 40))
+        pq.write_table(pa.table({f"c{k}": column for k in range(40)}), path)
+    elif path.suffix == ".mcap":
+        chunk = struct.pack("<QQQ", 0, 0, 10**9)
+        path.write_bytes(b"\x89MCAP0\r\n" + struct.pack("<BQ", 6, len(chunk)) + chunk)
+    elif path.suffix == ".bag":
+        fields = b"".join(struct.pack("<I", len(f)) + f for f in (b"op=\x05", b"size=\0\0\0\x40"))
+        path.write_bytes(b"#ROSBAG V2.0\n" + struct.pack("<I", len(fields)) + fields + bytes(4))
+    else:
+        h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
+        with h5py.File(path, "w") as file:
+            file.create_dataset("time", shape=(10**12,), dtype="f8", chunks=(1000,))
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat", "parquet", "h5", "mcap", "bag"])
+def test_what_unpacks_without_end_is_refused(tmp_path, ending: str) -> None:
+    if ending in ("mcap", "bag"):
+        pytest.importorskip("rosbags", reason="NOT CHECKED: needs rosbags; pip install rosbags")
+    path = tmp_path / f"bomb.{ending}"
+    _bomb(path)
+    with pytest.raises(DataError, match=r"unpacks to [\d,]+ MiB or more .*expected at most 100 "):
+        Table(path)
+
+
+@pytest.mark.parametrize("how", ["storage", "link", "virtual"])
+def test_an_hdf5_file_that_reads_another_is_refused(tmp_path, how: str) -> None:
+    h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
+    time, other = np.arange(100.0), tmp_path / "other"
+    time.tofile(other)
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["time"] = time
+    with h5py.File(tmp_path / "log.h5", "w") as file:
+        file["q1"] = time
+        if how == "storage":
+            file.create_dataset("time", (100,), "f8", external=[(str(other), 0, 800)])
+        elif how == "link":
+            file["time"] = h5py.ExternalLink("other.h5", "/time")
+        else:
+            layout = h5py.VirtualLayout((100,), "f8")
+            layout[:] = h5py.VirtualSource("other.h5", "time", (100,))
+            file.create_virtual_dataset("time", layout)
+    with pytest.raises(DataError, match="time lies in another file"):
+        Table(tmp_path / "log.h5")

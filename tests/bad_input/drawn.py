@@ -1,0 +1,259 @@
+"""Mutants of every format, drawn with a seed: what a user's spoilt file or mistyped command gives.
+
+`python -m tests.bad_input --mutants 500 --seed 7 --out lines.txt`.
+"""
+
+import contextlib
+import io
+import json
+import random
+import tempfile
+import tomllib
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from modeler.robot import builtin_names, builtin_text, read_robot
+from tests.bad_input.judge import clear, run_here, standing_in, within
+from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
+from tests.bad_input.yard import Ground, Yard, csv_text
+from tests.logs import writers
+from tests.robot.par_files import par_of
+
+SAMPLES = 400
+LOG = "fit two-link bad{} --out f.json"
+MAP = {"time": "t [ms]", "q<j>": "pos[{n}] [deg]", "tau<j>": "load[{n}] [mN m]"}
+PAR = par_of(read_robot("two-link"), False).encode()
+COMMANDS = (
+    "derive wrist --no-terms", "simulate two-link --duration 2 --rate 100 --seed 1 --out s.csv",
+    "fit two-link a.csv --cutoff 20 --out f.json", "compare m.json b.csv@1:6 --json c.json",
+    "log a.csv --json l.json", "generate two-link --out c", "effects --robot two-link",
+    "convert x.par --out x.toml", "add m.json offset --joint 1 a.csv --out n.json",
+    "diagnose m.json b.csv --json d.json", "robots --show wrist",
+    "fit two-link a.csv --map q1=q1:rad --map tau1=tau1 --out f.json",
+)  # fmt: skip
+WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", ")", "**", "pi",
+         "[mdh]", "rows", "\0", "é", "\\", "true", "'", "time", "tau1", ";", "rad")  # fmt: skip
+
+
+class Drawer:
+    """Draws mutants; the same ones for the same seed."""
+
+    def __init__(self, ground: Ground, seed: int) -> None:
+        self.ground, self.random = ground, random.Random(seed)
+        self._good: dict[str, bytes] = {}
+
+    def draw(self) -> tuple[str, str, dict[str, bytes], str]:
+        """Format, what was done, the files, the command."""
+        kind = self.random.choice(
+            ["toml", "toml", "par", "csv", "csv", "parquet", "npz", "mat", "hdf5", "mcap", "bag",
+             "bag1", "model", "model", "map", "motion", "command", "command"]
+        )  # fmt: skip
+        return getattr(self, f"_{kind}")()
+
+    def _bytes(self, data: bytes, most: int = 3) -> tuple[bytes, str]:
+        kinds = ("cut", "repeat", "replace", "insert", "flip", "end", "exchange")
+        pick = self.random
+        made = [
+            (pick.choice(kinds), pick.randrange(10**6), pick.randint(1, 40), pick.randrange(10**6))
+            for _ in range(pick.randint(1, most))
+        ]
+        return edited_bytes(data, made, WORDS), " ".join(
+            f"{k}@{at % (len(data) + 1)}" for k, at, *_ in made
+        )
+
+    def _structure(self, raw: object) -> str:
+        pick = self.random
+        kinds = ("put", "put", "take out", "double", "rename", "copy")
+        made = [
+            ([pick.randrange(10**6) for _ in range(pick.randint(1, 6))], pick.choice(kinds),
+             pick.choice(VALUES_DRAWN))
+            for _ in range(pick.randint(1, 2))
+        ]  # fmt: skip
+        edited_structure(raw, made)
+        return " ".join(f"{kind} {str(value)[:20]!r}" for _, kind, value in made)
+
+    def _toml(self) -> tuple[str, str, dict[str, bytes], str]:
+        text = builtin_text(self.random.choice(builtin_names()))
+        command = "derive bad.toml --no-terms --json d.json"
+        if self.random.random() < 0.5:
+            content, told = self._bytes(text.encode())
+        else:
+            document = tomllib.loads(text)
+            told = self._structure(document)
+            content = toml_text(document).encode(errors="replace")
+        return "robot TOML", told, {"bad.toml": content}, command
+
+    def _par(self) -> tuple[str, str, dict[str, bytes], str]:
+        content, told = self._bytes(PAR)
+        return "SYMORO .par", told, {"bad.par": content}, "convert bad.par --out x.toml"
+
+    def _columns(self) -> tuple[dict[str, np.ndarray], str]:
+        """A log whose columns are exchanged, spoilt, gone, short."""
+        pick = self.random
+        table = {name: v[:SAMPLES].copy() for name, v in self.ground.log("a.csv").items()}
+        told = []
+        for _ in range(pick.randint(1, 2)):
+            name, other = pick.choice(list(table)), pick.choice(list(table))
+            how = pick.choice(["exchange", "gone", "times", "value", "roll", "same", "cut", "none"])
+            told.append(f"{how} {name}")
+            if how == "exchange":
+                table[name], table[other] = table[other], table[name]
+            elif how == "gone" and len(table) > 1:
+                del table[name]
+            elif how == "times":
+                with np.errstate(all="ignore"):
+                    table[name] = table[name] * pick.choice(
+                        [0.0, -1.0, 57.3, 1e3, 1e-3, 1e200, 1e300]
+                    )
+            elif how == "value":
+                at = pick.randrange(SAMPLES)
+                table[name][at : at + pick.randint(1, 80)] = pick.choice(
+                    [np.nan, np.inf, 1e30, 0.0, -1e300, 7.0]
+                )
+            elif how == "roll":
+                table[name] = np.roll(table[name], pick.randint(1, 100))
+            elif how == "same":
+                table[name] = np.full(len(table[name]), table[name][0])
+            elif how == "cut":
+                rows = pick.choice([0, 1, 5, 30, 150])
+                table = {n: v[:rows] for n, v in table.items()}
+                break
+        return table, ", ".join(told)
+
+    def _csv(self) -> tuple[str, str, dict[str, bytes], str]:
+        if self.random.random() < 0.5:
+            table, told = self._columns()
+            content = csv_text(table).encode()
+        else:
+            short = {n: v[:SAMPLES] for n, v in self.ground.log("a.csv").items()}
+            content, told = self._bytes(csv_text(short).encode())
+        return "log CSV", told, {"bad.csv": content}, LOG.format(".csv")
+
+    def _parquet(self) -> tuple[str, str, dict[str, bytes], str]:
+        table, told = self._columns()
+        file = io.BytesIO()
+        pq.write_table(pa.table(table), file)
+        content = file.getvalue()
+        if self.random.random() < 0.5:
+            content, told = self._bytes(content)
+        return "log Parquet", told, {"bad.parquet": content}, LOG.format(".parquet")
+
+    def _other(
+        self, kind: str, ending: str, write: Callable, mapping: dict
+    ) -> tuple[str, str, dict[str, bytes], str]:
+        """A file of another program's format, its bytes spoilt."""
+        if kind not in self._good:
+            table = {n: v[:SAMPLES] for n, v in self.ground.log("d.csv").items()}
+            with tempfile.TemporaryDirectory() as folder:
+                path = write(Path(folder) / f"good{ending}", writers.Run(table))
+                for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+                    self._good[kind if file == path else f"{kind}/{file.name}"] = file.read_bytes()
+        names = [name for name in self._good if name == kind or name.startswith(f"{kind}/")]
+        files = {n.replace(kind, f"bad{ending}", 1): self._good[n] for n in names}
+        spoilt = self.random.choice(sorted(files))
+        files[spoilt], told = self._bytes(files[spoilt])
+        document = {"log": mapping}
+        files["map.toml"] = toml_text(document).encode()
+        return f"log {kind}", told, files, f"fit demo-arm bad{ending} --map map.toml --out f.json"
+
+    def _npz(self):
+        return self._other("npz", ".npz", writers.npz, MAP)
+
+    def _mat(self):
+        return self._other("MAT", ".mat", writers.mat, writers.under("data.", MAP))
+
+    def _hdf5(self):
+        return self._other("HDF5", ".h5", writers.hdf5, writers.under("arm/", MAP))
+
+    def _mcap(self):
+        return self._other("MCAP", ".mcap", writers.mcap, writers.ROS)
+
+    def _bag(self):
+        return self._other("bag folder", "", writers.bag, writers.ROS)
+
+    def _bag1(self):
+        return self._other("bag ROS 1", ".bag", writers.bag1, writers.ROS)
+
+    def _model(self) -> tuple[str, str, dict[str, bytes], str]:
+        if self.random.random() < 0.5:
+            content, told = self._bytes((self.ground.folder / "m.json").read_bytes())
+        else:
+            raw = self.ground.model("added.json")
+            told = self._structure(raw)
+            content = json.dumps(raw).encode(errors="replace")
+        return "model JSON", told, {"bad.json": content}, "compare bad.json b.csv --json c.json"
+
+    def _map(self) -> tuple[str, str, dict[str, bytes], str]:
+        good = {"log": {"time": "time [s]", "q<j>": {"column": "q{j}", "unit": "rad", "sign": 1},
+                        "tau<j>": {"column": "tau{n}", "scale": 1.0, "offset": 0.0}}}  # fmt: skip
+        if self.random.random() < 0.5:
+            content, told = self._bytes(toml_text(good).encode())
+        else:
+            told = self._structure(good)
+            content = toml_text(good).encode(errors="replace")
+        return "map", told, {"bad.toml": content}, "fit two-link a.csv --map bad.toml --out f.json"
+
+    def _motion(self) -> tuple[str, str, dict[str, bytes], str]:
+        kind, told, files, _ = self._csv() if self.random.random() < 0.6 else self._parquet()
+        (name,) = files
+        return f"motion {kind[4:]}", told, files, f"simulate two-link --motion {name} --out s.csv"
+
+    def _command(self) -> tuple[str, str, dict[str, bytes], str]:
+        pick = self.random
+        words = pick.choice(COMMANDS).split()
+        odd = ["", "0", "-1", "nan", "1e9", "q9", "--out", "--joint", "no.csv", "a.csv", "é", "-",
+               "1:2:3", "@", "q1=", "wrist", "c_code", "m.json", "x" * 300]  # fmt: skip
+        for _ in range(pick.randint(1, 2)):
+            at, how = (
+                pick.randrange(len(words)),
+                pick.choice(["out", "put", "in", "spell", "exchange"]),
+            )
+            if how == "out" and len(words) > 1:
+                del words[at]
+            elif how == "put":
+                words[at] = pick.choice(odd)
+            elif how == "in":
+                words.insert(at, pick.choice(odd))
+            elif how == "spell" and words[at]:
+                k = pick.randrange(len(words[at]))
+                words[at] = words[at][:k] + words[at][k + 1 :]
+            else:
+                other = pick.randrange(len(words))
+                words[at], words[other] = words[other], words[at]
+        files = {"x.par": PAR}
+        return "command line", "words", files, " ".join(words)
+
+
+def run_mutants(count: int, seed: int, out: Path | None, ground: Ground) -> list[str]:
+    """Runs so many mutants, writes a line for each; those that end as none may."""
+    drawer, bad, told = Drawer(ground, seed), list[str](), Counter[str]()
+    lines = []
+    for number in range(count):
+        kind, done, files, command = drawer.draw()
+        words = tuple(command.split(" "))
+        with tempfile.TemporaryDirectory() as folder:
+            yard = Yard(Path(folder), ground)
+            for name, content in files.items():
+                yard.write(name, content)
+            yard.take_named(words)
+            with standing_in(yard), within(30.0):
+                result = run_here(words, yard)
+        faults = [result.broke] if result.broke else []
+        if not faults and result.status:
+            faults = clear(words, result)
+        said = result.err.strip() or " / ".join(result.out.strip().splitlines()[-2:])
+        head = f"{seed}/{number} [{kind}; {done}] modeler {command[:150]}"
+        state = "BROKEN" if result.broke else f"status {result.status}"
+        lines.append(f"{head}\n    {state}: {result.broke or said}")
+        told[state] += 1
+        bad += [f"{head}: {fault}" for fault in faults]
+        if out is not None:
+            out.write_text("\n".join([*lines, "", *(f"FAULT {line}" for line in bad), ""]))
+    with contextlib.suppress(BrokenPipeError):
+        print(f"{count} mutants of seed {seed}: {dict(told)}, {len(bad)} with a fault")
+    return bad
