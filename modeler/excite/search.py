@@ -101,6 +101,7 @@ class Deadline:
         self._begun, self._limit = time.monotonic(), math.inf if limit is None else limit
 
     def __call__(self) -> bool:
+        """Is there?"""
         return self.spent() < self._limit
 
     def spent(self) -> float:
@@ -155,7 +156,7 @@ def finished(
     loops are looked at ten times as densely, and the motion is drawn in until they hold there.
     """
     early = not on()
-    x = finer(task).drawn_in(x)
+    x = task.drawn_in(x, finer(task))
     spec = task.columns.compiled.spec
     conditions = sorted(q.condition for _, q in drawn)
     return Exciting(
@@ -215,8 +216,8 @@ def improved(
 ) -> np.ndarray:
     """The motion after one stage of descent."""
     height, soft, steps = stage
-    task = dataclasses.replace(task, columns=dataclasses.replace(task.columns, soft=soft))
-    walled = Walled(task, height)
+    softer = dataclasses.replace(task, columns=dataclasses.replace(task.columns, soft=soft))
+    walled = Walled(softer, height)
     # Variables in shares of what each joint may do: all are then about as large.
     unit = task.bounds.half[:, None] * np.ones(x.shape[1])
 

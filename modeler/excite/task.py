@@ -1,6 +1,5 @@
 """One search for a motion: its variables, what it is to make small, the walls it stays within."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -78,7 +77,9 @@ class Task:
 
     def torques(self, phi: np.ndarray) -> np.ndarray:
         """(n, J) as shares of their limits: |.| < share; (n, 0) where none is limited."""
-        return phi @ self.beta / self.bounds.torque if self.limited else np.zeros((len(phi), 0))
+        if self.beta is None or not self.limited:
+            return np.zeros((len(phi), 0))
+        return phi @ self.beta / self.bounds.torque
 
     def keeps(self, x: np.ndarray) -> bool:
         """True if no limit is broken at the samples."""
@@ -134,7 +135,8 @@ class Task:
             return np.inf
         q = np.tile(b.middle + b.half * place, (2 * J + 1, 1))
         qd = np.vstack([np.zeros(J), np.eye(J), -np.eye(J)]) * NEAR_REST * b.speed
-        ends = (0.0, self.series.duration)  # effects of time grow one way
+        # Effects of time grow one way.
+        ends = (0.0, self.series.duration) if self.columns.compiled.spec.signals else (0.0,)
         try:
             share = float(np.abs(self.posture.shares(q[:1])).max(initial=0.0))
             read = [self.columns.read(q, np.full(len(q), time)) for time in ends]
@@ -147,19 +149,23 @@ class Task:
         least = rest[0] + turned.min(axis=0).clip(max=0.0).sum(axis=0)
         return float(np.abs([most, least]).max(initial=share))
 
-    def drawn_in(self, x: np.ndarray) -> np.ndarray:
+    def drawn_in(self, x: np.ndarray, judge: "Task | None" = None) -> np.ndarray:
         """A motion; of one beyond limits, the largest found between `still` and it that keeps them.
 
         It ends, since `still` leaves room for every motion that is small enough.
+
+        Args:
+            x: the motion.
+            judge: the same task at other samples, which says whether limits are kept.
         """
-        way = x - self.still
+        keeps, way = (judge or self).keeps, x - self.still
         whole = size = min(1.0, 0.999 * self.reach(self.still, way))
-        while not self.keeps(self.still + size * way):
+        while not keeps(self.still + size * way):
             size *= 0.5
         more = size
         for _ in range(_HALVINGS if size < whole else 0):
             more *= 0.5
-            size += more * self.keeps(self.still + (size + more) * way)
+            size += more * keeps(self.still + (size + more) * way)
         return self.still + size * way
 
 
