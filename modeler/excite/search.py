@@ -24,10 +24,10 @@ from modeler.excite.task import Task, Walled
 RANDOM = 50
 """Random motions that the result is compared with; the best of them are improved."""
 
-_STAGES = ((0.1, 0.1, 80), (0.01, 0.03, 120), (0.001, 0.01, 80))
+_STAGES = ((0.1, 0.1, 80), (0.01, 0.03, 120), (0.001, 0.01, 300))
 """Height of the barrier, softness of dry friction, steps at most."""
 
-_SETTLED = 2e-3  # of the criterion, in ten steps
+_SETTLED = 5e-4  # of the criterion, in ten steps
 _DENSE_LOOPS = 16  # samples per period of the highest harmonic, where loops are closed for each
 _FINER = 10  # times as many samples for the last check
 _NEARLY = 0.999  # of the limits, at these samples
@@ -54,7 +54,7 @@ class Wish:
     duration: float = 10.0
     harmonics: int = 6
     criterion: str = "both"
-    starts: int = 3
+    starts: int = 6
     seed: int = 0
     time_limit: float | None = None
     laps: int = 1

@@ -216,7 +216,7 @@ class Walled:
         n = len(motion[0])
         whole = np.zeros_like(phi)
         whole[:, :, task.kept] = pull.reshape(n, -1, len(task.kept)) * task.weights[:, None]
-        if task.limited:
+        if task.beta is not None and loads.size:
             push = self._push(loads, n) / (task.bounds.torque * task.share)
             whole += push[:, :, None] * task.beta
         slopes = task.columns.pulled_back(motion, s, whole)
