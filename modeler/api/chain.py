@@ -207,6 +207,7 @@ def fit(
     energy: bool = False,
     window: float | None = None,
     payloads: Sequence[Payload] = (),
+    essential_below: float | None = None,
 ) -> IdentifiedModel:
     """The base parameters from an observation, with all that a model file holds.
 
@@ -218,6 +219,8 @@ def fit(
         energy: True for the energy model, whose rows are windows (docs/energy-model.md).
         window: their length, s; None: the spacing of the torque model's rows.
         payloads: loads, each with the names of the logs that carry it.
+        essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
+            below are left out of the reduced model; None: those that an F-test does not miss.
 
     Raises:
         DataError: the derivation, the C and the observation are not of one robot; or see
@@ -225,7 +228,7 @@ def fit(
     """
     _check_of_one_robot(derivation, emitted, observation)
     compiled = compile_model(emitted)
-    asked = Asked(method, energy, window, tuple(payloads))
+    asked = Asked(method, energy, window, tuple(payloads), essential_below)
     way = estimated(asked, derivation.robot, compiled, observation)
     told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
     loaded = {name for payload in payloads for name in payload.logs}

@@ -47,7 +47,7 @@ def too_long(places: Sequence[AnyLog]) -> bool:
     return rows_of(places) > MOST_WHOLE
 
 
-def check_whole(places: Sequence[AnyLog], method: str) -> None:
+def check_whole(places: Sequence[AnyLog], what: str) -> None:
     """Refuse logs that are too long to be read at once.
 
     Raises:
@@ -55,7 +55,7 @@ def check_whole(places: Sequence[AnyLog], method: str) -> None:
     """
     if too_long(places):
         raise DataError(
-            f"fit: method {method} keeps all rows in memory; got {rows_of(places)} rows, expected "
+            f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
             f"at most {MOST_WHOLE}; give a part of the log, FILE@START:END, or take --method "
             f"{' or '.join(OF_TRIANGLES)}, which read logs of any length"
         )

@@ -43,12 +43,14 @@ class Asked:
         energy: True for the energy model, whose rows are windows.
         window: its length, s; None: the spacing of the torque model's rows.
         payloads: loads that some logs carry.
+        below: percent of sigma that essential parameters are below; None: an F-test finds them.
     """
 
     method: str = "weighted"
     energy: bool = False
     window: float | None = None
     payloads: tuple[Payload, ...] = ()
+    below: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,18 +81,18 @@ def estimated(asked: Asked, robot: Robot, compiled: CompiledModel, observation: 
     _check(asked)
     method: Any = asked.method
     if asked.energy:
-        energy = identify_energy(compiled, observation, asked.window, method)
+        energy = identify_energy(compiled, observation, asked.window, method, asked.below)
         return Way(energy.result, refit=energy.without)
     if asked.method == TWO_STEPS:
         ways = Directions(joint_directions(robot))
-        steps = two_step.identify_in_two_steps(compiled, observation, ways)
+        steps = two_step.identify_in_two_steps(compiled, observation, ways, asked.below)
         further = {"two_step": steps.to_json()}
         return Way(steps.result, steps.doubts(), lines=steps.lines(), further=further)
     if asked.payloads:
-        result = identify_with_payloads(compiled, observation, asked.payloads, method)
+        result = identify_with_payloads(compiled, observation, asked.payloads, method, asked.below)
         current = are_currents(observation.report.logs)
         return Way(result, known_doubts(compiled, observation, asked.payloads, current))
-    return Way(identify(observation, method, compiled))
+    return Way(identify(observation, method, compiled, asked.below))
 
 
 def _check(asked: Asked) -> None:

@@ -35,9 +35,10 @@ def fit_if_long(
     places = [*args.logs, *args.payload_log]
     if args.dask is None and not are_long(places):
         return None
-    if args.method not in OF_TRIANGLES or args.model == "energy" or args.payload_log:
-        _check_no_dask(args)
-        check_whole(places, args.method)
+    rule = "--essential-below" if args.essential_below is not None else ""
+    if rule or args.method not in OF_TRIANGLES or args.model == "energy" or args.payload_log:
+        _check_no_dask(args, rule)
+        check_whole(places, rule or f"method {args.method}")
         return None
     try:
         with progress("reading and reducing") as bar, _reducer(args, emitted) as reducer:
@@ -74,10 +75,10 @@ def _tell_read_here(sources: Sequence[Source]) -> None:
         )
 
 
-def _check_no_dask(args: argparse.Namespace) -> None:
+def _check_no_dask(args: argparse.Namespace, rule: str) -> None:
     if args.dask is not None:
         what = "--model energy" if args.model == "energy" else f"--method {args.method}"
-        what = "--payload-log" if args.payload_log else what
+        what = "--payload-log" if args.payload_log else rule or what
         raise DataError(
             f"--dask {args.dask}: got {what}, which needs all rows in one memory; expected "
             f"--method {' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"

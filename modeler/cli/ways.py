@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, Asked
 from modeler.cli.drive_gains import carried
+from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
 from modeler.observation import Log
 
@@ -12,7 +13,7 @@ from modeler.observation import Log
 def asked(args: argparse.Namespace, loaded: Sequence[Log]) -> Asked:
     """What the options ask for."""
     payloads = tuple(carried(args, loaded)) if loaded else ()
-    return Asked(args.method, args.model == "energy", args.window, payloads)
+    return Asked(args.method, args.model == "energy", args.window, payloads, args.essential_below)
 
 
 def check_way(args: argparse.Namespace) -> None:
@@ -27,6 +28,8 @@ def check_way(args: argparse.Namespace) -> None:
             f"--payload-log: got it with --method {args.method}, which knows no loads; expected "
             "--method weighted, ordinary, robust, ridge or tls"
         )
+    if args.method == GAIN_METHOD and args.essential_below is not None:
+        raise DataError(f"--essential-below: got it with --method {GAIN_METHOD}; leave it out")
     if args.model != "energy" and args.window is not None:
         raise DataError("--window: only windows of --model energy have a length; add that option")
     if args.model == "energy" and args.method not in OF_WINDOWS:

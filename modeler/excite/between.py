@@ -1,7 +1,6 @@
 """The motion that tells two effects apart."""
 
 import itertools
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,8 +13,7 @@ from modeler.effects import Acts, Effect
 from modeler.excite.bounds import Bounds
 from modeler.excite.evolution import evolve
 from modeler.excite.result import Exciting
-from modeler.excite.search import RANDOM, Wish, finished, kept_between, task_of
-from modeler.excite.starts import random_motion, rest_place
+from modeler.excite.search import Deadline, Wish, drawn_motions, finished, task_of
 from modeler.excite.task import Task
 from modeler.hypotheses.candidates import Candidate, JointScale, over_grid
 from modeler.hypotheses.columns import all_columns
@@ -26,7 +24,6 @@ _GENERATIONS = 150
 _FIRST = 0.15  # of the half ranges: size of the first steps
 _ENTRIES = 5  # shapes of an effect that are looked at, spread over its grid
 _NOTHING = 1e-14  # share of a column that is rounding
-_SHRINK = 0.9
 
 Whose = tuple[Effect, str]
 """An effect on a joint."""
@@ -55,7 +52,7 @@ class Apart:
         names: of the effects.
         left: of the torque of each, the share (of its norm) that neither the model nor the other
             effect can explain; for the shapes of the other that explain most.
-        random: the same of the best of 50 random motions.
+        random: the same of the best of the random motions.
         gain: by how much the unexplained torque itself is larger than on that motion.
     """
 
@@ -68,7 +65,7 @@ class Apart:
         """Lines of text."""
         return [
             f"{name}: {here:.1%} of its torque is explained by neither the model nor {other}; best "
-            f"of 50 random motions {there:.1%}; that part is {gain:.3g} times as large"
+            f"of the random motions {there:.1%}; that part is {gain:.3g} times as large"
             for name, other, here, there, gain in zip(
                 self.names, self.names[::-1], self.left, self.random, self.gain, strict=True
             )
@@ -98,19 +95,19 @@ def tell_apart(
     Raises:
         DataError: an effect that no columns on a joint describe, or what `excite` refuses.
     """
+    on = Deadline(wish.time_limit)
     task = task_of(compiled, bounds, wish, question.sigma, None, question.beta)
-    begun = time.monotonic()
     rng = np.random.default_rng([wish.seed, 7])
-    drawn = [random_motion(task, rng) for _ in range(RANDOM)]
-    columns = _Pair(task, question, drawn, wish.laps)
-    best = min(drawn, key=columns.value)
+    drawn = drawn_motions(task, rng, on)
+    columns = _Pair(task, question, [x for x, _ in drawn], wish.laps, on)
+    best = min(on.through(x for x, _ in drawn), key=columns.value)
 
-    def on(generation: int = 0) -> bool:
+    def proceed(generation: int) -> bool:
         progress(generation / _GENERATIONS)
-        return wish.time_limit is None or time.monotonic() - begun < wish.time_limit
+        return on()
 
-    task, x = kept_between(task, _evolved(columns, best, rng, on), on, descent=False)
-    motion = finished(task, x, wish, drawn, not on(_GENERATIONS), begun)
+    motion = finished(task, _evolved(columns, best, rng, proceed), wish, drawn, on)
+    x = motion.x
     (here, size), (there, before) = columns.left(x), columns.left(best)
     names = tuple(f"{effect.id}@{joint}" for effect, joint in question.effects)
     gain = tuple(a / b if b > 0.0 else float("inf") for a, b in zip(size, before, strict=True))
@@ -122,17 +119,10 @@ def _evolved(
 ) -> np.ndarray:
     """The best motion that evolution finds from x; those beyond limits are drawn back in."""
     task = columns.task
-    unit = task.bounds.half[:, None] * np.ones(x.shape[1])
-    still = np.zeros_like(x)
-    still[:, 0] = rest_place(task)
+    unit = task.bounds.half[:, None]
 
     def pulled_in(flat: np.ndarray) -> np.ndarray:
-        wanted = flat.reshape(x.shape) * unit
-        reach = task.reach(still, wanted - still)
-        inside = still + min(1.0, 0.999 * reach) * (wanted - still)
-        while not task.keeps(inside):
-            inside = still + _SHRINK * (inside - still)
-        return inside
+        return task.drawn_in(flat.reshape(x.shape) * unit)
 
     found = evolve(
         lambda flat: columns.value(pulled_in(flat)),
@@ -144,13 +134,15 @@ def _evolved(
 class _Pair:
     """The columns of two effects along motions."""
 
-    def __init__(self, task: Task, question: Question, drawn: list[np.ndarray], laps: int) -> None:
+    def __init__(
+        self, task: Task, question: Question, drawn: list[np.ndarray], laps: int, on: Deadline
+    ) -> None:
         self.task, self._laps = task, laps
         self._reference = Reference(task.columns.compiled, question.beta, 0.0, {})
-        loads = [self._signals(x).load for x in drawn[:5]]
+        loads = [self._signals(x).load for x in on.through(drawn[:5])]
         load = np.sqrt(np.mean(np.concatenate(loads) ** 2, axis=0))
         self._grids = [self._grid(whose, load) for whose in question.effects]
-        sizes = [self._blocks(x) for x in drawn]
+        sizes = [self._blocks(x) for x in on.through(drawn)]
         self._usual = [
             np.mean([[np.sum(block**2) for block in blocks[k]] for blocks in sizes], axis=0)
             for k in range(2)

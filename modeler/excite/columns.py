@@ -9,7 +9,9 @@ from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
 from modeler.observation.bristle import bristle
 
-_NEAR_REST = 1e-7  # of the top speed
+NEAR_REST = 1e-7
+"""Of the top speed: so slow that dry friction alone is left of what speeds do."""
+
 _STEP = 1e-5  # of positions, in half ranges; of speeds, in top speeds
 _STATES = 3
 _ALIKE = 1e-6
@@ -112,7 +114,7 @@ def columns_of(
         qd = 0.5 * speed * rng.uniform(0.2, 1.0, (_STATES, joints))
         sides = []
         for sign in (1.0, -1.0):
-            qd[:, j] = sign * _NEAR_REST * speed[j]
+            qd[:, j] = sign * NEAR_REST * speed[j]
             sides.append(compiled.base_regressor(near, qd, np.zeros_like(qd), read))
         jump = 0.5 * (sides[0] - sides[1])
         # A jump that hangs on the posture, as of joints without motor, is left as it is.

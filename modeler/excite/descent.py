@@ -36,7 +36,7 @@ def descend(
         x: inside of the set.
         steps: at most so many.
         settled: it ends where ten steps together bring less than this.
-        proceed: asked before each step; False ends it.
+        proceed: asked before each value; False ends it.
     """
     value = landscape.value(x)
     slope = landscape.slope(x)
@@ -45,7 +45,7 @@ def descend(
         if not proceed():
             break
         way = -curve @ slope
-        found = _lower(landscape, x, value, way, float(way @ slope))
+        found = _lower(landscape, x, value, way, float(way @ slope), proceed)
         if found is None:
             if fresh:
                 break
@@ -66,11 +66,12 @@ def _steepest(slope: np.ndarray) -> np.ndarray:
 
 
 def _lower(
-    landscape: Landscape, x: np.ndarray, value: float, way: np.ndarray, fall: float
-) -> tuple[np.ndarray, float] | None:
+    landscape: Landscape, x: np.ndarray, value: float, way: np.ndarray, fall: float,
+    proceed: Callable[[], bool],
+) -> tuple[np.ndarray, float] | None:  # fmt: skip
     """A point along `way` that is lower than promised in part, and its value."""
     share = min(1.0, _NEAR * landscape.reach(x, way))
-    while fall < 0.0 and share > _SHORTEST:
+    while fall < 0.0 and share > _SHORTEST and proceed():
         ahead = x + share * way
         new = landscape.value(ahead)
         if new <= value + _ENOUGH * share * fall:

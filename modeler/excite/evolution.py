@@ -23,7 +23,7 @@ def evolve(
         size: standard deviation of the first points.
         generations: at most so many.
         rng: draws the points.
-        proceed: asked before each generation, with its number; False ends it.
+        proceed: asked before each point, with the number of its generation; False ends it.
     """
     d = len(x)
     count = 8 + int(3 * np.log(d))
@@ -39,15 +39,17 @@ def evolve(
     covariance, path, size_path = np.eye(d), np.zeros(d), np.zeros(d)
     best, lowest = x, value(x)
     for generation in range(generations):
-        if not proceed(generation):
-            break
         spread, turn = np.linalg.eigh(covariance)
         spread = np.sqrt(np.maximum(spread, 1e-20))
         steps = (rng.normal(size=(count, d)) * spread) @ turn.T
-        values = np.array([value(x + size * step) for step in steps])
+        values = np.full(count, np.inf)
+        for k, step in enumerate(steps):
+            if not proceed(generation):
+                return best
+            values[k] = value(x + size * step)
+            if values[k] < lowest:
+                best, lowest = x + size * step, values[k]
         order = np.argsort(values, kind="stable")
-        if values[order[0]] < lowest:
-            best, lowest = x + size * steps[order[0]], values[order[0]]
         chosen = steps[order[:parents]]
         mean = share @ chosen
         x = x + size * mean

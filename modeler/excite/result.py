@@ -65,7 +65,8 @@ class Exciting(Presented):
         series: of the motion.
         x: (J, 2 K - 1) its coefficients.
         quality: of it.
-        random: best and median condition number of as large random motions.
+        drawn: random motions that it is compared with, as large as limits allow.
+        random: best and median condition number of them.
         random_log_det: the best of them.
         used: of the limits.
         columns: names of the parameters that count.
@@ -80,6 +81,7 @@ class Exciting(Presented):
     series: Series
     x: np.ndarray
     quality: Quality
+    drawn: int
     random: tuple[float, float]
     random_log_det: float
     used: Used
@@ -107,9 +109,9 @@ class Exciting(Presented):
         best, median = self.random
         lines = [
             f"condition number {self.quality.condition:.4g} with columns of length one "
-            f"({self.quality.condition_raw:.4g} as they are); best of 50 random motions "
-            f"{best:.4g}, median {median:.4g}",
-            f"log det of the information {self.quality.log_det:.5g}, best of 50 random "
+            f"({self.quality.condition_raw:.4g} as they are); best of {self.drawn} random "
+            f"motions {best:.4g}, median {median:.4g}",
+            f"log det of the information {self.quality.log_det:.5g}, best of {self.drawn} random "
             f"{self.random_log_det:.5g}",
             f"{'joint':<6}{'positions':>20}{'of limits':>20}{'speed':>14}{'acceleration':>16}"
             f"{'torque':>16}",
@@ -160,7 +162,7 @@ class Exciting(Presented):
             "condition_scaled": self.quality.condition,
             "log_det": self.quality.log_det,
             "random": {
-                "motions": 50,
+                "motions": self.drawn,
                 "condition_scaled_best": self.random[0],
                 "condition_scaled_median": self.random[1],
                 "log_det_best": self.random_log_det,

@@ -3,13 +3,14 @@
 import dataclasses
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from modeler.compiled import CompiledModel
-from modeler.core.errors import DataError, LoopError
+from modeler.core.errors import DataError
 from modeler.excite.bounds import Bounds, check_bounds
 from modeler.excite.columns import columns_of
 from modeler.excite.criterion import CRITERIA, condition, log_det
@@ -17,19 +18,22 @@ from modeler.excite.descent import Landscape, descend
 from modeler.excite.posture import posture_of
 from modeler.excite.result import Exciting, Quality, Used
 from modeler.excite.series import DENSE, Series, series
-from modeler.excite.starts import random_motion, rest_place
+from modeler.excite.starts import random_motion
 from modeler.excite.task import Task, Walled
 
 RANDOM = 50
 """Random motions that the result is compared with; the best of them are improved."""
 
-_STAGES = ((0.1, 0.1, 80), (0.01, 0.03, 120), (0.001, 0.01, 80))
+_STAGES = ((0.1, 0.1, 80), (0.01, 0.03, 120), (0.001, 0.01, 300))
 """Height of the barrier, softness of dry friction, steps at most."""
 
-_SETTLED = 2e-3  # of the criterion, in ten steps
+_SETTLED = 5e-4  # of the criterion, in ten steps
 _DENSE_LOOPS = 16  # samples per period of the highest harmonic, where loops are closed for each
 _FINER = 10  # times as many samples for the last check
-_CORRECTIONS = 6
+_NEARLY = 0.999  # of the limits, at these samples
+_INWARD = 20  # steps of a tenth towards rest, where smooth dry friction breaks a limit of torque
+
+Item = TypeVar("Item")
 
 
 @dataclass(frozen=True)
@@ -43,13 +47,14 @@ class Wish:
         starts: of the search.
         seed: another one gives another motion.
         time_limit: s, after which the best so far is taken; None: it ends by itself.
+            What is begun is ended: one random motion at least, one slope, the last check.
         laps: times that the motion is driven, one after the other.
     """
 
     duration: float = 10.0
     harmonics: int = 6
     criterion: str = "both"
-    starts: int = 3
+    starts: int = 6
     seed: int = 0
     time_limit: float | None = None
     laps: int = 1
@@ -82,30 +87,56 @@ def excite(
     Raises:
         DataError: limits that no motion keeps to, a bad wish, too few rows.
     """
+    on = Deadline(wish.time_limit)
     task = task_of(compiled, bounds, wish, sigma, kept, beta)
-    begun = time.monotonic()
+    drawn = drawn_motions(task, np.random.default_rng([wish.seed, 7]), on)
+    found = _improved_best(task, wish.starts, [x for x, _ in drawn], on, progress)
+    return finished(task, min(found, key=lambda y: value_of(task, y)), wish, drawn, on)
 
-    def on() -> bool:
-        return wish.time_limit is None or time.monotonic() - begun < wish.time_limit
 
-    rng = np.random.default_rng([wish.seed, 7])
-    drawn = [random_motion(task, rng) for _ in range(RANDOM)]
-    found = _improved_best(task, wish.starts, drawn, on, progress)
-    x = min(found, key=lambda y: value_of(task, y))
-    task, x = kept_between(task, x, on)
-    return finished(task, x, wish, drawn, not on(), begun)
+class Deadline:
+    """True as long as there is time."""
+
+    def __init__(self, limit: float | None) -> None:
+        self._begun, self._limit = time.monotonic(), math.inf if limit is None else limit
+
+    def __call__(self) -> bool:
+        """Is there?"""
+        return self.spent() < self._limit
+
+    def spent(self) -> float:
+        """Seconds since it was made."""
+        return time.monotonic() - self._begun
+
+    def through(self, items: Iterable[Item]) -> Iterator[Item]:
+        """The first of the items, and the others as long as there is time."""
+        for k, item in enumerate(items):
+            if k and not self():
+                return
+            yield item
+
+
+def drawn_motions(
+    task: Task, rng: np.random.Generator, on: Deadline
+) -> list[tuple[np.ndarray, Quality]]:
+    """Random motions, 50 where there is time, and how good each is."""
+    drawn = []
+    for _ in on.through(range(RANDOM)):
+        x = random_motion(task, rng)
+        drawn.append((x, quality(task, x)))
+    return drawn
 
 
 def _improved_best(
     task: Task,
     starts: int,
     drawn: list[np.ndarray],
-    on: Callable[[], bool],
+    on: Deadline,
     progress: Callable[[float], None],
 ) -> list[np.ndarray]:
     """The best of the motions drawn, each after all stages of descent."""
-    values = [value_of(task, x) for x in drawn]
-    best = sorted(range(len(drawn)), key=lambda k: values[k])[:starts]
+    values = [value_of(task, x) for x in on.through(drawn)]
+    best = sorted(range(len(values)), key=lambda k: values[k])[:starts]
     found, parts = [], len(best) * len(_STAGES)
     for n, k in enumerate(best):
         x = drawn[k]
@@ -117,19 +148,24 @@ def _improved_best(
 
 
 def finished(
-    task: Task, x: np.ndarray, wish: Wish, drawn: list[np.ndarray], early: bool, begun: float
+    task: Task, x: np.ndarray, wish: Wish, drawn: list[tuple[np.ndarray, Quality]], on: Deadline
 ) -> Exciting:
-    """The result of a search, beside the random motions that it began with."""
+    """The result of a search, beside the random motions that it began with.
+
+    Ranges, speeds and accelerations hold between the samples by `Series.room`; torques, boxes and
+    loops are looked at ten times as densely, and the motion is drawn in until they hold there.
+    """
+    early = not on()
+    x = task.drawn_in(x, finer(task))
     spec = task.columns.compiled.spec
-    measured = [quality(task, y) for y in drawn]
-    conditions = sorted(q.condition for q in measured)
+    conditions = sorted(q.condition for _, q in drawn)
     return Exciting(
         robot=spec.robot, bounds=task.bounds, wish=dataclasses.asdict(wish),
         series=series(wish.duration, wish.harmonics), x=x, quality=quality(task, x),
-        random=(conditions[0], conditions[len(drawn) // 2]),
-        random_log_det=max(q.log_det for q in measured), used=used(task, x),
+        drawn=len(drawn), random=(conditions[0], conditions[len(drawn) // 2]),
+        random_log_det=max(q.log_det for _, q in drawn), used=used(task, x),
         columns=tuple(spec.base[k].name for k in task.kept), beta=task.beta,
-        ended_early=early, seconds=time.monotonic() - begun,
+        ended_early=early, seconds=on.spent(),
     )  # fmt: skip
 
 
@@ -180,8 +216,8 @@ def improved(
 ) -> np.ndarray:
     """The motion after one stage of descent."""
     height, soft, steps = stage
-    task = dataclasses.replace(task, columns=dataclasses.replace(task.columns, soft=soft))
-    walled = Walled(task, height)
+    softer = dataclasses.replace(task, columns=dataclasses.replace(task.columns, soft=soft))
+    walled = Walled(softer, height)
     # Variables in shares of what each joint may do: all are then about as large.
     unit = task.bounds.half[:, None] * np.ones(x.shape[1])
 
@@ -193,10 +229,14 @@ def improved(
         slope=lambda flat: walled.slope(shaped(flat)) * unit.ravel(),
         reach=lambda flat, way: task.reach(shaped(flat), shaped(way)),
     )
-    start = (x / unit).ravel()
-    if not np.isfinite(landscape.value(start)):
-        return x
-    return shaped(descend(landscape, start, steps, _SETTLED, on))
+    for _ in range(_INWARD):
+        start = (x / unit).ravel()
+        if not on():
+            break
+        if np.isfinite(landscape.value(start)):
+            return shaped(descend(landscape, start, steps, _SETTLED, on))
+        x = task.still + 0.9 * (x - task.still)
+    return x
 
 
 def value_of(task: Task, x: np.ndarray) -> float:
@@ -219,53 +259,12 @@ def quality(task: Task, x: np.ndarray) -> Quality:
 
 
 def finer(task: Task) -> Task:
-    """The same with ten times the samples."""
+    """The same with ten times the samples, and nearly all of the limits."""
     old: Series = task.series
     count = _FINER * len(old.time)
     times = np.arange(count) * (old.duration / count)
-    return dataclasses.replace(task, series=series(old.duration, old.harmonics, times))
-
-
-def kept_between(
-    task: Task, x: np.ndarray, on: Callable[[], bool], descent: bool = True
-) -> tuple[Task, np.ndarray]:
-    """The motion, corrected until limits hold between the samples too.
-
-    Ranges, speeds and accelerations hold there by `Series.room`; torques, boxes and loops are
-    looked at ten times as densely, and are given less room where they are broken.
-
-    Raises:
-        DataError: they stay broken.
-    """
-    still = np.zeros_like(x)
-    for _ in range(_CORRECTIONS):
-        peak = _peak(finer(task), x)
-        if peak < 1.0:
-            return task, x
-        task = dataclasses.replace(task, share=task.share * (0.99 / min(peak, 1.25)))
-        still[:, 0] = rest_place(task)
-        while not task.keeps(x):
-            x = still + 0.97 * (x - still)
-        if descent:
-            x = improved(task, x, (*_STAGES[-1][:2], 20), on)
-    raise DataError(
-        f"{task.columns.compiled.spec.robot}: limits of torques, boxes or loops stay broken "
-        "between samples; expected fewer --harmonics or wider limits"
-    )
-
-
-def _peak(task: Task, x: np.ndarray) -> float:
-    """The largest share of a limit of torque, box or loop."""
-    motion = task.series.motion(x)
-    try:
-        shares = [task.posture.shares(motion[0])]
-        if task.beta is not None:
-            s = task.columns.read(motion[0], task.series.time)
-            loads = task.torques(task.columns.exact(*motion, s))
-            shares += [] if loads is None else [loads]
-    except LoopError:
-        return np.inf
-    return max(float(np.abs(part).max(initial=0.0)) for part in shares)
+    finely = series(old.duration, old.harmonics, times)
+    return dataclasses.replace(task, series=finely, share=_NEARLY)
 
 
 def used(task: Task, x: np.ndarray) -> Used:

@@ -2,11 +2,8 @@
 
 import numpy as np
 
-from modeler.core.errors import DataError
 from modeler.excite.task import Task
 
-_TRIES = 40
-_SHRINK = 0.8
 _FULL = 0.95  # of the limits
 
 
@@ -17,7 +14,7 @@ def random_motion(task: Task, rng: np.random.Generator) -> np.ndarray:
     random place; where a torque, a box or a loop is in the way, all shrink towards rest.
 
     Raises:
-        DataError: no motion at all keeps to the limits.
+        DataError: no motion keeps to the limits, however small.
     """
     joints, wide = len(task.bounds.joints), task.series.values.shape[1]
     x = np.zeros((joints, wide))
@@ -32,44 +29,4 @@ def random_motion(task: Task, rng: np.random.Generator) -> np.ndarray:
         q = s.values[:, 1:] @ x[j, 1:]
         least, most = _FULL * s.room * b.half[j] * np.array([-1, 1]) + b.middle[j]
         x[j, 0] = rng.uniform(least - q.min(), max(most - q.max(), least - q.min()))
-    still = np.zeros_like(x)
-    still[:, 0] = rest_place(task)
-    for _ in range(_TRIES):
-        if task.keeps(x):
-            return x
-        x = still + _SHRINK * (x - still)
-    raise DataError(
-        f"{task.columns.compiled.spec.robot}: no motion keeps to the limits, not even a small one "
-        f"around {_told(task, still[:, 0])}; expected wider limits of torques, boxes or joints"
-    )
-
-
-def rest_place(task: Task) -> np.ndarray:
-    """(J,) where the robot may stand: home, else the middle of the ranges, else where it is found.
-
-    Raises:
-        DataError: nowhere.
-    """
-    b = task.bounds
-    first = (
-        b.middle
-        if b.home is None
-        else np.clip(b.home, b.middle - 0.9 * b.half, b.middle + 0.9 * b.half)
-    )
-    rng = np.random.default_rng(0)
-    wide = task.series.values.shape[1]
-    for k in range(400):
-        place = first if k == 0 else b.middle + 0.9 * b.half * rng.uniform(-1, 1, len(first))
-        x = np.zeros((len(place), wide))
-        x[:, 0] = place
-        if task.keeps(x):
-            return place
-    raise DataError(
-        f"{task.columns.compiled.spec.robot}: no posture of 400 keeps to the limits of torques and "
-        f"boxes at rest, nor does {_told(task, first)}; expected wider ones"
-    )
-
-
-def _told(task: Task, place: np.ndarray) -> str:
-    pairs = zip(task.bounds.joints, place, strict=True)
-    return ", ".join(f"q{joint} = {value:.3g}" for joint, value in pairs)
+    return task.drawn_in(x)

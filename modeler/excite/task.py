@@ -1,16 +1,22 @@
 """One search for a motion: its variables, what it is to make small, the walls it stays within."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from modeler.core.errors import LoopError
+from modeler.core.errors import DataError, LoopError
 from modeler.excite.bounds import Bounds
-from modeler.excite.columns import Columns
+from modeler.excite.columns import NEAR_REST, Columns
 from modeler.excite.criterion import Criterion
+from modeler.excite.evolution import evolve
 from modeler.excite.posture import Posture
 from modeler.excite.series import Series
+
+_POSTURES = 200  # drawn, to rest in
+_GENERATIONS = 40  # of evolution from the best of them
+_MIDST = 0.9  # of the ranges: how far a robot may rest from their middle
+_HALVINGS = 5  # of a motion's size, to come near the largest
 
 Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
 """(n, J) q, qd and qdd."""
@@ -64,11 +70,16 @@ class Task:
         phi = (self.columns.smooth if smooth else self.columns.exact)(*motion, s)
         return (phi[:, :, self.kept] * self.weights[:, None]).reshape(-1, len(self.kept))
 
-    def torques(self, phi: np.ndarray) -> np.ndarray | None:
-        """(n, J) as shares of their limits: |.| < share; None where none is limited."""
-        if self.beta is None or not np.isfinite(self.bounds.torque).any():
-            return None
-        return (phi @ self.beta) / self.bounds.torque
+    @property
+    def limited(self) -> bool:
+        """True if some torque is."""
+        return self.beta is not None and bool(np.isfinite(self.bounds.torque).any())
+
+    def torques(self, phi: np.ndarray) -> np.ndarray:
+        """(n, J) as shares of their limits: |.| < share; (n, 0) where none is limited."""
+        if self.beta is None or not self.limited:
+            return np.zeros((len(phi), 0))
+        return phi @ self.beta / self.bounds.torque
 
     def keeps(self, x: np.ndarray) -> bool:
         """True if no limit is broken at the samples."""
@@ -76,15 +87,86 @@ class Task:
         if np.abs(self.kinematic(x)).max() >= self.series.room:
             return False
         try:
-            if np.abs(self.posture.shares(motion[0])).max(initial=0.0) >= self.share:
-                return False
-            if self.beta is None:
-                return True
-            s = self.columns.read(motion[0], self.series.time)
-            loads = self.torques(self.columns.exact(*motion, s))
+            parts = [self.posture.shares(motion[0])]
+            if self.limited:
+                s = self.columns.read(motion[0], self.series.time)
+                parts.append(self.torques(self.columns.exact(*motion, s)))
         except LoopError:
             return False
-        return loads is None or bool(np.abs(loads).max() < self.share)
+        return all(np.abs(part).max(initial=0.0) < self.share for part in parts)
+
+    @cached_property
+    def still(self) -> np.ndarray:
+        """(J, 2 K - 1) the motion that rests where limits leave most room for small ones.
+
+        Raises:
+            DataError: they leave none anywhere.
+        """
+        b = self.bounds
+        middle = b.middle if b.home is None else b.home
+        place = np.clip((middle - b.middle) / b.half, -_MIDST, _MIDST)
+        if self._load(place) > 0.0:
+            rng = np.random.default_rng(0)
+            drawn = rng.uniform(-_MIDST, _MIDST, (_POSTURES, len(place)))
+            place = min((place, *drawn), key=self._load)
+            place = evolve(self._load, place, 0.1, _GENERATIONS, rng, lambda generation: True)
+        x = np.zeros((len(place), self.series.values.shape[1]))
+        x[:, 0] = b.middle + b.half * place
+        if not self._load(place) < self.share:
+            told = ", ".join(f"q{j} = {q:.3g}" for j, q in zip(b.joints, x[:, 0], strict=True))
+            raise DataError(
+                f"{self.columns.compiled.spec.robot}: no posture was found in which limits of "
+                f"torques and boxes leave room to move, not even slowly; {told} takes "
+                f"{self._load(place):.3g} times what they allow; expected wider ones"
+            )
+        return x
+
+    def _load(self, place: np.ndarray) -> float:
+        """The largest share of a limit that ever smaller motions around a posture come to.
+
+        What remains of their torques is gravity, and dry friction with all signs: that does not
+        shrink with the speed.
+
+        Args:
+            place: (J,) the posture, in half ranges from their middle.
+        """
+        b, J = self.bounds, len(place)
+        if np.abs(place).max() > _MIDST:
+            return np.inf
+        q = np.tile(b.middle + b.half * place, (2 * J + 1, 1))
+        qd = np.vstack([np.zeros(J), np.eye(J), -np.eye(J)]) * NEAR_REST * b.speed
+        # Effects of time grow one way.
+        ends = (0.0, self.series.duration) if self.columns.compiled.spec.signals else (0.0,)
+        try:
+            share = float(np.abs(self.posture.shares(q[:1])).max(initial=0.0))
+            read = [self.columns.read(q, np.full(len(q), time)) for time in ends]
+            loads = [self.torques(self.columns.exact(q, qd, 0.0 * q, s)) for s in read]
+        except LoopError:
+            return np.inf
+        rest = np.hstack(loads)
+        turned = (rest[1:] - rest[0]).reshape(2, J, -1)
+        most = rest[0] + turned.max(axis=0).clip(min=0.0).sum(axis=0)
+        least = rest[0] + turned.min(axis=0).clip(max=0.0).sum(axis=0)
+        return float(np.abs([most, least]).max(initial=share))
+
+    def drawn_in(self, x: np.ndarray, judge: "Task | None" = None) -> np.ndarray:
+        """A motion; of one beyond limits, the largest found between `still` and it that keeps them.
+
+        It ends, since `still` leaves room for every motion that is small enough.
+
+        Args:
+            x: the motion.
+            judge: the same task at other samples, which says whether limits are kept.
+        """
+        keeps, way = (judge or self).keeps, x - self.still
+        whole = size = min(1.0, 0.999 * self.reach(self.still, way))
+        while not keeps(self.still + size * way):
+            size *= 0.5
+        more = size
+        for _ in range(_HALVINGS if size < whole else 0):
+            more *= 0.5
+            size += more * keeps(self.still + (size + more) * way)
+        return self.still + size * way
 
 
 @dataclass(eq=False)
@@ -116,8 +198,7 @@ class Walled:
             phi = task.columns.smooth(*motion, s)
         except LoopError:
             return np.inf
-        torques = task.torques(phi)
-        loads = np.zeros((1, 0)) if torques is None else torques / task.share
+        loads = task.torques(phi) / task.share
         if not np.abs(loads).max(initial=0.0) < 1.0:
             return np.inf
         W = (phi[:, :, task.kept] * task.weights[:, None]).reshape(-1, len(task.kept))
@@ -149,6 +230,3 @@ class Walled:
 
     def _push(self, shares: np.ndarray, n: int) -> np.ndarray:
         return self.height / n * 2.0 * shares / (1.0 - shares**2)
-
-
-Progress = Callable[[float], None]

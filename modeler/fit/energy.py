@@ -65,6 +65,7 @@ def identify_energy(
     observation: Observation,
     window: float | None = None,
     method: Method = "weighted",
+    below: float | None = None,
 ) -> EnergyFit:
     """The base parameters from energies over windows, and the torque model beside them.
 
@@ -73,6 +74,7 @@ def identify_energy(
         observation: of the logs.
         window: s; None: as `energy_rows`.
         method: "weighted" by the modelled variance of each window, or "ordinary" (eq. 18).
+        below: as for `identify`.
 
     Raises:
         DataError: a motor without torque, few windows, no such method, or as `energy_rows`.
@@ -81,7 +83,7 @@ def identify_energy(
     rows = energy_rows(model, observation, window)
     _check_enough(observation, rows)
     found = _estimate(observation, rows, method)
-    essential = _essential(observation, rows, found)
+    essential = _essential(observation, rows, found, below)
     result = FitResult(
         robot=observation.robot,
         method=method,
@@ -130,7 +132,9 @@ def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Une
     )
 
 
-def _essential(observation: Observation, rows: EnergyRows, found: Unequal) -> Essential:
+def _essential(
+    observation: Observation, rows: EnergyRows, found: Unequal, below: float | None
+) -> Essential:
     """By the F-test of the windows; the two errors are of the torques."""
     names, weight = observation.names, 1.0 / found.deviation
     zeros = np.zeros(len(rows.y), dtype=int)
@@ -140,7 +144,7 @@ def _essential(observation: Observation, rows: EnergyRows, found: Unequal) -> Es
         found.beta, found.covariance, np.ones(1), found.rank, 0, True,
         found.condition_number, found.condition_scaled, degrees,
     )  # fmt: skip
-    essential = essential_parameters(data, full, "ordinary")
+    essential = essential_parameters(data, full, "ordinary", below)
     at = [names.index(name) for name in essential.names]
     W = rows.W[:, at]
     reduced = dataclasses.replace(

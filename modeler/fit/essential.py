@@ -7,6 +7,7 @@ import numpy as np
 from scipy.special import fdtri
 
 from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.estimate.compressed import Compressed, triangle
 from modeler.estimate.least_squares import Estimate, least_squares, solve_by_qr
 
@@ -24,7 +25,7 @@ class Essential:
         error_before: relative error ||y - W beta|| / ||y|| with all parameters.
         error_after: with the essential ones.
         ratio: F statistic of all dropped parameters together.
-        limit: the F quantile that it stays under.
+        limit: the F quantile, which rules unless sigmas do.
         reduced: the estimate of the essential parameters alone, columns as `names`.
     """
 
@@ -48,22 +49,36 @@ class Essential:
         )
 
 
-def essential_parameters(data: Compressed, full: Estimate, method: Method) -> Essential:
+def essential_parameters(
+    data: Compressed, full: Estimate, method: Method, below: float | None = None
+) -> Essential:
     """The essential parameters.
 
     The parameter of the largest relative standard deviation leaves, one after the other, as long
     as F = ((S_r - S) / k) / (S / (rows - c)) stays below the 95 % quantile of F(k, rows - c): S
     and S_r are the weighted sums of squares of the full model and without k parameters, with the
-    weights of the full model (Gautier and Khalil 1991; Janot, Vandanjon and Gautier 2014). An
-    estimator that is the least squares of equations of its own is reduced in these.
+    weights of the full model (Gautier and Khalil 1991; Janot, Vandanjon and Gautier 2014). Then
+    each of those left out comes back for another, as long as fewer parameters, or as many with a
+    smaller S_r, are found so. An estimator that is the least squares of equations of its own is
+    reduced in these.
 
     Args:
         data: compressed rows.
         full: the estimate with all parameters.
         method: how the reduced model is estimated at the end.
+        below: percent; given, a parameter leaves where its relative standard deviation, in the
+            model that it leaves, is not below this, whatever F says (Guegan, Khalil and Lemoine
+            2003: 15).
+
+    Raises:
+        DataError: `below` is no positive number.
     """
+    if below is not None and not 0.0 < below < np.inf:
+        raise DataError(
+            f"essential parameters: got sigmas below {below:g} %; expected a number above 0, as 15"
+        )
     whole = data.whole(full.sigma) if full.whole is None else full.whole
-    kept, dropped, ratio, limit = _eliminate(whole, full)
+    kept, dropped, ratio, limit = _eliminate(triangle(whole), full, below)
     left = tuple(data.names[i] for i in dropped)
     aside = [tangle.name for tangle in full.rank.aside]
     own = data.without([*left, *aside])
@@ -91,24 +106,40 @@ def relative_error(data: Compressed, beta: np.ndarray) -> float:
     return float(np.linalg.norm(data.residual_norms(beta)) / total) if total > 0.0 else np.nan
 
 
-def _eliminate(whole: np.ndarray, full: Estimate) -> tuple[list[int], list[int], float, float]:
+def _eliminate(
+    whole: np.ndarray, full: Estimate, below: float | None
+) -> tuple[list[int], list[int], float, float]:
     """Columns kept, columns dropped in the order of leaving, their F statistic and its limit."""
-    kept = list(full.rank.kept)
-    dropped: list[int] = []
-    reference = _squares(whole, kept)
+    every = list(full.rank.kept)
+    reference = _squares(whole, every)
     noise = max(reference / full.degrees, np.finfo(float).tiny)
-    ratio, limit = 0.0, float("inf")
-    while len(kept) > 1:
-        weakest = _weakest(whole, kept)
-        rest = [i for i in kept if i != weakest]
-        count = len(dropped) + 1
-        trial = (_squares(whole, rest) - reference) / count / noise
-        quantile = float(fdtri(count, full.degrees, 1.0 - LEVEL))
-        if not trial < quantile:
-            break
-        kept, ratio, limit = rest, trial, quantile
-        dropped.append(weakest)
-    return kept, dropped, ratio, limit
+
+    def tested(kept: list[int]) -> tuple[float, float]:
+        count = len(every) - len(kept)
+        ratio = (_squares(whole, kept) - reference) / max(count, 1) / noise
+        return ratio, float(fdtri(count, full.degrees, 1.0 - LEVEL)) if count else np.inf
+
+    def fewer(kept: list[int], dropped: list[int], stays: int = -1) -> tuple[list[int], list[int]]:
+        """Without the weakest, one after the other; the first of them is not `stays`."""
+        while len(kept) > 1:
+            weakest, share = _weakest(whole, kept, stays)
+            rest = [i for i in kept if i != weakest]
+            ratio, limit = tested(rest)
+            if not (ratio < limit if below is None else 100.0 * np.sqrt(noise) * share >= below):
+                break
+            kept, dropped, stays = rest, [*dropped, weakest], -1
+        return kept, dropped
+
+    found, best = None, fewer(every, [])
+    while found is not best:
+        found = best
+        kept, dropped = found
+        back = [
+            fewer(sorted([*kept, i]), [other for other in dropped if other != i], i)
+            for i in dropped
+        ]
+        best = min([found, *back], key=lambda sets: (len(sets[0]), _squares(whole, sets[0])))
+    return *found, *tested(found[0])
 
 
 def _squares(whole: np.ndarray, kept: list[int]) -> float:
@@ -116,9 +147,13 @@ def _squares(whole: np.ndarray, kept: list[int]) -> float:
     return float(np.sum(reduced[len(kept) :, -1] ** 2))
 
 
-def _weakest(whole: np.ndarray, kept: list[int]) -> int:
-    """Column with the largest sigma / |beta|; a value of exactly 0 is the weakest of all."""
+def _weakest(whole: np.ndarray, kept: list[int], stays: int) -> tuple[int, float]:
+    """Column, but `stays`, with the largest sigma / |beta|, in units of the noise, and that.
+
+    A value of exactly 0 is the weakest of all.
+    """
     beta, root = solve_by_qr(whole[:, kept], whole[:, -1])
     sigma = np.linalg.norm(root, axis=1)
     with np.errstate(divide="ignore"):
-        return kept[int(np.argmax(sigma / np.abs(beta)))]
+        share = np.where(np.array(kept) == stays, 0.0, sigma / np.abs(beta))
+    return kept[int(np.argmax(share))], float(share.max())

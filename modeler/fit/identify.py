@@ -61,7 +61,10 @@ class Equations:
 
 
 def identify(
-    observation: Observation, method: Method = "weighted", model: "CompiledModel | None" = None
+    observation: Observation,
+    method: Method = "weighted",
+    model: "CompiledModel | None" = None,
+    below: float | None = None,
 ) -> FitResult:
     """The fit of the base parameters to an observation.
 
@@ -71,12 +74,13 @@ def identify(
         observation: of one or several logs.
         method: the estimator, see `estimate.methods`.
         model: the compiled robot, for estimators that simulate it or know its nominal values.
+        below: percent, of the rule by sigmas for what is essential; see `essential_parameters`.
 
     Raises:
         DataError: fewer rows than parameters, no torque at all, no such method, or one that these
             logs or this robot give nothing to work on.
     """
-    return fit_equations(observation, base_equations(observation), method, model)
+    return fit_equations(observation, base_equations(observation), method, model, below)
 
 
 def base_equations(observation: Observation) -> Equations:
@@ -90,6 +94,7 @@ def fit_equations(
     equations: Equations,
     method: Method,
     model: "CompiledModel | None" = None,
+    below: float | None = None,
 ) -> FitResult:
     """The fit of y = W beta; equations row for row those of the observation, else as `identify`."""
     estimator = method_of(method)
@@ -99,7 +104,7 @@ def fit_equations(
     problem, count = _problem(observation, equations, alive, model), len(observation.names)
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
-    essential = essential_parameters(problem.data, estimate, method)
+    essential = essential_parameters(problem.data, estimate, method, below)
     colour = coloured(observation, rows, equations.y, alive, estimate)
     covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
     every = parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance)))

@@ -49,6 +49,7 @@ def identify_with_payloads(
     observation: Observation,
     payloads: Sequence[Payload],
     method: Method = "weighted",
+    below: float | None = None,
 ) -> FitResult:
     """The fit of robot and loads together: y - m w_M = W beta + W_L chi_L.
 
@@ -61,12 +62,13 @@ def identify_with_payloads(
         observation: of loaded and unloaded logs together.
         payloads: which logs carry what.
         method: as for `identify`.
+        below: as for `identify`.
 
     Raises:
         DataError: a log or link that is not there, every log loaded, a mass that is not positive.
     """
     equations = loaded_equations(model, observation, payloads).equations
-    return fit_equations(observation, equations, method, model)
+    return fit_equations(observation, equations, method, model, below)
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,7 @@ class Reduced(Brief):
         condition_scaled: with columns of length one.
         relative_error: ||y - W beta|| / ||y||, with the same filter on both sides.
         ratio: F statistic of all that were left out together.
-        limit: the F quantile that it stays under; None if nothing was left out.
+        limit: the F quantile, which rules unless sigmas do; None if nothing was left out.
     """
 
     parameters: tuple[ParameterEstimate, ...]

@@ -128,7 +128,10 @@ class TwoStepFit:
 
 
 def identify_in_two_steps(
-    model: CompiledModel, observation: Observation, directions: Directions
+    model: CompiledModel,
+    observation: Observation,
+    directions: Directions,
+    below: float | None = None,
 ) -> TwoStepFit:
     """The two-step fit of an observation, and the one-step fit beside it.
 
@@ -136,6 +139,7 @@ def identify_in_two_steps(
         model: the robot.
         observation: of logs in which joints move one at a time.
         directions: how the coordinates move with each joint.
+        below: as for `identify`.
 
     Raises:
         DataError: no piece in which one joint moves and the others stand, or what `identify` says.
@@ -144,7 +148,7 @@ def identify_in_two_steps(
     steps = two_steps(model, observation, directions)
     excitation = excitations(model, observation, directions, steps.configurations)
     estimate = steps.estimate
-    essential = essential_parameters(steps.data, estimate, "ordinary")
+    essential = essential_parameters(steps.data, estimate, "ordinary", below)
     parameters, joints, rows = parts_of(observation, estimate, essential)
     result = FitResult(
         robot=observation.robot,

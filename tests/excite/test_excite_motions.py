@@ -5,12 +5,16 @@ import dataclasses
 import numpy as np
 import pytest
 
+from modeler.api.exciting import bounds_of, subject_of
+from modeler.core.errors import DataError
 from modeler.excite.bounds import Bounds
+from modeler.excite.columns import Columns
 from modeler.excite.criterion import condition
 from modeler.excite.result import Exciting
 from modeler.excite.search import Wish, excite, task_of
 from modeler.excite.series import series
 from modeler.excite.starts import random_motion
+from modeler.robot import robot_from_text
 from modeler.simulate.closing import distances, followed, rates
 from modeler.simulate.constraints import constraints_of
 from tests.excite.robots_to_excite import limits_of, plausible, robot
@@ -158,3 +162,74 @@ def test_a_time_limit_ends_the_search_with_a_motion_within_limits():
     q, qd, qdd = finely(motion)
     assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
     assert np.all(np.abs(qd) <= bounds.speed) and np.all(np.abs(qdd) <= bounds.acceleration)
+
+
+ARM = """
+name = "arm"
+gravity = [-9.81, 0, 0]
+[mdh]
+columns = ["j", "a", "sigma", "alpha", "d",  "theta", "r"]
+rows = [["1", "0", 0, 0, 0, "q1", 0], ["2", "1", 0, 0, 0.4, "q2", 0]]
+[links]
+1 = ["ZZ", "MX", "MY"]
+2 = ["ZZ", "MX", "MY", "M"]
+[parameters]
+ZZ1 = 0.3
+MX1 = 0.45
+MY1 = 0.02
+ZZ2 = 0.08
+MX2 = 0.33
+MY2 = 0.01
+M2 = 2.2
+Fv1 = 0.5
+Fs1 = 0.9
+Fv2 = 0.3
+Fs2 = 0.7
+[effects]
+viscous = "all"
+coulomb = "all"
+"""
+
+
+def heavy_arm(first, second):
+    """The arm whose weight and friction come near these limits of torque, and these."""
+    subject = subject_of(robot_from_text(ARM, "arm"))
+    limits = {"1": (-2.5, 2.5, 4, 20, first), "2": (-2.5, 2.5, 5, 30, second)}
+    return subject, bounds_of(subject.robot, subject.compiled, limits, {})
+
+
+@pytest.mark.parametrize("first,second", [(17, 4.5), (16, 4), (4, 1), (2, 0.8), (1, 0.75)])
+def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(first, second):
+    subject, bounds = heavy_arm(first, second)
+    wish = Wish(6.0, 4, starts=1, seed=1, time_limit=1.0)
+    motion = subject.search(bounds, wish)
+    compiled, (q, qd, qdd) = subject.compiled, finely(motion)
+    loads = np.abs(compiled.inverse_dynamics(q, qd, qdd, subject.beta)).max(axis=0)
+    assert np.all(loads <= bounds.torque) and np.isfinite(motion.quality.condition)
+    assert np.all(np.abs(qd) <= bounds.speed) and np.all(np.abs(qdd) <= bounds.acceleration)
+
+
+def test_torques_below_dry_friction_are_refused_in_a_line():
+    subject, bounds = heavy_arm(5.0, 0.69)
+    with pytest.raises(DataError, match=r"no posture was found .*; q1 = .* times what they allow"):
+        subject.search(bounds, Wish(6.0, 4))
+
+
+@pytest.mark.parametrize("steps", [1, 900, 1500])
+def test_every_loop_asks_for_the_time(monkeypatch, steps):
+    """A clock that a look at the columns moves on: what comes after the limit is bounded."""
+    subject, bounds = heavy_arm(4.0, 1.0)
+    clock = [0.0]
+    for name in ("exact", "smooth"):
+        whole = getattr(Columns, name)
+
+        def counted(self, *args, whole=whole):
+            clock[0] += 1.0
+            return whole(self, *args)
+
+        monkeypatch.setattr(Columns, name, counted)
+    monkeypatch.setattr("modeler.excite.search.time.monotonic", lambda: clock[0])
+    before = clock[0]
+    motion = subject.search(bounds, Wish(6.0, 4, seed=1, time_limit=before + steps))
+    assert motion.ended_early and clock[0] < before + steps + 700
+    assert (motion.drawn == 1) == (steps == 1)

@@ -8,12 +8,17 @@ import pytest
 from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
+from modeler.api import compile_model, derive, generate
 from modeler.core.errors import DataError
+from modeler.estimate.compressed import compress
+from modeler.estimate.least_squares import least_squares
 from modeler.fit import identify
+from modeler.fit.essential import essential_parameters
 from modeler.fit.model_file import IdentifiedModel, load_model, provenance, save_model
 from modeler.fit.reduced import with_essential_only
 from modeler.fit.result import fit_from_json
 from modeler.observation import observe
+from modeler.robot import read_robot
 
 NOISE = 0.3
 
@@ -112,3 +117,82 @@ def test_errors_that_fall_are_not_said_to_be_raised(robot):
     _, fit = seen_and_fit(robot)
     sentence = next(text for text in fit.sentences if "are essential; " in text)
     assert "leaving the others out changes the relative error from" in sentence
+
+
+def known_set(arm, seed):
+    """Rows along a motion of an Orthoglide, of values of which ten are 0, and those ten.
+
+    The least certain of the others is 5 to 10 times its sigma, were the ten known.
+    """
+    rng, names = np.random.default_rng(1000 + seed), tuple(base.name for base in arm.spec.base)
+    joints, home = len(arm.spec.joints), np.array(arm.spec.closure.home)
+    time = np.linspace(0.0, 10.0, 400)[:, None]
+    q, qd, qdd = (np.zeros((400, joints)) for _ in range(3))
+    for w in 2.0 * np.pi * np.arange(1, 6) / 10.0:
+        a, b = rng.normal(size=(2, joints)) / w
+        q += a * np.cos(w * time) + b * np.sin(w * time)
+        qd += w * (b * np.cos(w * time) - a * np.sin(w * time))
+        qdd -= w**2 * (a * np.cos(w * time) + b * np.sin(w * time))
+    size = 0.06 / np.abs(q).max(axis=0)
+    W = arm.observation(home[list(arm.spec.closure.given)] + size * q, size * qd, size * qdd)
+    beta = rng.uniform(0.3, 2.0, len(names)) * rng.choice([-1, 1], len(names))
+    none = rng.choice(len(names), 10, replace=False)
+    beta[none] = 0.0
+    kept = np.flatnonzero(beta)
+    sigma = np.sqrt(np.diag(np.linalg.inv(W[:, kept].T @ W[:, kept])))
+    least = np.min(np.abs(beta[kept]) / sigma) / (5, 7, 10)[seed % 3]
+    joint = np.tile(np.arange(joints), len(time))
+    y = W @ beta + least * rng.normal(size=len(W))
+    return compress(W, y, joint, joints, names), {names[k] for k in none}
+
+
+@pytest.fixture(scope="module")
+def orthoglide():
+    return compile_model(generate(derive(read_robot("orthoglide-2003-similar-legs"))))
+
+
+def test_known_sets_are_found_among_columns_that_are_alike(orthoglide):
+    """Backward selection alone finds 10 of these 24."""
+    found = better = 0
+    for seed in range(24):
+        data, none = known_set(orthoglide, seed)
+        essential = essential_parameters(data, least_squares(data, "ordinary"), "ordinary")
+        found += set(essential.dropped) == none
+        kept = [data.names.index(name) for name in essential.names]
+        out = [data.names.index(name) for name in essential.dropped]
+        least = squares(data, kept) * (1.0 - 1e-9)
+        better += any(
+            squares(data, [*(k for k in kept if k != old), new]) < least
+            for new in out for old in kept
+        )  # fmt: skip
+    assert found >= 12 and better == 0
+
+
+def squares(data, kept):
+    """Least sum of squares with these columns only."""
+    R = data.whole(np.ones(len(data.rows)))
+    Q = np.linalg.qr(R[:, kept])[0]
+    return float(np.sum((R[:, -1] - Q @ (Q.T @ R[:, -1])) ** 2))
+
+
+def test_a_share_of_the_value_that_sigmas_stay_below_may_rule_instead(robot):
+    """Every one that stays is below; every one left out, were it added, is not."""
+    seen, fit = seen_and_fit(robot)
+    for below in (1.0, 4.0, 15.0, 60.0):
+        small = identify(seen, "ordinary", below=below)
+        at = [seen.names.index(p.name) for p in small.essential.parameters]
+        assert max(least_squares_shares(seen, at)) < below
+        for name in small.essential.dropped:
+            assert least_squares_shares(seen, [*at, seen.names.index(name)])[-1] >= below
+        assert [p.value for p in small.parameters] == [p.value for p in fit.parameters]
+    assert len(identify(seen, "ordinary", below=1.0).essential.dropped) > len(fit.essential.dropped)
+    with pytest.raises(DataError, match="got sigmas below 0 %; expected a number above 0"):
+        identify(seen, below=0.0)
+
+
+def least_squares_shares(seen, at):
+    """Percent of sigma of a fit with these columns, the noise that of the fit with all."""
+    W = seen.W[:, at]
+    value = np.linalg.lstsq(W, seen.y)[0]
+    noise = np.linalg.lstsq(seen.W, seen.y)[1][0] / (len(seen.y) - seen.W.shape[1])
+    return 100.0 * np.sqrt(noise * np.diag(np.linalg.inv(W.T @ W))) / np.abs(value)

@@ -56,7 +56,7 @@ def _add_motion(parser: argparse.ArgumentParser) -> None:
         help="condition: the condition number, columns of length one; information: log det of "
         "the information matrix; both: the sum of their logarithms (default %(default)s)",
     )  # fmt: skip
-    add_number(parser, "--starts", "N", int, "searches, from the best of 50 random motions", 3)
+    add_number(parser, "--starts", "N", int, "searches, from the best of 50 random motions", 6)
     add_number(parser, "--seed", "N", int, "of the random motions", 0)
     add_number(parser, "--time-limit", "S", float, "take the best after so many seconds")
 

@@ -81,6 +81,11 @@ def _add_model(parser: argparse.ArgumentParser) -> None:
         parser, "--window", "S", float,
         "length of a window of --model energy; left out: the spacing of the torque model's rows",
     )  # fmt: skip
+    add_number(
+        parser, "--essential-below", "PERCENT", float,
+        "keep in the reduced model what has a sigma below this share of its value (papers: 15); "
+        "left out: what an F-test misses",
+    )  # fmt: skip
 
 
 def _add_processing(parser: argparse.ArgumentParser) -> None:
