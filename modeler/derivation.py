@@ -29,7 +29,7 @@ class Derivation(Presented):
         return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
 
     def closed_form(self, nonzero: bool = False) -> Formulas:
-        """J(q), S(q) and g(q) of tau = J qdd + S [qd qd] + g, without friction.
+        """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.
 
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.

@@ -87,6 +87,9 @@ _KINDS: Mapping[str, Callable[[Frame, Frame], list[Expr]]] = {
     "rigid": lambda a, b: [*_position(a, b), *_aligned(a, b)],
 }
 
+MEETING = ("position", "spherical", "universal", "revolute", "rigid")
+"""Kinds of loops whose origins coincide."""
+
 _SAME_AXES: Mapping[str, tuple[int, ...]] = {
     "position": (), "spherical": (), "universal": (), "revolute": (2,), "cylindrical": (2,),
     "planar": (2,), "prismatic": (0, 2), "rigid": (0, 2),

@@ -7,9 +7,9 @@ its coordinates p are taken as given first: then every leg stands alone,
 
 the rows of L that belong to the motors are the inverse Jacobian of the robot, K = J_p^-1, and
 
-    p' = J_p q',   u' = J_t q' = L J_p q',   tau = J_t' t_legs + J_p' f_p
+    p' = J_p q',   u' = J_t q' = L J_p q',   tau = J_t' t_legs + J_p' t_p
 
-with the torques t of the opened tree, those along p being the force f_p of the platform
+with the torques t of the opened tree, those along p being the force on the platform
 (Guegan, Khalil and Lemoine 2003, eqs. 11 and 23 to 30; their G of eq. 42 is what the relations
 say). Without a platform the actuated joints are given at once and J_t = -B^-1 A. Blocks of up to
 four equations are inverted by cofactors, so that only singular postures divide by 0.
@@ -18,7 +18,13 @@ four equations are inverted by cofactors, so that only singular postures divide 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from modeler.core.errors import DerivationError
 from modeler.symbolic import Closure, Expr, SymbolicModel
+from modeler.symbolic.effects import along
+from modeler.symbolic.kinematics import plus, poses, times
+from modeler.symbolic.loop_equations import MEETING, meeting
+from modeler.terms.evaluation import poly_value
+from modeler.terms.ring import TrigRing
 from modeler.terms.sheet import SheetWriter
 
 _SOLVED = 4
@@ -74,6 +80,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
     given = closure.platform or closure.given
     blocks = _blocks(closure, given, len(names))
     _write_closure(closure, names, writer)
+    spheres = _write_spheres(model, closure, writer)
     rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in given}
     bias: dict[int, Expr] = {}
     letter = "L" if closure.platform else "Jt"
@@ -85,7 +92,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
         _write_bias(closure.solved, names, bias, writer)
-    return LoopForm(tuple(_words(model, closure, blocks, complete)), complete)
+    return LoopForm(tuple(_words(model, closure, blocks, complete, spheres)), complete)
 
 
 def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
@@ -111,6 +118,56 @@ def _write_closure(closure: Closure, names: Sequence[str], writer: SheetWriter) 
         for name, entry in zip(names, line, strict=True):
             writer.result(f"F{r}_{name}", entry)
         writer.result(f"h{r}", drift)
+
+
+def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) -> bool:
+    """Distances that passive joints do not change: |e|^2 - |w|^2 of e + w = 0, all of them in w.
+
+    Returns:
+        True if there is any.
+    """
+    try:
+        ring = TrigRing(model.geometry)
+    except DerivationError:  # lengths that are no polynomials
+        return False
+    writer.section("closure equations without the passive joints")
+    passive = {*closure.solved} - {*(closure.platform or ())}
+    turned = {
+        place
+        for motion in ring.motions if passive & {*motion.form}
+        for place in (motion.sine, motion.cosine, motion.variable)
+    }  # fmt: skip
+    generators = _generators(model, ring)
+    frames, found = poses(model.geometry, ring), False
+    for number, loop in enumerate(model.robot.loops, start=1):
+        one, other = meeting(model.geometry, loop, frames, ring)
+        square, total = ring.ring.zero, model.graph.constant(0)
+        for entry in plus(one[1], times(-1, other[1])) if loop.kind in MEETING else ():
+            entry = ring.normal(ring.ring(entry))
+            moved = {at for at in entry if any(at[k] for k in turned if k is not None)}
+            w = ring.ring.zero.new({at: entry[at] for at in moved})
+            e = poly_value(entry - w, generators) + model.graph.constant(0)
+            square, total = square + w**2, total + e * e
+        square = ring.normal(square)
+        if square and not any(at[k] for at in square for k in turned if k is not None):
+            writer.result(f"fp{number}", total - poly_value(square, generators))
+            found = True
+    return found
+
+
+def _generators(model: SymbolicModel, ring: TrigRing) -> list[Expr]:
+    """The generators of the ring as expressions of the graph."""
+    graph = model.graph
+    found = [graph.constant(0)] * ring.moving
+    for motion in ring.motions:
+        angle = along(model, motion.form, "q")
+        if motion.variable is not None:
+            found[motion.variable] = angle
+        if motion.sine is not None and motion.cosine is not None:
+            found[motion.sine], found[motion.cosine] = (
+                graph.call("sin", angle), graph.call("cos", angle)
+            )  # fmt: skip
+    return found + [model.algebra.static(atom) for atom in ring.static_atoms]
 
 
 def _write_block(
@@ -203,7 +260,7 @@ def _write_bias(
 
 
 def _words(
-    model: SymbolicModel, closure: Closure, blocks: Sequence[Block], complete: bool
+    model: SymbolicModel, closure: Closure, blocks: Sequence[Block], complete: bool, spheres: bool
 ) -> list[str]:
     """What the names mean."""
     names = [joint.name for joint in model.robot.free]
@@ -216,29 +273,23 @@ def _words(
         ties = [f"q{name} = {text.text}" for name, text in model.robot.relations.items()]
         lines.append("joints that follow (matrix G): " + "; ".join(ties))
     lines.append("f_r(u) = 0, F<r>_<u> = df_r/dq_u, h<r> = d/dt(F_r) u'")
-    if closure.platform:
-        lines += _platform_words(closure, names, complete)
-    elif complete:
-        lines.append("u' = J_t q', u'' = J_t q'' + b; Jt<u>_<a>; the motors' own rows are 1 and 0")
-        lines.append("tau_a = t_a + sum_u Jt_ua t_u, t: torques of the opened tree along u")
-    if not complete and not closure.platform:
+    if spheres:
+        lines.append("fp<k> = 0: loop k without its passive joints (Briot and Gautier 2012: f_p)")
+    given = ", ".join(f"q{names[k]}" for k in closure.platform or ())
+    if given:
+        lines.append(f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>")
+    if complete:
+        rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if given else "Jt<u>_<a>"
+        lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; those of motors: 1 and 0")
+    elif given and all(block.solved for block in blocks):
+        lines.append("u' = J_t q', J_t = L K^-1 by a solver, K: the motors' rows of L; rows of p in L: "
+                     "1 and 0")  # fmt: skip
+    else:
         large = [block for block in blocks if not block.solved]
         told = "; ".join(", ".join(names[k] for k in block.unknown) for block in large)
-        lines.append(f"J_t = -B^-1 A of F = [A | B] by a solver for {told}: too large to invert")
-        lines.append("tau = J_t' t, t: torques of the opened tree along u")
-    return lines
-
-
-def _platform_words(closure: Closure, names: Sequence[str], complete: bool) -> list[str]:
-    assert closure.platform is not None
-    given = ", ".join(f"q{names[k]}" for k in closure.platform)
-    lines = [f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>"]
-    if complete:
-        lines.append("p' = J_p q', u' = J_t q', u'' = J_t q'' + b; Jp<p>_<a>, Jt<u>_<a>")
-    else:
-        lines.append("J_p = K^-1, K: the motors' rows of L, by a solver; J_t = L J_p")
-    lines.append(
-        "tau_a = t_a + sum_u Jt_ua t_u + sum_p Jp_pa f_p, t and f_p: torques of the opened tree "
-        "along u and p"
-    )
+        lines.append(f"F = [A | B], A of {given or 'the motors'}, B too large to invert for {told}: "
+                     "u' = J_t q' by a solver of F J_t = 0, rows of the motors 1 and 0")  # fmt: skip
+    if not complete:
+        lines.append("u'' = J_t q'' + b by a solver of F b = -h, b_a = 0 of the motors")
+    lines.append("tau = J_t' t, t: torques of the opened tree along u")
     return lines

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from modeler.base import BaseParameters
 from modeler.symbolic import SymbolicModel
 from modeler.symbolic.newton_euler import Motion, State, motions
-from modeler.terms.fresh import fresh_model, letters_of
+from modeler.terms.fresh import fresh_model, letters_of, named_columns
 from modeler.terms.loop_form import LoopForm, write_loops
 from modeler.terms.sheet import Sheet, SheetWriter
 
@@ -47,8 +47,14 @@ def regressor_form(model: SymbolicModel, base: BaseParameters) -> RegressorForm:
         base: its base parameters.
     """
     model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, base))
+    writer = SheetWriter(model.graph, letters_of(model, named_columns(base)))
     loops = write_loops(model, writer) if model.closure is not None else None
+    write_columns(model, base, writer)
+    return RegressorForm(model, base, writer.finished(), loops)
+
+
+def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
+    """The results of the regressor form, and what they are made of, on a sheet."""
     _propose_motion(model, writer)
     names = [joint.name for joint in model.robot.free]
     for parameter in base.parameters:
@@ -57,7 +63,6 @@ def regressor_form(model: SymbolicModel, base: BaseParameters) -> RegressorForm:
             value = model.regressor.get((i, parameter.column))
             if value is not None:
                 writer.result(f"phi{name}_{parameter.name}", value)
-    return RegressorForm(model, base, writer.finished(), loops)
 
 
 def _propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:

@@ -25,11 +25,12 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 
 from modeler.base import BaseParameters
-from modeler.symbolic import Expr, ShaftColumn, SymbolicModel
+from modeler.effects import EnergyBlock
+from modeler.symbolic import Expr, SymbolicModel, in_block
 from modeler.symbolic.inertia_matrix import Composite
 from modeler.symbolic.kinematics import Screw, Vector, cross, dot, gravity_in_frames, plus, screws
 from modeler.terms.closed_form import function_name
-from modeler.terms.fresh import base_symbols, fresh_model, letters_of
+from modeler.terms.fresh import fresh_model, letters_of, named_columns, symbols_of, write_effects
 from modeler.terms.loop_form import LoopForm, write_loops
 from modeler.terms.sheet import Sheet, SheetWriter
 
@@ -58,7 +59,7 @@ class _Rows:
 
 @dataclass(frozen=True)
 class ShortForm:
-    """The dynamics as a sheet: results J_ij (i <= j), S_ijk (j <= k), g_i.
+    """The dynamics as a sheet: results J_ij (i <= j), S_ijk (j <= k), g_i, e_i.
 
     Attributes:
         model: the model on the graph of the sheet.
@@ -76,17 +77,17 @@ class ShortForm:
 
 
 def short_form(model: SymbolicModel, base: BaseParameters) -> ShortForm:
-    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i, by composite bodies.
+    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i + e_i, by composite bodies.
 
-    Friction and offsets are not in it. With loops it is the opened tree's, along its free
-    variables, and `write_loops` says how these are tied.
+    e is what friction, offsets and all other effects take. With loops it is the opened tree's,
+    along its free variables, and `write_loops` says how these are tied.
 
     Args:
         model: of any robot.
         base: parameters in which it is written.
     """
     model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, base))
+    writer = SheetWriter(model.graph, letters_of(model, named_columns(base)))
     loops = write_loops(model, writer) if model.closure is not None else None
     write_short_form(model, base, writer)
     return ShortForm(model, base, writer.finished(), not model.geometry.tied, loops)
@@ -94,7 +95,7 @@ def short_form(model: SymbolicModel, base: BaseParameters) -> ShortForm:
 
 def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
     """The results of the short form, and what they are made of, on a sheet."""
-    beta = base_symbols(model, base)
+    beta = symbols_of(model, named_columns(base))
     bodies = _composites(model, beta, writer)
     rows = _rows(model, bodies, writer)
     names = [joint.name for joint in model.robot.free]
@@ -104,6 +105,7 @@ def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWr
         _write_tied(model, rows, shafts, names, writer)
     else:
         _write_chain(rows, shafts, names, writer)
+    write_effects(model, beta, writer)
 
 
 def _composites(
@@ -205,7 +207,7 @@ def _shafts(model: SymbolicModel, beta: Mapping[int, Expr]) -> dict[tuple[int, i
     found: dict[tuple[int, int], Expr] = {}
     for place, value in beta.items():
         for part in model.columns[place].parts:
-            if isinstance(part, ShaftColumn) and part.kind == "rotor_inertia":
+            if in_block(part, EnergyBlock.KINETIC):
                 for i, j in combinations_with_replacement(sorted(part.shaft), 2):
                     added = value * (part.shaft[i] * part.shaft[j])
                     found[i, j] = found.get((i, j), model.graph.constant(0)) + added

@@ -44,7 +44,7 @@ def numbers_of(name: str) -> tuple[dict[str, float], list[float], dict[str, floa
 
 def printed_functions(text: str) -> dict[str, str]:
     blocks = text.split("\n\n")[1:]
-    return {b.split(" =\n")[0].strip(): " ".join(b.split(" =\n")[1].split()) for b in blocks}
+    return {b.split(" =\n")[0].strip(): " ".join(b.split(" =\n")[1].split()) for b in blocks if " =\n" in b}
 
 
 def value(text: str, names: dict[str, float]) -> float:

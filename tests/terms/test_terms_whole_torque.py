@@ -1,0 +1,65 @@
+"""Printed equations are the whole torque of the emitted C: every robot, every effect, term by term.
+
+The text is run as it stands, and put together as the words above it say; the parameters are random.
+"""
+
+import numpy as np
+import pytest
+
+from modeler.terms.equations import motion_equation
+from tests.robots import ROBOTS
+from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
+
+SAMPLES = 3
+
+
+def states(derivation):
+    """Motors near home where loops close, anywhere else; random speeds and accelerations."""
+    rng, closure = np.random.default_rng(17), derivation.model.closure
+    for _ in range(SAMPLES):
+        if closure is None:
+            yield rng.uniform(-2, 2, (3, len(derivation.robot.coordinates)))
+        else:
+            home = np.array(closure.home)[list(closure.given)]
+            q = home + rng.uniform(-0.03, 0.03, len(home))
+            yield np.array([q, *rng.uniform(-1, 1, (2, len(home)))])
+
+
+def check(name) -> None:
+    derivation, model = derived(name), compiled(name)
+    text = derivation.closed_form().text
+    lines, names = text.splitlines(), [j.name for j in derivation.model.robot.free]
+    chain = "S_kij = -S_jik" in text
+    rng = np.random.default_rng(5)
+    for q, qd, qdd in states(derivation):
+        beta, s = rng.normal(size=derivation.base.rank), rng.uniform(0.2, 0.8, 3)
+        s = s[: len(derivation.model.signals)]
+        signals = {f"{kind}{k + 1}": x for k, x in enumerate(s) for kind in "tTz"}
+        expected = model.inverse_dynamics(*np.array([q, qd, qdd])[:, None], beta,
+                                          s[None] if len(s) else None)[0]  # fmt: skip
+        if derivation.model.closure is None:
+            found = run_lines(lines, known(derivation, q, qd, qdd, beta) | signals)
+            tau = torque(found, names, qd, qdd, chain)
+        else:
+            u, G = model.close(q[None])[0], model.coupling(q[None])[0]
+            first = run_lines(lines, known(derivation, u, G @ qd, G @ qdd, beta) | signals)
+            J, b = printed_coupling(derivation, first)
+            ud, udd = J @ qd, J @ qdd + b
+            found = run_lines(lines, known(derivation, u, ud, udd, beta) | signals)
+            tau = J.T @ torque(found, names, ud, udd, chain)
+        assert np.max(np.abs(tau - expected)) < 1e-12 * np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_printed_lines_are_the_whole_torque_of_the_c(name):
+    check(name)
+
+
+@pytest.mark.parametrize("name", ["odd", "geared"])
+def test_printed_lines_of_awkward_robots(name):
+    check(name)
+
+
+@pytest.mark.parametrize("file", ["offset_parallelogram.toml", "twoloops.toml"])
+def test_printed_lines_of_further_robots(loop_robots_folder, file):
+    check(loop_robots_folder / file)
