@@ -6,7 +6,7 @@ from modeler.base import BaseParameter, BaseParameters
 from modeler.core.formulas import Formulas
 from modeler.symbolic import SymbolicModel
 from modeler.terms.fresh import fresh_model, letters_of, named_columns, signal_letters
-from modeler.terms.loop_form import write_loops
+from modeler.terms.loop_form import LoopForm, write_loops
 from modeler.terms.regressor_form import write_columns
 from modeler.terms.sheet import Sheet, SheetWriter
 from modeler.terms.sheet_render import sheet_latex, sheet_lines, sheet_markdown
@@ -20,10 +20,12 @@ class Equation:
     Attributes:
         words: sentences: the equation in which they stand.
         sheet: the formulas, with their abbreviations.
+        loops: what closes the tree whose formulas these are; None without loops.
     """
 
     words: tuple[str, ...]
     sheet: Sheet
+    loops: LoopForm | None
 
     def formulas(self) -> Formulas:
         """As text, LaTeX and Markdown."""
@@ -32,12 +34,12 @@ class Equation:
         return Formulas(title, text, sheet_latex(self.sheet), sheet_markdown(self.sheet))
 
 
-def motion_equation(model: SymbolicModel, base: BaseParameters) -> Equation:
+def short_form(model: SymbolicModel, base: BaseParameters) -> Equation:
     """J(q), S(q), g(q) and the effects' torques in closed form, abbreviated: the whole torque."""
     return equation_of(model, base, motion=True)
 
 
-def regressor_equation(model: SymbolicModel, base: BaseParameters) -> Equation:
+def regressor_form(model: SymbolicModel, base: BaseParameters) -> Equation:
     """The columns of the base parameters in closed form."""
     return equation_of(model, base, columns=True)
 
@@ -58,7 +60,7 @@ def equation_of(
         words.append(f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not "
                      "listed is 0")  # fmt: skip
     words += [*_signals(model), *(loops.lines if loops else ())]
-    return Equation(tuple(words), writer.finished())
+    return Equation(tuple(words), writer.finished(), loops)
 
 
 def _motion_words(base: BaseParameters, left: str) -> list[str]:
@@ -68,7 +70,7 @@ def _motion_words(base: BaseParameters, left: str) -> list[str]:
     ]
     mixed = [p.name for p in base.parameters if _kinds(base, p) >= {"inertial", "offset"}]
     if mixed:
-        words.append(f"constant gravity and an offset, which no motion tells apart: {', '.join(mixed)}")
+        words.append(f"constant gravity and an offset in one, in e or in g: {', '.join(mixed)}")
     return words
 
 

@@ -66,13 +66,7 @@ def symbols_of(model: SymbolicModel, columns: Iterable[int]) -> dict[int, Expr]:
 
 
 def write_effects(model: SymbolicModel, columns: Iterable[int], writer: SheetWriter) -> None:
-    """Results e<i>, torques that effects take along the free variables; rotor inertias are in J.
-
-    Args:
-        model: on the graph of the sheet.
-        columns: of the parameters.
-        writer: of the sheet.
-    """
+    """Results e<i>, torques that effects take along the free variables; rotor inertias are in J."""
     total = [model.graph.constant(0)] * len(model.robot.free)
     for place, value in symbols_of(model, columns).items():
         for part in model.columns[place].parts:

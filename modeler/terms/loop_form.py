@@ -92,7 +92,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
         _write_bias(closure.solved, names, bias, writer)
-    return LoopForm(tuple(_words(model, closure, blocks, complete, spheres)), complete)
+    return LoopForm(tuple(_words(model, closure, complete, spheres)), complete)
 
 
 def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
@@ -121,22 +121,15 @@ def _write_closure(closure: Closure, names: Sequence[str], writer: SheetWriter) 
 
 
 def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) -> bool:
-    """Distances that passive joints do not change: |e|^2 - |w|^2 of e + w = 0, all of them in w.
-
-    Returns:
-        True if there is any.
-    """
+    """|e|^2 - |w|^2 of e + w = 0, all passive joints in w, where |w| is without; True if any is."""
     try:
         ring = TrigRing(model.geometry)
     except DerivationError:  # lengths that are no polynomials
         return False
     writer.section("closure equations without the passive joints")
     passive = {*closure.solved} - {*(closure.platform or ())}
-    turned = {
-        place
-        for motion in ring.motions if passive & {*motion.form}
-        for place in (motion.sine, motion.cosine, motion.variable)
-    }  # fmt: skip
+    places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
+    turned = [k for each in places for k in each if k is not None]
     generators = _generators(model, ring)
     frames, found = poses(model.geometry, ring), False
     for number, loop in enumerate(model.robot.loops, start=1):
@@ -144,12 +137,12 @@ def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) 
         square, total = ring.ring.zero, model.graph.constant(0)
         for entry in plus(one[1], times(-1, other[1])) if loop.kind in MEETING else ():
             entry = ring.normal(ring.ring(entry))
-            moved = {at for at in entry if any(at[k] for k in turned if k is not None)}
-            w = ring.ring.zero.new({at: entry[at] for at in moved})
-            e = poly_value(entry - w, generators) + model.graph.constant(0)
+            moved = {at: x for at, x in entry.items() if any(at[k] for k in turned)}
+            w = ring.ring.zero.new(moved)
+            e = poly_value(entry - w, generators)
             square, total = square + w**2, total + e * e
         square = ring.normal(square)
-        if square and not any(at[k] for at in square for k in turned if k is not None):
+        if square and not any(at[k] for at in square for k in turned):
             writer.result(f"fp{number}", total - poly_value(square, generators))
             found = True
     return found
@@ -157,16 +150,10 @@ def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) 
 
 def _generators(model: SymbolicModel, ring: TrigRing) -> list[Expr]:
     """The generators of the ring as expressions of the graph."""
-    graph = model.graph
-    found = [graph.constant(0)] * ring.moving
+    found, call = list[Expr](), model.graph.call
     for motion in ring.motions:
-        angle = along(model, motion.form, "q")
-        if motion.variable is not None:
-            found[motion.variable] = angle
-        if motion.sine is not None and motion.cosine is not None:
-            found[motion.sine], found[motion.cosine] = (
-                graph.call("sin", angle), graph.call("cos", angle)
-            )  # fmt: skip
+        at = along(model, motion.form, "q")
+        found += [at] if motion.variable is not None else [call("sin", at), call("cos", at)]
     return found + [model.algebra.static(atom) for atom in ring.static_atoms]
 
 
@@ -259,9 +246,7 @@ def _write_bias(
         writer.result(f"b{names[u]}", bias[u])
 
 
-def _words(
-    model: SymbolicModel, closure: Closure, blocks: Sequence[Block], complete: bool, spheres: bool
-) -> list[str]:
+def _words(model: SymbolicModel, closure: Closure, complete: bool, spheres: bool) -> list[str]:
     """What the names mean."""
     names = [joint.name for joint in model.robot.free]
     motors = ", ".join(f"q{names[k]}" for k in closure.given)
@@ -280,16 +265,9 @@ def _words(
         lines.append(f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>")
     if complete:
         rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if given else "Jt<u>_<a>"
-        lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; those of motors: 1 and 0")
-    elif given and all(block.solved for block in blocks):
-        lines.append("u' = J_t q', J_t = L K^-1 by a solver, K: the motors' rows of L; rows of p in L: "
-                     "1 and 0")  # fmt: skip
+        lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
     else:
-        large = [block for block in blocks if not block.solved]
-        told = "; ".join(", ".join(names[k] for k in block.unknown) for block in large)
-        lines.append(f"F = [A | B], A of {given or 'the motors'}, B too large to invert for {told}: "
-                     "u' = J_t q' by a solver of F J_t = 0, rows of the motors 1 and 0")  # fmt: skip
-    if not complete:
-        lines.append("u'' = J_t q'' + b by a solver of F b = -h, b_a = 0 of the motors")
+        lines.append("u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
+                     "F b = -h, motors' rows of J_t 1 and 0, of b 0")  # fmt: skip
     lines.append("tau = J_t' t, t: torques of the opened tree along u")
     return lines

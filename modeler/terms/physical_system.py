@@ -290,7 +290,7 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
     parts: dict[str, list[tuple[Poly, tuple[str, ...], Poly]]] = {}
     for parameter in base.parameters:
         places = [columns[term.parameter] for term in parameter.terms]
-        if len(places) == 1 and parameter.name in physical.letters:
+        if [str(physical.standard.get(place)) for place in places] == [parameter.name]:
             alone.append(parameter.name)
         elif all(place in physical.standard for place in places):
             parts[parameter.name] = [

@@ -30,9 +30,8 @@ from modeler.symbolic import Expr, SymbolicModel, in_block
 from modeler.symbolic.inertia_matrix import Composite
 from modeler.symbolic.kinematics import Screw, Vector, cross, dot, gravity_in_frames, plus, screws
 from modeler.terms.closed_form import function_name
-from modeler.terms.fresh import fresh_model, letters_of, named_columns, symbols_of, write_effects
-from modeler.terms.loop_form import LoopForm, write_loops
-from modeler.terms.sheet import Sheet, SheetWriter
+from modeler.terms.fresh import named_columns, symbols_of, write_effects
+from modeler.terms.sheet import SheetWriter
 
 _INERTIA = (("XX", 0, 0), ("XY", 0, 1), ("XZ", 0, 2), ("YY", 1, 1), ("YZ", 1, 2), ("ZZ", 2, 2))
 _AXES = "xyz"
@@ -57,44 +56,11 @@ class _Rows:
     gravity: Mapping[int, Expr]
 
 
-@dataclass(frozen=True)
-class ShortForm:
-    """The dynamics as a sheet: results J_ij (i <= j), S_ijk (j <= k), g_i, e_i.
-
-    Attributes:
-        model: the model on the graph of the sheet.
-        base: its base parameters.
-        sheet: the formulas.
-        chain: True if the laws S_kij = -S_jik, S_kii = -S_iik/2 hold and spare their lines.
-        loops: what closes the tree whose dynamics this is; None without loops.
-    """
-
-    model: SymbolicModel
-    base: BaseParameters
-    sheet: Sheet
-    chain: bool
-    loops: LoopForm | None
-
-
-def short_form(model: SymbolicModel, base: BaseParameters) -> ShortForm:
-    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i + e_i, by composite bodies.
-
-    e is what friction, offsets and all other effects take. With loops it is the opened tree's,
-    along its free variables, and `write_loops` says how these are tied.
-
-    Args:
-        model: of any robot.
-        base: parameters in which it is written.
-    """
-    model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, named_columns(base)))
-    loops = write_loops(model, writer) if model.closure is not None else None
-    write_short_form(model, base, writer)
-    return ShortForm(model, base, writer.finished(), not model.geometry.tied, loops)
-
-
 def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
-    """The results of the short form, and what they are made of, on a sheet."""
+    """Results J_ij (i <= j), S_ijk (j <= k), g_i, e_i by composite bodies, and what they need.
+
+    Where all joints are free, S_kij = -S_jik and S_kii = -S_iik/2 spare their lines.
+    """
     beta = symbols_of(model, named_columns(base))
     bodies = _composites(model, beta, writer)
     rows = _rows(model, bodies, writer)

@@ -109,6 +109,5 @@ def printed_coupling(
     F = matrix("F", numbers, range(count))
     h = np.array([found.get(f"h{r}", 0.0) for r in numbers])
     b[solved] = np.linalg.solve(F[:, solved], -h)
-    L = matrix("L", names, platform)
-    L[platform] = np.eye(len(platform))
-    return L @ np.linalg.inv(L[given]), b
+    J[given], J[solved] = np.eye(len(given)), -np.linalg.solve(F[:, solved], F[:, given])
+    return J, b

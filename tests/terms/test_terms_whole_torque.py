@@ -3,10 +3,12 @@
 The text is run as it stands, and put together as the words above it say; the parameters are random.
 """
 
+import ast
+from collections import Counter
+
 import numpy as np
 import pytest
 
-from modeler.terms.equations import motion_equation
 from tests.robots import ROBOTS
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
 
@@ -63,3 +65,41 @@ def test_printed_lines_of_awkward_robots(name):
 @pytest.mark.parametrize("file", ["offset_parallelogram.toml", "twoloops.toml"])
 def test_printed_lines_of_further_robots(loop_robots_folder, file):
     check(loop_robots_folder / file)
+
+
+@pytest.mark.parametrize("name", ["two-link", "puma560", "sr400", "orthoglide-2003", "dvrk-psm"])
+def test_a_document_of_both_has_one_thing_under_each_name(name):
+    """The torque and the columns on one sheet: names are given once, and before they are read."""
+    derivation = derived(name)
+    found = equation_of(derivation.model, derivation.base, motion=True, columns=True)
+    tree = ast.parse("\n".join(sheet_lines(found.sheet)))
+    names = [node.targets[0].id for node in tree.body if isinstance(node, ast.Assign)]
+    assert max(Counter(names).values()) == 1
+    free = range(len(derivation.model.robot.free))
+    values = known(derivation, *([0.5 + 0.1 * k for k in free],) * 3, [1.0] * derivation.base.rank)
+    run_lines(sheet_lines(found.sheet), values)  # NameError otherwise
+    read = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    assert not set(names) & set(values) and read >= {d.name for d in found.sheet.definitions}
+
+
+def monomials(node: ast.expr, sign: int = 1) -> list[tuple[int, tuple[str, ...]]]:
+    """Terms of a printed sum, a product with one bracket multiplied out: (sign, factors)."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
+        other = sign if isinstance(node.op, ast.Add) else -sign
+        return monomials(node.left, sign) + monomials(node.right, other)
+    if isinstance(node, ast.UnaryOp):
+        return monomials(node.operand, -sign)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+        left, right = monomials(node.left, sign), monomials(node.right)
+        if len(left) == 1 or len(right) == 1:
+            return [(a * b, tuple(sorted(f + g))) for a, f in left for b, g in right]
+    return [(sign, (ast.unparse(node),))]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_nothing_cancels_within_a_printed_sum(name):
+    """S315 of a PUMA was ... + MX5c*(k34 + k51) - MX5c*(k34 - k51): 2*MX5c*k51."""
+    for statement in ast.parse(derived(name).closed_form().text).body:
+        terms = monomials(statement.value)
+        gone = {f for s, f in terms if s > 0} & {f for s, f in terms if s < 0}
+        assert not gone, ast.unparse(statement)
