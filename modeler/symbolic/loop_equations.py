@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from modeler.robot import Loop
-from modeler.symbolic.algebra import GraphAlgebra
+from modeler.symbolic.algebra import Algebra
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr
 from modeler.symbolic.kinematics import Pose, dot, plus, poses_from, times
@@ -13,7 +13,7 @@ Frame = tuple[Sequence[list[Expr]], list[Expr]]
 
 
 def meeting(
-    geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: GraphAlgebra
+    geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: Algebra
 ) -> tuple[Frame, Frame]:
     """The two frames that meet, in the frame of the body that both their sides come from.
 

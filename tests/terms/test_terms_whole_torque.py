@@ -9,6 +9,8 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from modeler.terms import sheet_lines
+from modeler.terms.equations import equation_of
 from tests.robots import ROBOTS
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
 
@@ -78,8 +80,9 @@ def test_a_document_of_both_has_one_thing_under_each_name(name):
     free = range(len(derivation.model.robot.free))
     values = known(derivation, *([0.5 + 0.1 * k for k in free],) * 3, [1.0] * derivation.base.rank)
     run_lines(sheet_lines(found.sheet), values)  # NameError otherwise
-    read = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    assert not set(names) & set(values) and read >= {d.name for d in found.sheet.definitions}
+    read = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
+    assert not set(names) & set(values)
+    assert {d.name for d in found.sheet.definitions if not d.result} <= read
 
 
 def monomials(node: ast.expr, sign: int = 1) -> list[tuple[int, tuple[str, ...]]]:
