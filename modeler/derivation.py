@@ -29,16 +29,15 @@ class Derivation(Presented):
         return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
 
     def closed_form(self, nonzero: bool = False) -> Formulas:
-        """J(q), S(q) and g(q) of tau = J qdd + S [qd qd] + g, without friction.
+        """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.
 
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.
         """
-        from modeler.terms import nonzero_base
-        from modeler.terms.equations import motion_equation
+        from modeler.terms import nonzero_base, short_form
 
         base = nonzero_base(self.model, self.base) if nonzero else self.base
-        return motion_equation(self.model, base).formulas()
+        return short_form(self.model, base).formulas()
 
     def regressor(self, nonzero: bool = False) -> Formulas:
         """The columns phi of tau = phi beta.
@@ -46,11 +45,10 @@ class Derivation(Presented):
         Args:
             nonzero: as of `closed_form`.
         """
-        from modeler.terms import nonzero_base
-        from modeler.terms.equations import regressor_equation
+        from modeler.terms import nonzero_base, regressor_form
 
         base = nonzero_base(self.model, self.base) if nonzero else self.base
-        return regressor_equation(self.model, base).formulas()
+        return regressor_form(self.model, base).formulas()
 
 
 def load(robot: str | Path) -> Robot:

@@ -34,7 +34,8 @@ from modeler.terms import (
     sheet_markdown,
     terms_report,
 )
-from modeler.terms.equations import Equation, motion_equation, regressor_equation
+from modeler.terms.equations import Equation, equation_of
+from modeler.terms.render import equation
 
 MANY = 200
 """Coefficients up to which all are listed; of more, those from which the others follow."""
@@ -68,14 +69,18 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
     if args.nonzero:
         base = nonzero_base(model, base)
     added: Json = {}
-    if args.closed_form:
-        if args.expanded:
-            words.say()
-            words.formulas(_CLOSED_FORMS[args.format](closed_form(model, base)))
-        else:
-            added["closed_form"] = _say_equation(words, motion_equation(model, base))
-    if args.regressor:
-        added["regressor"] = _say_equation(words, regressor_equation(model, base))
+    if args.closed_form and args.expanded:
+        words.say()
+        closed = closed_form(model, base)
+        if args.format == "latex":
+            words.say(equation(closed))
+        words.formulas(_CLOSED_FORMS[args.format](closed))
+    motion = args.closed_form and not args.expanded
+    asked = {"closed_form": motion, "regressor": args.regressor}
+    if any(asked.values()):
+        found = equation_of(model, base, motion=motion, columns=args.regressor)
+        told = _say_equation(words, found)
+        added |= {key: told for key, wanted in asked.items() if wanted}
     if coefficients_wanted(args, derivation):
         _say_coefficients(args, derivation, words)
     if args.report is not None:

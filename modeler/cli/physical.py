@@ -80,6 +80,8 @@ def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Js
         letters = [x for x in system.letters if system.kinds[x] == kind]
         if letters:
             say(f"  {plural}: {', '.join(letters)}")
+    if system.alone:
+        say(f"  identified by themselves: {', '.join(system.alone)}")
     if system.constants:
         say("  known from the table: "
             + ", ".join(f"{k} = {v:.6g}" for k, v in system.constants.items()))  # fmt: skip

@@ -12,12 +12,9 @@ from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, installing
+from modeler.core.latex import latex_text
 
 _SHOWN = 60  # rows of a long table on a page: half of them from each end
-_LATEX = {
-    "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-    **{letter: f"\\{letter}" for letter in "&%$#_{}"},
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -98,7 +95,7 @@ class Table(Brief):
     def latex(self) -> str:
         """A tabular environment; formulas in dollars."""
         kinds = "".join("r" if self._numeric(k) else "l" for k in range(len(self.columns)))
-        cells = [[_escaped(_headed(*column)) for column in self.columns]]
+        cells = [[latex_text(_headed(*column)) for column in self.columns]]
         cells += [[_latex(cell) for cell in row] for row in self.rows]
         head, *body = [" & ".join(row) + r" \\" for row in cells]
         lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", head, r"\hline", *body, r"\hline"]
@@ -181,8 +178,4 @@ def _markdown(cell: Cell) -> str:
 
 
 def _latex(cell: Cell) -> str:
-    return f"${cell.latex}$" if isinstance(cell, Formula) else _escaped(_plain(cell))
-
-
-def _escaped(text: str) -> str:
-    return "".join(_LATEX.get(letter, letter) for letter in text)
+    return f"${cell.latex}$" if isinstance(cell, Formula) else latex_text(_plain(cell))

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from modeler.robot import Loop
-from modeler.symbolic.algebra import GraphAlgebra
+from modeler.symbolic.algebra import Algebra
 from modeler.symbolic.geometry import Geometry
 from modeler.symbolic.graph import Expr
 from modeler.symbolic.kinematics import Pose, dot, plus, poses_from, times
@@ -13,7 +13,7 @@ Frame = tuple[Sequence[list[Expr]], list[Expr]]
 
 
 def meeting(
-    geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: GraphAlgebra
+    geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: Algebra
 ) -> tuple[Frame, Frame]:
     """The two frames that meet, in the frame of the body that both their sides come from.
 
@@ -86,6 +86,9 @@ _KINDS: Mapping[str, Callable[[Frame, Frame], list[Expr]]] = {
     "planar": lambda a, b: [dot(a[0][2], _between(b, a)), *_parallel(a, b)],
     "rigid": lambda a, b: [*_position(a, b), *_aligned(a, b)],
 }
+
+MEETING = ("position", "spherical", "universal", "revolute", "rigid")
+"""Kinds of loops whose origins coincide."""
 
 _SAME_AXES: Mapping[str, tuple[int, ...]] = {
     "position": (), "spherical": (), "universal": (), "revolute": (2,), "cylindrical": (2,),

@@ -7,6 +7,9 @@ from modeler.terms.coefficients import Coefficient as Coefficient
 from modeler.terms.coefficients import CoefficientTable as CoefficientTable
 from modeler.terms.coefficients import coefficient_table as coefficient_table
 from modeler.terms.coefficients import independent_coefficients as independent_coefficients
+from modeler.terms.equations import Equation as Equation
+from modeler.terms.equations import regressor_form as regressor_form
+from modeler.terms.equations import short_form as short_form
 from modeler.terms.evaluation import Evaluation as Evaluation
 from modeler.terms.evaluation import evaluate as evaluate
 from modeler.terms.identifiability import Identifiability as Identifiability
@@ -15,8 +18,6 @@ from modeler.terms.map_render import backward_lines as backward_lines
 from modeler.terms.map_render import determinant_text as determinant_text
 from modeler.terms.map_render import forward_lines as forward_lines
 from modeler.terms.nominal import nonzero_base as nonzero_base
-from modeler.terms.regressor_form import RegressorForm as RegressorForm
-from modeler.terms.regressor_form import regressor_form as regressor_form
 from modeler.terms.relations import BaseMap as BaseMap
 from modeler.terms.relations import Relations as Relations
 from modeler.terms.render import closed_form_json as closed_form_json
@@ -29,8 +30,6 @@ from modeler.terms.sheet_render import sheet_json as sheet_json
 from modeler.terms.sheet_render import sheet_latex as sheet_latex
 from modeler.terms.sheet_render import sheet_lines as sheet_lines
 from modeler.terms.sheet_render import sheet_markdown as sheet_markdown
-from modeler.terms.short_form import ShortForm as ShortForm
-from modeler.terms.short_form import short_form as short_form
 from modeler.terms.table_render import coefficients_json as coefficients_json
 from modeler.terms.table_render import coefficients_latex as coefficients_latex
 from modeler.terms.table_render import coefficients_markdown as coefficients_markdown

@@ -11,7 +11,9 @@ from modeler.core.errors import RobotError
 from modeler.robot import Robot
 from modeler.symbolic import SymbolicModel
 from modeler.terms.energy import Entries, dynamics
+from modeler.terms.fresh import effects_sheet
 from modeler.terms.ring import Poly, TrigRing, without_squares
+from modeler.terms.sheet import Sheet
 
 Exponents: TypeAlias = tuple[int, ...]
 Form: TypeAlias = Mapping[int, Poly]
@@ -41,10 +43,9 @@ class Function:
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i, functions that are not zero.
+    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i + e_i, where they are not zero.
 
-    J is the inertia matrix, S_ijk the full coefficient of qd_j qd_k. Friction and offsets are not
-    in it.
+    J is the inertia matrix, S_ijk the full coefficient of qd_j qd_k, e what effects take.
 
     Attributes:
         robot: its description.
@@ -54,6 +55,7 @@ class ClosedForm:
         gravity_factor: name of the letter taken out of all gravity functions, "" if there is none:
             the gravity torque of joint i is that letter times g_i.
         functions: g, J, S in order of their indices.
+        effects: e, which is no polynomial.
     """
 
     robot: Robot
@@ -61,6 +63,7 @@ class ClosedForm:
     algebra: TrigRing
     gravity_factor: str
     functions: tuple[Function, ...]
+    effects: Sheet
 
     @cached_property
     def by_name(self) -> Mapping[str, Function]:
@@ -109,7 +112,8 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     parameters = list(model.names)
     for parameter in base.parameters if base is not None else ():
         parameters[parameter.column] = parameter.name
-    return ClosedForm(model.robot, tuple(parameters), algebra, letter, tuple(functions))
+    effects = effects_sheet(model, {column: parameters[column] for column in columns})
+    return ClosedForm(model.robot, tuple(parameters), algebra, letter, tuple(functions), effects)
 
 
 def function_name(letter: str, joints: Sequence[str]) -> str:

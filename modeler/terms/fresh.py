@@ -1,14 +1,17 @@
-"""A model on a graph of its own, prepared for formulas that people read."""
+"""A model on a graph of its own, prepared for formulas that people read; torques of its effects."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import sympy
 
 from modeler.base import BaseParameters
-from modeler.symbolic import Expr, Graph, SymbolicModel
+from modeler.effects import EnergyBlock
+from modeler.symbolic import Expr, Graph, ShaftColumn, SymbolicModel, in_block
 from modeler.symbolic.algebra import GraphAlgebra
+from modeler.symbolic.effects import effect_entries
 from modeler.symbolic.geometry import Geometry, Row
+from modeler.terms.sheet import Sheet, SheetWriter
 
 
 def fresh_model(model: SymbolicModel) -> SymbolicModel:
@@ -29,22 +32,50 @@ def fresh_model(model: SymbolicModel) -> SymbolicModel:
     return found
 
 
-def letters_of(model: SymbolicModel, base: BaseParameters) -> dict[str, str]:
-    """{symbol of the graph: how it is written}: positions, speeds, signals, base parameters."""
+def letters_of(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
+    """{symbol of the graph: how it is written}: positions, speeds, signals, named columns."""
     found = {name: name for name in model.geometry.values}
     for k, joint in enumerate(model.robot.free):
         found |= {f"{kind}[{k}]": f"{kind}{joint.name}" for kind in ("q", "qd", "qdd")}
-    for i, parameter in enumerate(base.parameters):
-        found[f"beta[{i}]"] = parameter.name
+    found |= {f"beta[{column}]": name for column, name in parameters.items()}
+    return found | {f"s[{k}]": letter for k, letter in enumerate(signal_letters(model))}
+
+
+def signal_letters(model: SymbolicModel) -> list[str]:
+    """How the signals are written that effects read besides the motion: t1, T2, z3."""
     kinds = {"time": "t", "temperature": "T", "slip": "z"}
-    for k, signal in enumerate(model.signals):
-        found[f"s[{k}]"] = f"{kinds[signal.kind]}{k + 1}"
-    return found
+    return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
 
 
-def base_symbols(model: SymbolicModel, base: BaseParameters) -> Mapping[int, Expr]:
+def named_columns(base: BaseParameters) -> dict[int, str]:
     """{column: the base parameter that has it}."""
-    return {p.column: model.graph.symbol(f"beta[{i}]") for i, p in enumerate(base.parameters)}
+    return {parameter.column: parameter.name for parameter in base.parameters}
+
+
+def effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
+    """The results of `write_effects` alone, for the parameters of those columns."""
+    model = fresh_model(model)
+    writer = SheetWriter(model.graph, letters_of(model, parameters))
+    write_effects(model, parameters, writer)
+    return writer.finished()
+
+
+def symbols_of(model: SymbolicModel, columns: Iterable[int]) -> dict[int, Expr]:
+    """{column: the symbol of its parameter}."""
+    return {column: model.graph.symbol(f"beta[{column}]") for column in columns}
+
+
+def write_effects(model: SymbolicModel, columns: Iterable[int], writer: SheetWriter) -> None:
+    """Results e<i>, torques that effects take along the free variables; rotor inertias are in J."""
+    total = [model.graph.constant(0)] * len(model.robot.free)
+    for place, value in symbols_of(model, columns).items():
+        for part in model.columns[place].parts:
+            if isinstance(part, ShaftColumn) and not in_block(part, EnergyBlock.KINETIC):
+                for k, entry in effect_entries(model, part).items():
+                    total[k] = total[k] + value * entry
+    writer.section("friction, offsets and other effects")
+    for joint, entry in zip(model.robot.free, total, strict=True):
+        writer.result(f"e{joint.name}", entry)
 
 
 def _angles(geometry: Geometry, algebra: GraphAlgebra) -> list[Expr]:

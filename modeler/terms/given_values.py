@@ -66,7 +66,7 @@ def check_letter(name: str, system: PhysicalSystem, where: str) -> None:
     Raises:
         RobotError: tells what it may have meant.
     """
-    names = (*system.letters, *system.vanishing, *system.constants)
+    names = (*system.letters, *system.vanishing, *system.alone, *system.constants)
     if name not in names:
         raise RobotError(
             f'{where}: got "{name}"{near(name, names)}; expected physical parameters of '

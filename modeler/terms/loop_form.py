@@ -7,9 +7,9 @@ its coordinates p are taken as given first: then every leg stands alone,
 
 the rows of L that belong to the motors are the inverse Jacobian of the robot, K = J_p^-1, and
 
-    p' = J_p q',   u' = J_t q' = L J_p q',   tau = J_t' t_legs + J_p' f_p
+    p' = J_p q',   u' = J_t q' = L J_p q',   tau = J_t' t_legs + J_p' t_p
 
-with the torques t of the opened tree, those along p being the force f_p of the platform
+with the torques t of the opened tree, those along p being the force on the platform
 (Guegan, Khalil and Lemoine 2003, eqs. 11 and 23 to 30; their G of eq. 42 is what the relations
 say). Without a platform the actuated joints are given at once and J_t = -B^-1 A. Blocks of up to
 four equations are inverted by cofactors, so that only singular postures divide by 0.
@@ -18,7 +18,13 @@ four equations are inverted by cofactors, so that only singular postures divide 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from modeler.core.errors import DerivationError
 from modeler.symbolic import Closure, Expr, SymbolicModel
+from modeler.symbolic.effects import along
+from modeler.symbolic.kinematics import plus, poses, times
+from modeler.symbolic.loop_equations import MEETING, meeting
+from modeler.terms.evaluation import poly_value
+from modeler.terms.ring import TrigRing
 from modeler.terms.sheet import SheetWriter
 
 _SOLVED = 4
@@ -74,6 +80,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
     given = closure.platform or closure.given
     blocks = _blocks(closure, given, len(names))
     _write_closure(closure, names, writer)
+    spheres = _write_spheres(model, closure, writer)
     rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in given}
     bias: dict[int, Expr] = {}
     letter = "L" if closure.platform else "Jt"
@@ -85,7 +92,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
         _write_bias(closure.solved, names, bias, writer)
-    return LoopForm(tuple(_words(model, closure, blocks, complete)), complete)
+    return LoopForm(tuple(_words(model, closure, complete, spheres)), complete)
 
 
 def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
@@ -111,6 +118,43 @@ def _write_closure(closure: Closure, names: Sequence[str], writer: SheetWriter) 
         for name, entry in zip(names, line, strict=True):
             writer.result(f"F{r}_{name}", entry)
         writer.result(f"h{r}", drift)
+
+
+def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) -> bool:
+    """|e|^2 - |w|^2 of e + w = 0, all passive joints in w, where |w| is without; True if any is."""
+    try:
+        ring = TrigRing(model.geometry)
+    except DerivationError:  # lengths that are no polynomials
+        return False
+    writer.section("closure equations without the passive joints")
+    passive = {*closure.solved} - {*(closure.platform or ())}
+    places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
+    turned = [k for each in places for k in each if k is not None]
+    generators = _generators(model, ring)
+    frames, found = poses(model.geometry, ring), False
+    for number, loop in enumerate(model.robot.loops, start=1):
+        one, other = meeting(model.geometry, loop, frames, ring)
+        square, total = ring.ring.zero, model.graph.constant(0)
+        for entry in plus(one[1], times(-1, other[1])) if loop.kind in MEETING else ():
+            entry = ring.normal(ring.ring(entry))
+            moved = {at: x for at, x in entry.items() if any(at[k] for k in turned)}
+            w = ring.ring.zero.new(moved)
+            e = poly_value(entry - w, generators)
+            square, total = square + w**2, total + e * e
+        square = ring.normal(square)
+        if square and not any(at[k] for at in square for k in turned):
+            writer.result(f"fp{number}", total - poly_value(square, generators))
+            found = True
+    return found
+
+
+def _generators(model: SymbolicModel, ring: TrigRing) -> list[Expr]:
+    """The generators of the ring as expressions of the graph."""
+    found, call = list[Expr](), model.graph.call
+    for motion in ring.motions:
+        at = along(model, motion.form, "q")
+        found += [at] if motion.variable is not None else [call("sin", at), call("cos", at)]
+    return found + [model.algebra.static(atom) for atom in ring.static_atoms]
 
 
 def _write_block(
@@ -202,9 +246,7 @@ def _write_bias(
         writer.result(f"b{names[u]}", bias[u])
 
 
-def _words(
-    model: SymbolicModel, closure: Closure, blocks: Sequence[Block], complete: bool
-) -> list[str]:
+def _words(model: SymbolicModel, closure: Closure, complete: bool, spheres: bool) -> list[str]:
     """What the names mean."""
     names = [joint.name for joint in model.robot.free]
     motors = ", ".join(f"q{names[k]}" for k in closure.given)
@@ -216,29 +258,16 @@ def _words(
         ties = [f"q{name} = {text.text}" for name, text in model.robot.relations.items()]
         lines.append("joints that follow (matrix G): " + "; ".join(ties))
     lines.append("f_r(u) = 0, F<r>_<u> = df_r/dq_u, h<r> = d/dt(F_r) u'")
-    if closure.platform:
-        lines += _platform_words(closure, names, complete)
-    elif complete:
-        lines.append("u' = J_t q', u'' = J_t q'' + b; Jt<u>_<a>; the motors' own rows are 1 and 0")
-        lines.append("tau_a = t_a + sum_u Jt_ua t_u, t: torques of the opened tree along u")
-    if not complete and not closure.platform:
-        large = [block for block in blocks if not block.solved]
-        told = "; ".join(", ".join(names[k] for k in block.unknown) for block in large)
-        lines.append(f"J_t = -B^-1 A of F = [A | B] by a solver for {told}: too large to invert")
-        lines.append("tau = J_t' t, t: torques of the opened tree along u")
-    return lines
-
-
-def _platform_words(closure: Closure, names: Sequence[str], complete: bool) -> list[str]:
-    assert closure.platform is not None
-    given = ", ".join(f"q{names[k]}" for k in closure.platform)
-    lines = [f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>"]
+    if spheres:
+        lines.append("fp<k> = 0: loop k without its passive joints (Briot and Gautier 2012: f_p)")
+    given = ", ".join(f"q{names[k]}" for k in closure.platform or ())
+    if given:
+        lines.append(f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>")
     if complete:
-        lines.append("p' = J_p q', u' = J_t q', u'' = J_t q'' + b; Jp<p>_<a>, Jt<u>_<a>")
+        rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if given else "Jt<u>_<a>"
+        lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
     else:
-        lines.append("J_p = K^-1, K: the motors' rows of L, by a solver; J_t = L J_p")
-    lines.append(
-        "tau_a = t_a + sum_u Jt_ua t_u + sum_p Jp_pa f_p, t and f_p: torques of the opened tree "
-        "along u and p"
-    )
+        lines.append("u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
+                     "F b = -h, motors' rows of J_t 1 and 0, of b 0")  # fmt: skip
+    lines.append("tau = J_t' t, t: torques of the opened tree along u")
     return lines

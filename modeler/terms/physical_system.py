@@ -4,6 +4,8 @@ import random
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import count
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -42,8 +44,10 @@ class PhysicalSystem(Brief):
         masses: letters that are the mass of a link.
         moments: letters that are a moment of inertia, of a link or a rotor.
         vanishing: physical parameters without effect on any torque.
+        alone: those that are identified by themselves, as rotor inertias that group with nothing.
         constants: {generator of the geometry: value in the robot file}.
-        abbreviations: {generator: what it stands for}, for quotients of lengths.
+        abbreviations: {generator: what it stands for}, "1/D41", for quotients of lengths.
+        inverse: {generator: the polynomial that it is the inverse of}.
         definitions: {data: polynomial of letters and constants}.
         base: names of the base parameters that the data follow from.
         map_lines: "PG1 = MY2R": coefficients in base parameters, as text, lengths as in the fit.
@@ -59,8 +63,10 @@ class PhysicalSystem(Brief):
     masses: tuple[str, ...]
     moments: tuple[str, ...]
     vanishing: tuple[str, ...]
+    alone: tuple[str, ...]
     constants: Mapping[str, float]
     abbreviations: Mapping[str, str]
+    inverse: Mapping[str, Poly]
     definitions: Mapping[str, Poly]
     base: tuple[str, ...]
     map_lines: tuple[str, ...]
@@ -88,15 +94,25 @@ class PhysicalSystem(Brief):
     def consistent(self, values: Mapping[str, Any]) -> list[Any]:
         """Values of all generators: data follow from those of letters and constants."""
         plain = [values.get(name, 0) for name in self.names]
+        for name, below in self.inverse.items():
+            plain[self.place[name]] = 1 / poly_value(below, plain)
         told = {d: poly_value(self.definitions[d], plain) for d in self.data}
         return [told.get(name, value) for name, value in zip(self.names, plain, strict=True)]
 
     def modular_point(self, chance: random.Random) -> tuple[int, list[int]]:
         """(prime, random values modulo it), data as they follow from the letters."""
         prime, point = random_point(self.names, chance)
+        for name, below in self.inverse.items():
+            point[self.place[name]] = pow(value_modulo(below, point, prime), -1, prime)
         for name in self.data:
             point[self.place[name]] = value_modulo(self.definitions[name], point, prime)
         return prime, point
+
+    def normal(self, poly: Poly) -> Poly:
+        """The same function without products of a length and its inverse."""
+        gens = self.ring.gens
+        ones = [gens[self.place[name]] * below - 1 for name, below in self.inverse.items()]
+        return poly.rem(ones) if ones else poly
 
     def jacobian_modulo(self, chance: random.Random) -> tuple[int, dict[str, dict[int, int]]]:
         """(prime, {letter: column of d data / d letter at a random point})."""
@@ -231,20 +247,38 @@ class _Geometry:
     physical: PhysicalParameters
     given: Mapping[str, float]
     quotients: dict[str, str] = field(default_factory=dict)
+    below: dict[str, Poly] = field(default_factory=dict)
     values: dict[str, float] = field(default_factory=dict)
 
-    def factor(self, value: sympy.Expr) -> tuple[Poly, str]:
-        """(polynomial of the geometry, name of a further factor or "")."""
-        number, rest = sympy.sympify(value).as_coeff_Mul()
+    def factor(self, value: sympy.Expr) -> tuple[Poly, tuple[str, ...]]:
+        """(polynomial of the geometry, names of further factors).
+
+        A quotient of lengths is a polynomial times the inverse of each factor below, so that
+        quotients that depend on each other are told from those that do not.
+        """
+        above, below = sympy.fraction(sympy.together(value))
+        number, factors = sympy.factor_list(below)
         try:
-            static = self.algebra.split(self.algebra.static(value))
-            return self.physical.lifted(static[(0,) * self.algebra.moving]), ""
-        except (DerivationError, KeyError):
-            told = {text: name for name, text in self.quotients.items()}
-            name = told.get(str(rest), f"k{len(self.quotients) + 1}")
-            self.quotients[name] = str(rest)
-            self.values[name] = float(rest.subs({x: self.given[x.name] for x in rest.free_symbols}))
-            return self.physical.ring(QQ(int(number.p), int(number.q))), name
+            lower = [(x, self._polynomial(x)) for x, power in factors for _ in range(power)]
+            return self._polynomial(above / number), tuple(self._named(1 / x, p) for x, p in lower)
+        except DerivationError:
+            number, rest = sympy.sympify(value).as_coeff_Mul()
+            return self._polynomial(number), (self._named(rest, None),)
+
+    def _polynomial(self, value: sympy.Expr) -> Poly:
+        static = self.algebra.split(self.algebra.static(sympy.sympify(value)))
+        return self.physical.lifted(static[(0,) * self.algebra.moving])
+
+    def _named(self, value: sympy.Expr, below: Poly | None) -> str:
+        told = {text: name for name, text in self.quotients.items()}
+        taken = {*self.physical.names, *self.given, *self.quotients}
+        fresh = next(name for k in count(1) if (name := f"k{k}") not in taken)
+        name = told.get(str(value), fresh)
+        self.quotients[name] = str(value)
+        if below is not None:
+            self.below[name] = below
+        self.values[name] = float(value.subs({x: self.given[x.name] for x in value.free_symbols}))
+        return name
 
 
 def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
@@ -252,10 +286,13 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
     physical = physical_parameters(model, algebra)
     geometry = _Geometry(algebra, physical, model.robot.symbol_values())
     columns = {column.name: i for i, column in enumerate(base.columns)}
-    parts: dict[str, list[tuple[Poly, str, Poly]]] = {}
+    alone = []
+    parts: dict[str, list[tuple[Poly, tuple[str, ...], Poly]]] = {}
     for parameter in base.parameters:
         places = [columns[term.parameter] for term in parameter.terms]
-        if all(place in physical.standard for place in places):
+        if [str(physical.standard.get(place)) for place in places] == [parameter.name]:
+            alone.append(parameter.name)
+        elif all(place in physical.standard for place in places):
             parts[parameter.name] = [
                 (*geometry.factor(term.coefficient), physical.standard[place])
                 for term, place in zip(parameter.terms, places, strict=True)
@@ -266,13 +303,14 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
     definitions = {}
     for name, terms in parts.items():
         total = ring.zero
-        for factor, quotient, standard in terms:
-            term = lift(factor) * lift(standard)
-            total = total + (term * gens[quotient] if quotient else term)
+        for factor, quotients, standard in terms:
+            total = total + prod([gens[x] for x in quotients], start=lift(factor) * lift(standard))
         if total:
             definitions[name] = total
     used = tuple(definitions)
-    return _system(model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)))
+    return _system(
+        model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)), tuple(alone)
+    )
 
 
 def _lift(old: PolyRing, new: PolyRing) -> Callable[[Poly], Poly]:
@@ -301,11 +339,13 @@ def _system(
     free: Sequence[str] | None,
     base: tuple[tuple[str, ...], tuple[str, ...]],
     to_data: np.ndarray,
+    alone: tuple[str, ...] = (),
 ) -> PhysicalSystem:
     """The ring with what the definitions use, and all of them in it; None: of base parameters."""
     physical = geometry.physical
     some = next(iter(definitions.values()), physical.ring.zero).ring
     used = _used(definitions.values(), [str(symbol) for symbol in some.symbols])
+    used |= _used(geometry.below.values(), physical.names)
     candidates = [x for x in physical.letters if physical.kinds[x] != "length" or x in (free or ())]
     letters = tuple(x for x in candidates if x in used)
     static = geometry.algebra.static_values(geometry.given)
@@ -318,7 +358,7 @@ def _system(
             "it in [physical] or [symbols]"
         )
     ring = PolyRing([*definitions, *letters, *constants], QQ, lex)
-    lift = _lift(some, ring)
+    lift, lower = _lift(some, ring), _lift(physical.ring, ring)
     return PhysicalSystem(
         robot,
         "base" if free is None else "coefficients",
@@ -326,9 +366,11 @@ def _system(
         {x: physical.kinds[x] for x in letters},
         tuple(x for x in physical.masses if x in letters),
         tuple(x for x in physical.moments if x in letters),
-        tuple(x for x in physical.letters if x not in used and _stands(x, physical)),
+        tuple(x for x in physical.letters if x not in {*used, *alone} and _stands(x, physical)),
+        alone,
         constants,
         geometry.quotients,
+        {name: lower(poly) for name, poly in geometry.below.items()},
         {name: lift(poly) for name, poly in definitions.items()},
         *base,
         to_data,

@@ -7,48 +7,19 @@ its origin for unit speed of a joint. The wrench that one unit of a parameter ne
 these, is its column.
 """
 
-from dataclasses import dataclass
-
 from modeler.base import BaseParameters
 from modeler.symbolic import SymbolicModel
 from modeler.symbolic.newton_euler import Motion, State, motions
-from modeler.terms.fresh import fresh_model, letters_of
-from modeler.terms.loop_form import LoopForm, write_loops
-from modeler.terms.sheet import Sheet, SheetWriter
+from modeler.terms.sheet import SheetWriter
 
 _AXES = "xyz"
 
 
-@dataclass(frozen=True)
-class RegressorForm:
-    """The base regressor as a sheet: results phi<joint>_<parameter>, zeros left out.
+def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
+    """Results phi<joint>_<parameter>, N m or N per unit; those of effects too; and what they need.
 
-    Attributes:
-        model: the model on the graph of the sheet.
-        base: its base parameters.
-        sheet: the formulas.
-        loops: what closes the tree whose columns these are; None without loops.
-    """
-
-    model: SymbolicModel
-    base: BaseParameters
-    sheet: Sheet
-    loops: LoopForm | None
-
-
-def regressor_form(model: SymbolicModel, base: BaseParameters) -> RegressorForm:
-    """Every base column in closed form, those of effects too.
-
-    Units are those of the torque (N m, N) per unit of the parameter; rows are the free joints.
     With loops they are the opened tree's, and `write_loops` says how its variables are tied.
-
-    Args:
-        model: of any robot.
-        base: its base parameters.
     """
-    model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, base))
-    loops = write_loops(model, writer) if model.closure is not None else None
     _propose_motion(model, writer)
     names = [joint.name for joint in model.robot.free]
     for parameter in base.parameters:
@@ -57,7 +28,6 @@ def regressor_form(model: SymbolicModel, base: BaseParameters) -> RegressorForm:
             value = model.regressor.get((i, parameter.column))
             if value is not None:
                 writer.result(f"phi{name}_{parameter.name}", value)
-    return RegressorForm(model, base, writer.finished(), loops)
 
 
 def _propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:

@@ -5,6 +5,7 @@ import json
 from modeler.core.json_text import nulled
 from modeler.core.latex_lines import Equation, display
 from modeler.terms.closed_form import ClosedForm, Function
+from modeler.terms.sheet_render import sheet_json, sheet_latex, sheet_lines, sheet_markdown
 from modeler.terms.text import LATEX, TEXT, Style, form_text, monomial_text
 
 EQUATION = "tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k"
@@ -17,7 +18,7 @@ def closed_form_text(closed: ClosedForm) -> str:
         lines += ["", f"{function.name} ="]
         for sign, coefficient, monomial in _signed(closed, function, TEXT):
             lines.append(f"  {sign} {_product(coefficient, monomial, TEXT)}")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", *sheet_lines(closed.effects)]).rstrip() + "\n"
 
 
 def closed_form_latex(closed: ClosedForm) -> str:
@@ -29,7 +30,7 @@ def closed_form_latex(closed: ClosedForm) -> str:
             for sign, coefficient, monomial in _signed(closed, function, LATEX)
         ]
         out.append(display([Equation(latex_function(function.name), tuple(lines))]) + "\n")
-    return "".join(out)
+    return "".join(out) + sheet_latex(closed.effects)
 
 
 def _signed(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str, str]]:
@@ -54,7 +55,7 @@ def closed_form_markdown(closed: ClosedForm) -> str:
     for function in closed.functions:
         lines += [f"## {function.name}", "", "| monomial | coefficient |", "|---|---|"]
         lines += [f"| `{m}` | `{form}` |" for form, m in _terms(closed, function, TEXT)] + [""]
-    return "\n".join(lines)
+    return "\n".join([*lines, sheet_markdown(closed.effects)])
 
 
 def closed_form_json(closed: ClosedForm) -> str:
@@ -75,13 +76,15 @@ def closed_form_json(closed: ClosedForm) -> str:
         "equation": equation(closed),
         "gravity_factor": closed.gravity_factor,
         "functions": functions,
+        "effects": sheet_json(closed.effects),
     }
     return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
 
 
 def equation(closed: ClosedForm) -> str:
     """What the functions mean: the equation of motion."""
-    return f"{EQUATION} + {closed.gravity_factor + '*' if closed.gravity_factor else ''}g_i"
+    factor = f"{closed.gravity_factor}*" if closed.gravity_factor else ""
+    return f"{EQUATION} + {factor}g_i" + (" + e_i" if closed.effects.definitions else "")
 
 
 def _terms(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str]]:

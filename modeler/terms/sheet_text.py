@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -10,13 +10,15 @@ from modeler.core.latex import latex_name
 from modeler.terms.sheet import Definition, Sheet
 from modeler.terms.text import TEXT, Style, signed_sum
 
-Factor = tuple[int, str]
-"""(where it stands in a product, text)."""
+Factor = tuple[int, str, int]
+"""(where it stands in a product, text, node of a sum in brackets or 0)."""
+Term = tuple[Fraction, tuple[Factor, ...]]
 
 _LETTER, _NAMED, _TRIG, _BRACKET = range(4)
 _LATEX_NAMES = (
     (r"qdd(\w+)", r"\\ddot{q}_{\1}"),
     (r"qd(\w+)", r"\\dot{q}_{\1}"),
+    (r"q([A-Za-z]\w*)", r"q_{\1}"),
     (r"w([xyz])_(\w+)", r"\\omega_{\1,\2}"),
     (r"wd([xyz])_(\w+)", r"\\dot{\\omega}_{\1,\2}"),
     (r"vd([xyz])_(\w+)", r"\\dot{v}_{\1,\2}"),
@@ -24,7 +26,7 @@ _LATEX_NAMES = (
     (r"J([pt])(\w+)_(\w+)", r"J^{\1}_{\2,\3}"),
     (r"J([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)", r"J_{\1,\2}"),
     (r"S([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)_([A-Za-z0-9]+)", r"S_{\1,\2,\3}"),
-    (r"([Jg])([A-Z][A-Za-z0-9]*)", r"\1_{\2}"),
+    (r"([Jgbe])([A-Z][A-Za-z0-9]*)", r"\1_{\2}"),
 )
 """Names of speeds and of vectors, by frame."""
 
@@ -98,6 +100,15 @@ def _closed(text: str) -> str:
     return text if re.fullmatch(r"\w+(\([^()]*\))?", text) else f"({text})"
 
 
+def _collected(terms: Iterable[Term]) -> dict[tuple[Factor, ...], Term]:
+    """{factors in one order: term}, terms alike together."""
+    found: dict[tuple[Factor, ...], Term] = {}
+    for number, factors in terms:
+        before, first = found.get(key := tuple(sorted(factors)), (Fraction(0), factors))
+        found[key] = (before + number, first)
+    return found
+
+
 class SheetPrinter:
     """Writes the values of one sheet in one style."""
 
@@ -119,32 +130,51 @@ class SheetPrinter:
 
     def sum(self, ref: int, opened: int = 0) -> str:
         """The value; the node `opened` is written out even if it has a name."""
-        terms: dict[str, Fraction] = {}
-        for number, text in self._terms(ref, Fraction(1), opened):
-            terms[text] = terms.get(text, Fraction(0)) + number
-        kept = [(number, text) for text, number in terms.items() if number]
+        terms = _collected(self._cancelled(self._terms(ref, Fraction(1), opened)))
+        kept = [(number, self._product(factors)) for number, factors in terms.values() if number]
         kept.sort(key=lambda term: (term[0] < 0, not term[1]))
         return signed_sum(kept, self.style.style)
 
-    def _terms(self, ref: int, factor: Fraction, opened: int) -> list[tuple[Fraction, str]]:
+    def _cancelled(self, terms: list[Term]) -> list[Term]:
+        """Brackets are opened where what is in them cancels: a (x + y) - a (x - y) is 2 a y."""
+        opened = [self._opened(term) for term in terms]
+        total = _collected(term for each in opened for term in each)
+        gone = {key for key, (number, _) in total.items() if not number}
+        return [
+            term
+            for whole, each in zip(terms, opened, strict=True)
+            for term in (each if gone & {*_collected(each)} else [whole])
+        ]
+
+    def _opened(self, term: Term) -> list[Term]:
+        """The term multiplied out if it has one bracket."""
+        number, factors = term
+        brackets = [factor for factor in factors if factor[2]]
+        if len(brackets) != 1:
+            return [term]
+        rest = [factor for factor in factors if not factor[2]]
+        inside = self._terms(brackets[0][2], number, brackets[0][2])
+        return [(value, (*rest, *more)) for value, more in inside]
+
+    def _terms(self, ref: int, factor: Fraction, opened: int) -> list[Term]:
         node, number = abs(ref), factor if ref > 0 else -factor
         found = self.sheet.graph.nodes[node]
         if node == 0:
             return []
         if node in self.sheet.names and node != opened:
             name, sign = self.sheet.names[node]
-            return [(number * sign, self.style.name(name))]
+            return [(number * sign, ((_NAMED, self.style.name(name), 0),))]
         if found.op == "add":
             return [term for arg in found.args for term in self._terms(arg, number, opened)]
         value, factors = self._factors(node, opened)
-        return [(number * value, self._product(factors))]
+        return [(number * value, tuple(factors))]
 
     def _factors(self, node: int, opened: int) -> tuple[Fraction, list[Factor]]:
         """(number, factors) of a value that is no sum."""
         found = self.sheet.graph.nodes[node]
         if node in self.sheet.names and node != opened:
             name, sign = self.sheet.names[node]
-            return Fraction(sign), [(_NAMED, self.style.name(name))]
+            return Fraction(sign), [(_NAMED, self.style.name(name), 0)]
         if found.op == "num":
             return found.args[0], []
         if found.op == "mul":
@@ -154,9 +184,9 @@ class SheetPrinter:
         if found.op == "div":
             return self._quotient(found.args[0], found.args[1])
         if found.op == "add":
-            return Fraction(1), [(_BRACKET, self.style.bracket(self.sum(node, opened)))]
+            return Fraction(1), [(_BRACKET, self.style.bracket(self.sum(node, opened)), node)]
         rank = _LETTER if found.static else _TRIG if node in self.sheet.trig else _NAMED
-        return Fraction(1), [(rank, self._atom(node))]
+        return Fraction(1), [(rank, self._atom(node), 0)]
 
     def _quotient(self, above: int, below: int) -> tuple[Fraction, list[Factor]]:
         """A fraction with the number in front of its numerator taken out."""
@@ -169,7 +199,7 @@ class SheetPrinter:
         else:
             value, factors = self._factors(abs(above), 0)
             number, text = number * value, self._product(factors) or "1"
-        return number, [(_NAMED, self.style.quotient(text, self.sum(below)))]
+        return number, [(_NAMED, self.style.quotient(text, self.sum(below)), 0)]
 
     def _atom(self, node: int) -> str:
         found = self.sheet.graph.nodes[node]

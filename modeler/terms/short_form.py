@@ -25,13 +25,13 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 
 from modeler.base import BaseParameters
-from modeler.symbolic import Expr, ShaftColumn, SymbolicModel
+from modeler.effects import EnergyBlock
+from modeler.symbolic import Expr, SymbolicModel, in_block
 from modeler.symbolic.inertia_matrix import Composite
 from modeler.symbolic.kinematics import Screw, Vector, cross, dot, gravity_in_frames, plus, screws
 from modeler.terms.closed_form import function_name
-from modeler.terms.fresh import base_symbols, fresh_model, letters_of
-from modeler.terms.loop_form import LoopForm, write_loops
-from modeler.terms.sheet import Sheet, SheetWriter
+from modeler.terms.fresh import named_columns, symbols_of, write_effects
+from modeler.terms.sheet import SheetWriter
 
 _INERTIA = (("XX", 0, 0), ("XY", 0, 1), ("XZ", 0, 2), ("YY", 1, 1), ("YZ", 1, 2), ("ZZ", 2, 2))
 _AXES = "xyz"
@@ -56,45 +56,12 @@ class _Rows:
     gravity: Mapping[int, Expr]
 
 
-@dataclass(frozen=True)
-class ShortForm:
-    """The dynamics as a sheet: results J_ij (i <= j), S_ijk (j <= k), g_i.
-
-    Attributes:
-        model: the model on the graph of the sheet.
-        base: its base parameters.
-        sheet: the formulas.
-        chain: True if the laws S_kij = -S_jik, S_kii = -S_iik/2 hold and spare their lines.
-        loops: what closes the tree whose dynamics this is; None without loops.
-    """
-
-    model: SymbolicModel
-    base: BaseParameters
-    sheet: Sheet
-    chain: bool
-    loops: LoopForm | None
-
-
-def short_form(model: SymbolicModel, base: BaseParameters) -> ShortForm:
-    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i, by composite bodies.
-
-    Friction and offsets are not in it. With loops it is the opened tree's, along its free
-    variables, and `write_loops` says how these are tied.
-
-    Args:
-        model: of any robot.
-        base: parameters in which it is written.
-    """
-    model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, base))
-    loops = write_loops(model, writer) if model.closure is not None else None
-    write_short_form(model, base, writer)
-    return ShortForm(model, base, writer.finished(), not model.geometry.tied, loops)
-
-
 def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
-    """The results of the short form, and what they are made of, on a sheet."""
-    beta = base_symbols(model, base)
+    """Results J_ij (i <= j), S_ijk (j <= k), g_i, e_i by composite bodies, and what they need.
+
+    Where all joints are free, S_kij = -S_jik and S_kii = -S_iik/2 spare their lines.
+    """
+    beta = symbols_of(model, named_columns(base))
     bodies = _composites(model, beta, writer)
     rows = _rows(model, bodies, writer)
     names = [joint.name for joint in model.robot.free]
@@ -104,6 +71,7 @@ def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWr
         _write_tied(model, rows, shafts, names, writer)
     else:
         _write_chain(rows, shafts, names, writer)
+    write_effects(model, beta, writer)
 
 
 def _composites(
@@ -205,7 +173,7 @@ def _shafts(model: SymbolicModel, beta: Mapping[int, Expr]) -> dict[tuple[int, i
     found: dict[tuple[int, int], Expr] = {}
     for place, value in beta.items():
         for part in model.columns[place].parts:
-            if isinstance(part, ShaftColumn) and part.kind == "rotor_inertia":
+            if in_block(part, EnergyBlock.KINETIC):
                 for i, j in combinations_with_replacement(sorted(part.shaft), 2):
                     added = value * (part.shaft[i] * part.shaft[j])
                     found[i, j] = found.get((i, j), model.graph.constant(0)) + added

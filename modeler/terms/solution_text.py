@@ -74,7 +74,7 @@ def _text(solution: ClosedSolution) -> list[str]:
 def _latex(solution: ClosedSolution) -> list[str]:
     system = solution.system
     rows = [
-        Equation(latex_name(name), (rf"\text{{{latex_text(text)}}}",))
+        Equation(latex_name(name), (_latex_quotient(name, text, system),))
         for name, text in system.abbreviations.items()
     ]
     for step in solution.steps:
@@ -84,30 +84,47 @@ def _latex(solution: ClosedSolution) -> list[str]:
     return [r"\begingroup\allowdisplaybreaks", *lines, r"\endgroup"]
 
 
+def _latex_quotient(name: str, text: str, system: PhysicalSystem) -> str:
+    if name not in system.inverse:
+        return rf"\text{{{latex_text(text)}}}"
+    return rf"\frac{{1}}{{{polynomial_text(system.inverse[name], system.names, LATEX)}}}"
+
+
+_ROOTS = """def real_roots(factors, positive=False):
+    found = [x for x in roots(factors) if abs(x.imag) <= 1e-6*abs(x)]
+    return [float(x.real) for x in found if x.real > 0 or not positive]"""
+
+
 def _python(solution: ClosedSolution) -> list[str]:
-    """A function of data and known parameters that returns a dict."""
+    """A function of data and known parameters that returns a dict, with roots a list of them."""
     system = solution.system
+    rooted = any(step.equation is not None for step in solution.steps)
     arguments = [*_used_data(solution), *solution.known, *_lengths(system)]
-    lines = [f"def physical_parameters({', '.join(arguments)}):"]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
-    lines += [f'    """Physical parameters of {system.robot} from {where}, SI units."""']
+    more = ": a list, every robot that fits" if rooted else ""
+    lines = [f"def physical_parameters({', '.join(arguments)}):"]
+    lines += [f'    """Physical parameters of {system.robot} from {where}, SI units{more}."""']
     lines += [f"    {name} = {text}" for name, text in system.abbreviations.items()]
+    lines += ["    found = []"] if rooted else []
+    indent = "    "
     for step in solution.steps:
         if step.equation is None:
-            lines.append(f"    {step.letter} = {formula(step, system)}")
+            lines.append(f"{indent}{step.letter} = {formula(step, system)}")
         else:
-            lines += _python_root(step, system)
-    lines.append("    return {" + ", ".join(f'"{x}": {x}' for x in solution.follows) + "}")
+            lines.append(f"{indent}for {step.letter} in {_python_roots(step, system)}:")
+            indent += "    "
+    told = "{" + ", ".join(f'"{x}": {x}' for x in solution.follows) + "}"
+    lines += [f"{indent}found.append({told})", "    return found"] if rooted else [
+        f"    return {told}"
+    ]  # fmt: skip
     used = set(_letters_of("\n".join(lines), functions=True))
-    imports = []
-    if some := [name for name in ("cos", "pi", "sin", "sqrt") if name in used]:
-        imports += [f"from math import {', '.join(some)}"]
-    if "roots" in used:
-        imports += ["from numpy import roots"]
-    return [*imports, "", "", *lines] if imports else lines
+    some = [name for name in ("cos", "pi", "sin", "sqrt") if name in used]
+    head = [f"from math import {', '.join(some)}"] if some else []
+    head += ["from numpy import roots", "", "", _ROOTS] if rooted else []
+    return [*head, "", "", *lines] if head else lines
 
 
-def _python_root(step: Step, system: PhysicalSystem) -> list[str]:
+def _python_roots(step: Step, system: PhysicalSystem) -> str:
     assert step.equation is not None
     at = system.place[step.letter]
     top = max(exponents[at] for exponents in step.equation)
@@ -115,11 +132,8 @@ def _python_root(step: Step, system: PhysicalSystem) -> list[str]:
     for power in range(top, -1, -1):
         part = {(*e[:at], 0, *e[at + 1 :]): v for e, v in step.equation.items() if e[at] == power}
         factors.append(polynomial_text(step.equation.ring.zero.new(part), system.names))
-    sign = " and x.real > 0" if step.letter in system.masses else ""
-    return [
-        f"    found = roots([{', '.join(factors)}])",
-        f"    ({step.letter},) = [x.real for x in found if abs(x.imag) <= 1e-6*abs(x){sign}]",
-    ]
+    positive = ", positive=True" if step.letter in system.masses else ""
+    return f"real_roots([{', '.join(factors)}]{positive})"
 
 
 def _used_data(solution: ClosedSolution) -> list[str]:

@@ -269,6 +269,7 @@ class _Elimination:
         total = poly.ring.zero
         for degree, part in parts.items():
             total += part * step.numerator**degree * step.denominator ** (top - degree)
+        total = self.system.normal(total)
         if not self._unknowns(total):
             return poly.ring.zero
         if len(total) > _LARGEST:

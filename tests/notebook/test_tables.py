@@ -39,7 +39,7 @@ def test_html_escapes_all_that_was_written() -> None:
 
 def test_markdown_and_latex() -> None:
     assert r"| a\|b_1 | 1.25 | yes | $M_{1} + M_{2}$ |" in TABLE.markdown()
-    assert r"a|b\_1 & 1.25 & yes & $M_{1} + M_{2}$ \\" in TABLE.latex()
+    assert r"a\textbar{}b\_1 & 1.25 & yes & $M_{1} + M_{2}$ \\" in TABLE.latex()
 
 
 def test_a_long_table_shows_its_ends() -> None:

@@ -56,7 +56,7 @@ def known(
 def torque(
     found: Mapping[str, float], names: Sequence[str], ud: np.ndarray, udd: np.ndarray, chain: bool
 ) -> np.ndarray:
-    """t_i = sum J_ij udd_j + sum_{j<=k} S_ijk ud_j ud_k + g_i.
+    """t_i = sum J_ij udd_j + sum_{j<=k} S_ijk ud_j ud_k + g_i + e_i.
 
     Args:
         found: what the lines define; what is missing is 0.
@@ -76,10 +76,38 @@ def torque(
 
     tau = np.zeros(len(names))
     for i in range(len(names)):
-        tau[i] = value("g", i)
+        tau[i] = value("g", i) + found.get(f"e{names[i]}", 0.0)
         for j in range(len(names)):
             tau[i] += value("J", min(i, j), max(i, j)) * udd[j]
             tau[i] += sum(
                 christoffel(i, j, k) * ud[j] * ud[k] for k in range(j, len(names))
             )  # fmt: skip
     return tau
+
+
+def printed_coupling(
+    derivation: Derivation, found: Mapping[str, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """J_t and b of u' = J_t q', u'' = J_t q'' + b, as the words above the lines say."""
+    closure, names = derivation.model.closure, [j.name for j in derivation.model.robot.free]
+    assert closure is not None
+    given, solved, count = list(closure.given), list(closure.solved), len(names)
+
+    def matrix(letter: str, rows: Sequence[str], columns: Sequence[int]) -> np.ndarray:
+        entries = [found.get(f"{letter}{r}_{names[k]}", 0.0) for r in rows for k in columns]
+        return np.reshape(entries, (len(rows), len(columns)))
+
+    J, b = np.zeros((count, len(given))), np.array([found.get(f"b{n}", 0.0) for n in names])
+    platform = list(closure.platform or ())
+    if any(name.startswith("Jt") for name in found):
+        J[solved] = matrix("Jt", [names[u] for u in solved], given)
+        rows = [p for p in platform if p in solved]
+        J[rows] = matrix("Jp", [names[p] for p in rows], given)
+        J[given] = np.eye(len(given))
+        return J, b
+    numbers = [str(r + 1) for r in range(len(closure.equations))]
+    F = matrix("F", numbers, range(count))
+    h = np.array([found.get(f"h{r}", 0.0) for r in numbers])
+    b[solved] = np.linalg.solve(F[:, solved], -h)
+    J[given], J[solved] = np.eye(len(given)), -np.linalg.solve(F[:, solved], F[:, given])
+    return J, b

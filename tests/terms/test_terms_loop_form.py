@@ -8,11 +8,9 @@ import pytest
 from modeler.api import load
 from modeler.symbolic import derive_model
 from modeler.terms import regressor_form, sheet_lines, short_form
-from tests.terms.printed_lines import compiled, derived, known, run_lines, torque
+from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines
 from tests.terms.test_terms_regressor_form import printed_columns
-from tests.terms.test_terms_short_form import moving_parts
-
-COMPLETE = ["five-bar", "orthoglide-2003"]
+from tests.terms.test_terms_whole_torque import check
 
 
 def motor_states(name):
@@ -21,39 +19,6 @@ def motor_states(name):
     home, rng = np.array(closure.home)[list(closure.given)], np.random.default_rng(8)
     for _ in range(3):
         yield (home + rng.uniform(-0.03, 0.03, len(home)), *rng.uniform(-1, 1, (2, len(home))))
-
-
-def printed_coupling(derivation, found) -> tuple[np.ndarray, np.ndarray]:
-    """J_t with the rows of the motors and of the platform, and the bias of the accelerations."""
-    closure, names = derivation.model.closure, [j.name for j in derivation.model.robot.free]
-    J = np.zeros((len(names), len(closure.given)))
-    for i, a in enumerate(closure.given):
-        J[a, i] = 1.0
-        for u in closure.solved:
-            at = f"{names[u]}_{names[a]}"
-            J[u, i] = found.get(f"Jt{at}", found.get(f"Jp{at}", 0.0))
-    return J, np.array([found.get(f"b{name}", 0.0) for name in names])
-
-
-def check(name) -> None:
-    derivation, model = derived(name), compiled(name)
-    form = short_form(derivation.model, derivation.base)
-    lines, names = sheet_lines(form.sheet), [j.name for j in derivation.model.robot.free]
-    beta = np.random.default_rng(9).normal(size=derivation.base.rank) * moving_parts(name)
-    assert form.loops is not None and form.loops.complete
-    for q, qd, qdd in motor_states(name):
-        u, G = model.close(q[None])[0], model.coupling(q[None])[0]
-        found = run_lines(lines, known(derivation, u, G @ qd, beta=beta))
-        J, bias = printed_coupling(derivation, found)
-        assert np.max(np.abs(J - G)) < 1e-12 * np.max(np.abs(G))
-        tau = J.T @ torque(found, names, G @ qd, J @ qdd + bias, form.chain)
-        expected = model.base_regressor(q[None], qd[None], qdd[None])[0] @ beta
-        assert np.max(np.abs(tau - expected)) < 1e-11 * np.max(np.abs(expected))
-
-
-@pytest.mark.parametrize("name", COMPLETE)
-def test_printed_lines_give_coupling_and_torque_of_the_c(name):
-    check(name)
 
 
 def test_a_block_of_four_equations(loop_robots_folder):
@@ -82,7 +47,41 @@ def test_guegan_relations_stand_beside_the_formulas():
     assert form.loops is not None
     told = "\n".join(form.loops.lines)
     assert "q41 = -q31; q51 = -q21 - pi/2; q71 = q31" in told
-    assert "tau_a = t_a + sum_u Jt_ua t_u + sum_p Jp_pa f_p" in told
+    assert "rows of J_t: Jp<p>_<a> of p, Jt<u>_<a> of the others; of motors: 1 and 0" in told
+    assert "tau = J_t' t, t: torques of the opened tree along u" in told
+
+
+# S. Briot, M. Gautier, 2012, part 2: f_p, the spheres on which the bars hold the platform.
+SPHERES = [
+    "x**2 + y**2 + (z - q11 - d6)**2 - d4**2",
+    "(x - q12 - d6 + a)**2 + y**2 + (z - a)**2 - d4**2",
+    "x**2 + (y - q13 - d6 + a)**2 + (z - a)**2 - d4**2",
+]
+
+
+def test_spheres_are_those_of_the_paper():
+    derivation = derived("orthoglide-2012")
+    lines = sheet_lines(short_form(derivation.model, derivation.base).sheet)
+    names, rng = [j.name for j in derivation.model.robot.free], np.random.default_rng(2)
+    u = rng.uniform(-1, 1, len(names))
+    found = run_lines(lines, known(derivation, u, u, beta=[0.0] * derivation.base.rank))
+    values = found | {"x": found["q6x"], "y": found["q6y"], "z": found["q6"]}
+    for k, text in enumerate(SPHERES, start=1):
+        assert found[f"fp{k}"] == pytest.approx(eval(text, {}, values), abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["orthoglide-2003", "delta", "3rrr", "stewart"])
+def test_spheres_vanish_where_the_loops_are_closed(name):
+    derivation, model = derived(name), compiled(name)
+    none = replace(derivation.base, parameters=())
+    lines = sheet_lines(short_form(derivation.model, none).sheet)
+    closure = derivation.model.closure
+    for q, _, _ in motor_states(name):
+        for step in (0.0, 1e-3):
+            u = model.close(q[None] + step)[0]
+            found = run_lines(lines, known(derivation, u, 0 * u))
+            spheres = [found[f"fp{k + 1}"] for k in range(len(closure.given))]
+            assert np.max(np.abs(spheres)) < 1e-12
 
 
 def test_six_motors_leave_the_inverse_of_k_to_a_solver():
@@ -91,7 +90,7 @@ def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     none = replace(derived("five-bar").base, parameters=())
     form = short_form(model, none)
     assert form.loops is not None and not form.loops.complete
-    assert any("J_p = K^-1" in line for line in form.loops.lines)
+    assert any("F J_t = 0" in line for line in form.loops.lines)
     closure, names = model.closure, [joint.name for joint in model.robot.free]
     assert closure is not None and closure.platform is not None
     posture = {f"q{name}": u for name, u in zip(names, closure.home, strict=True)}
