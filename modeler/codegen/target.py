@@ -29,7 +29,7 @@ class Target:
         functions: {function of the graph: C name}, all of `FUNCTIONS`.
         sincos: C name of the function that gives sine and cosine at once.
         smooth_sign: C name of the sign that turns over a width.
-        sign: C text of the sign of `{0}`, a name.
+        sign: C text of the sign of `{0}`, a name; NaN where it is not finite.
         spread: C text of a value of all lanes that are alike, of `{0}`, one number.
         constant: target of values that do not depend on the motion; None: this one.
     """
@@ -65,7 +65,7 @@ DOUBLE = Target(
     functions=MappingProxyType(_MATH),
     sincos="modeler_sincos",
     smooth_sign="smooth_sign",
-    sign="(double)(({0} > 0.0) - ({0} < 0.0))",
+    sign="((double)(({0} > 0.0) - ({0} < 0.0)) + ({0} - {0}))",
 )
 
 SINGLE = Target(
@@ -77,7 +77,7 @@ SINGLE = Target(
     functions=MappingProxyType({name: f"{c}f" for name, c in _MATH.items()}),
     sincos="modelerf_sincos",
     smooth_sign="smooth_sign",
-    sign="(float)(({0} > 0.0f) - ({0} < 0.0f))",
+    sign="((float)(({0} > 0.0f) - ({0} < 0.0f)) + ({0} - {0}))",
 )
 
 OF_PRECISION: Mapping[Precision, Target] = MappingProxyType({"double": DOUBLE, "single": SINGLE})
