@@ -84,7 +84,7 @@ def _lines(table: Table) -> list[str]:
 
 
 def _inputs(model: SymbolicModel, functions: Sequence[Function]) -> dict[str, Table]:
-    """Numbers of order 1, none of them 0; speeds of at least 1."""
+    """Numbers of order 1, none of them 0; then slow, where friction turns."""
     coordinates = len(model.robot.coordinates)
 
     def table(length: int, number: Callable[[int, int], float]) -> Table:
@@ -94,7 +94,7 @@ def _inputs(model: SymbolicModel, functions: Sequence[Function]) -> dict[str, Ta
         return lambda i, state: ((factor * i + 7 * state + 3) % 23 - 11.5) * per
 
     def speed(i: int, state: int) -> float:
-        return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16)
+        return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16) / 64**state
 
     return {
         "q": table(coordinates, spread(11, 1 / 8)),
@@ -103,7 +103,7 @@ def _inputs(model: SymbolicModel, functions: Sequence[Function]) -> dict[str, Ta
         "s": table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
         "dq": table(coordinates, spread(3, 1 / 512)),
         "dt": table(1, lambda i, state: (state + 1) / 256),
-        "chi": [[1 + (7 * k % 17) / 16 for k in range(len(model.columns))]],
+        "chi": [[1 + (40503 * k + 977) % 4096 / 4096 for k in range(len(model.columns))]],
     }
 
 
