@@ -218,50 +218,62 @@ class _Motion:
         self, model: SymbolicModel, closure: Closure, places: Sequence[int], u: Sequence[Any],
         constants: Values,
     ) -> None:  # fmt: skip
-        mp = precise()
-        self._model, self._closure = model, closure
-        self.u, self._places = u, places
+        self._model, self._drift, self.u = model, closure.drift, u
         self._solved = [k for k in range(len(u)) if k not in places]
         self._values = {**constants, **_named(q=u)}
-        inverse, others = (self._part(k) for k in (self._solved, list(places)))
-        self._inverse = inverse**-1
-        along = -self._inverse * others
-        self.G = mp.zeros(len(u), len(places))
-        for j, k in enumerate(places):
-            self.G[k, j] = mp.one
-        for i, k in enumerate(self._solved):
-            self.G[k, :] = along[i, :]
-
-    def _part(self, places: Sequence[int]) -> Any:
-        found = precise_values(self._model.graph, _slopes(self._closure, places), self._values)
-        return precise().matrix(np.reshape(np.array(found), (-1, len(places))).tolist())
+        found = precise_values(model.graph, _slopes(closure, range(len(u))), self._values)
+        J = [found[i : i + len(u)] for i in range(0, len(found), len(u))]
+        self._inverse = _inverse([[row[k] for k in self._solved] for row in J])
+        along = _product(self._inverse, [[-row[k] for k in places] for row in J])
+        self.G = [[precise().mpf(k == p) for p in places] for k in range(len(u))]
+        for k, row in zip(self._solved, along, strict=True):
+            self.G[k] = row
 
     def output(
         self, kind: str, tree: Function | None, qd: Sequence[Any] | None, qdd: Sequence[Any] | None
     ) -> list[Any]:
         """What a function of that kind gives, row-major; see `functions.Closed`."""
-        mp, n = precise(), len(self.u)
         if kind == "posture":
             return list(self.u)
         if kind == "coupling":
             return _flat(self.G)
         assert tree is not None
         values = self._values
-        if qd is not None:
-            ud, udd = (self.G * mp.matrix([decimal(x) for x in part]) for part in (qd, qdd or qd))
+        if qd is not None and qdd is not None:
+            ud, udd = ([x for [x] in _product(self.G, [[decimal(y)] for y in x])] for x in (qd, qdd))
             values = {**values, **_named(qd=ud)}
-            drift = precise_values(self._model.graph, self._closure.drift, values)
-            for k, change in zip(self._solved, self._inverse * mp.matrix(drift), strict=True):
+            drift = precise_values(self._model.graph, self._drift, values)
+            changes = _product(self._inverse, [[x] for x in drift])
+            for k, [change] in zip(self._solved, changes, strict=True):
                 udd[k] -= change
             values |= _named(qdd=udd)
-        rows = _outputs(self._model, tree, values)
+        out = _outputs(self._model, tree, values)
         if kind == "poses":
-            return rows
-        if kind == "inertia_matrix":
-            M = mp.matrix(np.reshape(np.array(rows), (n, n)).tolist())
-            return _flat(self.G.T * M * self.G)
-        return _flat(self.G.T * mp.matrix(rows))
+            return out
+        width, across = len(out) // len(self.u), list(zip(*self.G, strict=True))
+        rows = _product(across, [out[i : i + width] for i in range(0, len(out), width)])
+        return _flat(_product(rows, self.G) if kind == "inertia_matrix" else rows)
 
 
-def _flat(matrix: Any) -> list[Any]:
-    return [x if abs(x) > _ZERO else precise().zero for x in matrix]
+def _product(A: Sequence[Sequence[Any]], B: Sequence[Sequence[Any]]) -> Table:
+    columns = list(zip(*B, strict=True))
+    return [[precise().fdot(row, column) for column in columns] for row in A]
+
+
+def _inverse(A: Table) -> Table:
+    """By Gauss and Jordan, rows exchanged: mpmath's own takes fifty times as long."""
+    n = len(A)
+    rows = [[*row, *(precise().mpf(i == k) for k in range(n))] for i, row in enumerate(A)]
+    for j in range(n):
+        pivot = max(range(j, n), key=lambda i: abs(rows[i][j]))
+        rows[j], rows[pivot] = rows[pivot], rows[j]
+        rows[j] = [x / rows[j][j] for x in rows[j]]
+        for i in range(n):
+            share = rows[i][j]
+            if i != j and share:
+                rows[i] = [x - share * y for x, y in zip(rows[i], rows[j], strict=True)]
+    return [row[n:] for row in rows]
+
+
+def _flat(rows: Table) -> list[Any]:
+    return [x if abs(x) > _ZERO else precise().zero for row in rows for x in row]
