@@ -240,7 +240,9 @@ class _Motion:
         assert tree is not None
         values = self._values
         if qd is not None and qdd is not None:
-            ud, udd = ([x for [x] in _product(self.G, [[decimal(y)] for y in x])] for x in (qd, qdd))
+            ud, udd = (
+                [x for [x] in _product(self.G, [[decimal(y)] for y in x])] for x in (qd, qdd)
+            )
             values = {**values, **_named(qd=ud)}
             drift = precise_values(self._model.graph, self._drift, values)
             changes = _product(self._inverse, [[x] for x in drift])

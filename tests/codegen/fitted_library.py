@@ -11,7 +11,7 @@ import numpy as np
 from modeler.base import base_parameters
 from modeler.codegen import emit
 from modeler.compiled.build import build_library
-from modeler.core.contract import Emitted, FittedParameter, FittedSpec, ModuleSpec
+from modeler.core.contract import ArgumentSpec, Emitted, FittedParameter, FittedSpec, ModuleSpec
 from modeler.robot import builtin_text, robot_from_text
 from modeler.robot.edit import with_effects
 from modeler.symbolic import derive_model
@@ -98,6 +98,10 @@ class Functions:
     def every(self) -> list[str]:
         """Names of all functions, without the robot's."""
         return list(self._known)
+
+    def inputs(self, role: str) -> tuple[ArgumentSpec, ...]:
+        """Arguments that a function reads."""
+        return self._known[role].inputs
 
     def text(self, role: str) -> str:
         """What a function without arguments says."""

@@ -74,7 +74,9 @@ def mutants_of(emitted: Emitted) -> list[Mutant]:
         own = file.startswith(emitted.spec.prefix) and file.endswith(".c")
         if not own and file != "modeler_sincos.h":
             continue
-        plain = re.sub(r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S)
+        plain = re.sub(
+            r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S
+        )
         at = 0
         for line, head in zip(plain.splitlines(keepends=True), heads(plain), strict=True):
             if not re.search(STEERING, head):
@@ -105,7 +107,10 @@ def same_results(emitted: Emitted, changed: Emitted, name: str) -> bool:
     random = np.random.default_rng(3)
     spec, n = emitted.spec, len(given["q"])
     rounding = 1e-5 if spec.precision == "single" else 1e-12
-    given |= {"beta": random.normal(size=len(spec.base)), "chi": random.normal(size=len(spec.standard))}
+    given |= {
+        "beta": random.normal(size=len(spec.base)),
+        "chi": random.normal(size=len(spec.standard)),
+    }
     given |= {"dq": 0.01 * given["qd"], "dt": np.full((n, 1), 0.002)}
     both = [Functions(each) for each in (emitted, changed)]
     if spec.closure is not None:
@@ -183,6 +188,10 @@ def test_the_check_of_a_folder_notices_a_wrong_sign_or_constant(name, count, tmp
     for mutant in random.Random(count).sample(every, count):
         if folder.survives(mutant) and not same_results(emitted, changed(emitted, mutant), robot):
             text = emitted.files[mutant.file]
-            line = text[: mutant.start].rpartition("\n")[2] + ">" + text[mutant.start :].partition("\n")[0]
+            line = (
+                text[: mutant.start].rpartition("\n")[2]
+                + ">"
+                + text[mutant.start :].partition("\n")[0]
+            )
             survived.append(f"{mutant.file}: {line} -> {mutant.text}")
     assert not survived, "\n".join(survived)

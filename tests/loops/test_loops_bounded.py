@@ -84,7 +84,9 @@ def statuses(emitted: Emitted) -> dict[str, list[tuple[int, bool]]]:
     spec, given = emitted.spec, motion(emitted.spec.robot, 1)
     given |= {"beta": np.ones((1, len(spec.base))), "chi": np.ones((1, len(spec.standard)))}
     given["start"] = np.array([spec.closure.home])
-    known = [f for f in (*spec.functions, *(spec.fitted.functions if spec.fitted else ())) if f.status]
+    known = [
+        f for f in (*spec.functions, *(spec.fitted.functions if spec.fitted else ())) if f.status
+    ]
     found: dict[str, list[tuple[int, bool]]] = {}
     for f in known:
         call = getattr(functions._library, f.name)
@@ -139,7 +141,10 @@ def test_statuses_mean_the_same_wherever_they_are_written():
     }  # fmt: skip
     files = module("five-bar").emitted.files
     told = " ".join(files["five_bar.h"].replace("\n *", " ").split())
-    assert "2 singular posture; 3 an input is not finite" in told and "4 these values are so far" in told
+    assert (
+        "2 singular posture; 3 an input is not finite" in told
+        and "4 these values are so far" in told
+    )
     rows = re.findall(r"^\| (\d) \| ([a-z ]+)", files["README.md"], re.MULTILINE)
     assert [row[0] for row in rows] == list("01234")
     assert rows[3][1].startswith("an input that is not finite") and rows[4][1].startswith("too far")
