@@ -81,8 +81,8 @@ void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, co
     const double t11 = s7*qdd[6] + t10;
     const double t12 = c6*(t9 - (t10 + t11)*beta[21] + (qdd[6]*beta[14] - t1*beta[15]));
     const double t13 = s6*(t1*beta[14] + qdd[6]*beta[15] + t8) - t12 + qdd[3]*beta[1];
-    const double t14 = qd[3]*beta[2] + t13 + (double)((qd[3] > 0.0) - (qd[3] < 0.0))*beta[3];
-    tau[3] = beta[4] + t14;
+    const double t14 = ((double)((qd[3] > 0.0) - (qd[3] < 0.0)) + (qd[3] - qd[3]))*beta[3];
+    tau[3] = qd[3]*beta[2] + t13 + t14 + beta[4];
     const double t15 = qd[8]*qd[8];
     const double t16 = t15*beta[32];
     const double t17 = s9*t16;
@@ -97,8 +97,8 @@ void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, co
     const double t26 = s9*qdd[8] + t25;
     const double t27 = c8*(t24 - (t25 + t26)*beta[31] + (qdd[8]*beta[24] - t15*beta[25]));
     const double t28 = s8*(t15*beta[24] + qdd[8]*beta[25] + t23) - t27 + qdd[4]*beta[5];
-    const double t29 = qd[4]*beta[6] + t28 + (double)((qd[4] > 0.0) - (qd[4] < 0.0))*beta[7];
-    tau[4] = beta[8] + t29;
+    const double t29 = ((double)((qd[4] > 0.0) - (qd[4] < 0.0)) + (qd[4] - qd[4]))*beta[7];
+    tau[4] = qd[4]*beta[6] + t28 + t29 + beta[8];
     const double t30 = qd[10]*qd[10];
     const double t31 = t30*beta[42];
     const double t32 = s11*t31;
@@ -113,8 +113,8 @@ void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, co
     const double t41 = s11*qdd[10] + t40;
     const double t42 = c10*(t39 - (t40 + t41)*beta[41] + (qdd[10]*beta[34] - t30*beta[35]));
     const double t43 = s10*(t30*beta[34] + qdd[10]*beta[35] + t38) - t42 + qdd[5]*beta[9];
-    const double t44 = qd[5]*beta[10] + t43 + (double)((qd[5] > 0.0) - (qd[5] < 0.0))*beta[11];
-    tau[5] = beta[12] + t44;
+    const double t44 = ((double)((qd[5] > 0.0) - (qd[5] < 0.0)) + (qd[5] - qd[5]))*beta[11];
+    tau[5] = qd[5]*beta[10] + t43 + t44 + beta[12];
     const double t45 = c6*qdd[3];
     const double t46 = qd[7]*t4;
     const double t47 = c7*qdd[6] - t46;
@@ -441,10 +441,12 @@ void orthoglide_2003_tree_friction(const double *qd, const double *beta,
     tau[10] = 0.0;
     tau[11] = 0.0;
 
-    tau[3] = qd[3]*beta[2] + (double)((qd[3] > 0.0) - (qd[3] < 0.0))*beta[3] + beta[4];
-    tau[4] = qd[4]*beta[6] + (double)((qd[4] > 0.0) - (qd[4] < 0.0))*beta[7] + beta[8];
-    const double t1 = qd[5]*beta[10] + (double)((qd[5] > 0.0) - (qd[5] < 0.0))*beta[11];
-    tau[5] = beta[12] + t1;
+    const double t1 = ((double)((qd[3] > 0.0) - (qd[3] < 0.0)) + (qd[3] - qd[3]))*beta[3];
+    tau[3] = qd[3]*beta[2] + t1 + beta[4];
+    const double t2 = ((double)((qd[4] > 0.0) - (qd[4] < 0.0)) + (qd[4] - qd[4]))*beta[7];
+    tau[4] = qd[4]*beta[6] + t2 + beta[8];
+    const double t3 = ((double)((qd[5] > 0.0) - (qd[5] < 0.0)) + (qd[5] - qd[5]))*beta[11];
+    tau[5] = qd[5]*beta[10] + t3 + beta[12];
 }
 
 /* Poses of the frames of all moving rows of the table, in order.

@@ -8,6 +8,10 @@
 
 #include <stddef.h>
 
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "modeler: NaN must stay NaN: compile without -ffast-math and -ffinite-math-only (/fp:fast)"
+#endif
+
 /* `restrict`, which C++ spells otherwise or has not. */
 #if !defined(__cplusplus)
 #define MODELER_RESTRICT restrict
