@@ -2,6 +2,7 @@
 
 import dataclasses
 import platform
+import re
 import subprocess
 import tempfile
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""All C files beside the header are the library: they compile at once, and link with any program."""
+"""All C files beside the header are the library: they compile at once, and link with a program."""
 
 import dataclasses
 import subprocess
