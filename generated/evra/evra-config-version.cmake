@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.8677.60029.10347) only what has the signature 21e5ea7d286b37e6.
-set(PACKAGE_VERSION 1.8677.60029.10347)
+# find_package(evra 1.31689.46086.57698) only what has the signature 7bc9b406e1628724.
+set(PACKAGE_VERSION 1.31689.46086.57698)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

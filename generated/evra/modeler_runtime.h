@@ -35,6 +35,12 @@
 #define MODELER_ZEROS(x, length) MODELER_CLEAR(x, length)
 #endif
 
+/* -1, 0 or 1; NaN where x is not finite. */
+static inline double modeler_sign(double x)
+{
+    return (double)((x > 0.0) - (x < 0.0)) + (x - x);
+}
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -115,7 +115,7 @@ MODELER_INLINE double modeler_lanes_pow(double x, double y) { return pow(x, y); 
 
 MODELER_INLINE double modeler_lanes_sign(double x)
 {
-    return (double)((x > 0.0) - (x < 0.0)) + (x - x);
+    return modeler_sign(x);
 }
 
 MODELER_INLINE void modeler_lanes_sincos(double x, double *sine, double *cosine)
