@@ -109,8 +109,8 @@ def emit(
     kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
     functions = [function for function, _ in module.blocks]
     if fitted is not None:
-        functions += fitted_functions(model, base, fitted)
         spec, unit = _fitted_unit(model, base, fitted, module)
+        functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
     values |= {"vectors": stored_states(model, base, functions)}

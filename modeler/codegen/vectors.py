@@ -139,7 +139,8 @@ def _of_loops(
 ) -> dict[str, Table]:
     closure = model.closure
     assert closure is not None
-    found = {role: [] for role, f in roles.items() if f.closed and role not in _REGRESSORS}
+    ways = {r: f.closed for r, f in roles.items() if f.closed and r not in _REGRESSORS}
+    found: dict[str, Table] = {role: [] for role in ways}
     postures = [_near_home(model, closure, state) for state in range(STATES)]
     inputs["q"] = [[u[k] for k in closure.given] for u in postures]
     sets = {"q": closure.given}
@@ -152,10 +153,9 @@ def _of_loops(
         for state, near in enumerate(postures):
             u = _closed(model, closure, places, inputs[name][state], near)
             motion = _Motion(model, closure, places, u, constants)
-            given = {"": None, "standing": [0.0] * len(places)}
+            given: dict[str, Any] = {"": None, "standing": [0.0] * len(places)}
             given |= {key: table[state] for key, table in inputs.items() if len(table) > 1}
-            for role in found:
-                c = roles[role].closed
+            for role, c in ways.items():
                 if c.q == name:
                     tree = roles.get(f"{c.tree}_{c.role}")
                     found[role].append(motion.output(c.kind, tree, given[c.qd], given[c.qdd]))
@@ -201,7 +201,10 @@ def _closed(
         near = {name: float(x) for name, x in values.items()}
         J = np.array(model.graph.evaluate(_slopes(closure, solved), near), dtype=float)
         # The step is good to a double, what is left is known to 40 digits: so it goes on shrinking.
-        step = np.linalg.solve(J.reshape(len(solved), len(solved)), f)
+        try:
+            step = np.linalg.solve(J.reshape(len(solved), len(solved)), f)
+        except np.linalg.LinAlgError:
+            break
         for k, change in zip(solved, step, strict=True):
             u[k] -= float(change)
         if not np.all(np.abs(step) < 1e3):
