@@ -675,7 +675,8 @@ int main(void)
         empty();
         modeler_batch_status_4(evra_inverse_dynamics,
             2, inputs, out, 8, status);
-        compare("evra_inverse_dynamics", out, at_inverse_dynamics, STATES, 8, REPLACED);
+        compare("evra_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -685,7 +686,8 @@ int main(void)
         empty();
         modeler_batch_status_2(evra_gravity,
             2, inputs, out, 8, status);
-        compare("evra_gravity", out, at_gravity, STATES, 8, REPLACED);
+        compare("evra_gravity", out,
+                at_gravity, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -696,7 +698,8 @@ int main(void)
         empty();
         modeler_batch_status_3(evra_coriolis,
             2, inputs, out, 8, status);
-        compare("evra_coriolis", out, at_coriolis, STATES, 8, REPLACED);
+        compare("evra_coriolis", out,
+                at_coriolis, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -707,7 +710,8 @@ int main(void)
         empty();
         modeler_batch_status_3(evra_friction,
             2, inputs, out, 8, status);
-        compare("evra_friction", out, at_friction, STATES, 8, REPLACED);
+        compare("evra_friction", out,
+                at_friction, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -717,7 +721,8 @@ int main(void)
         empty();
         modeler_batch_status_2(evra_inertia_matrix,
             2, inputs, out, 64, status);
-        compare("evra_inertia_matrix", out, at_inertia_matrix, STATES, 64, REPLACED);
+        compare("evra_inertia_matrix", out,
+                at_inertia_matrix, STATES, 64, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -726,7 +731,8 @@ int main(void)
         empty();
         modeler_batch_status_1(evra_forward_kinematics,
             2, inputs, out, 312, status);
-        compare("evra_forward_kinematics", out, at_forward_kinematics, STATES, 312, REPLACED);
+        compare("evra_forward_kinematics", out,
+                at_forward_kinematics, STATES, 312, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -735,7 +741,8 @@ int main(void)
         empty();
         modeler_batch_status_1(evra_close,
             2, inputs, out, 26, status);
-        compare("evra_close", out, at_close, STATES, 26, REPLACED);
+        compare("evra_close", out,
+                at_close, STATES, 26, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -745,7 +752,8 @@ int main(void)
         empty();
         modeler_batch_status_2(evra_close_from,
             2, inputs, out, 26, status);
-        compare("evra_close_from", out, at_close_from, STATES, 26, REPLACED);
+        compare("evra_close_from", out,
+                at_close_from, STATES, 26, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -754,7 +762,8 @@ int main(void)
         empty();
         modeler_batch_status_1(evra_coupling,
             2, inputs, out, 208, status);
-        compare("evra_coupling", out, at_coupling, STATES, 208, REPLACED);
+        compare("evra_coupling", out,
+                at_coupling, STATES, 208, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -766,7 +775,8 @@ int main(void)
         empty();
         modeler_batch_status_4(evra_platform_inverse_dynamics,
             2, inputs, out, 8, status);
-        compare("evra_platform_inverse_dynamics", out, at_platform_inverse_dynamics, STATES, 8, REPLACED);
+        compare("evra_platform_inverse_dynamics", out,
+                at_platform_inverse_dynamics, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -775,7 +785,8 @@ int main(void)
         empty();
         modeler_batch_status_1(evra_platform_close,
             2, inputs, out, 26, status);
-        compare("evra_platform_close", out, at_platform_close, STATES, 26, REPLACED);
+        compare("evra_platform_close", out,
+                at_platform_close, STATES, 26, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -785,7 +796,8 @@ int main(void)
         empty();
         modeler_batch_status_2(evra_platform_close_from,
             2, inputs, out, 26, status);
-        compare("evra_platform_close_from", out, at_platform_close_from, STATES, 26, REPLACED);
+        compare("evra_platform_close_from", out,
+                at_platform_close_from, STATES, 26, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -794,7 +806,8 @@ int main(void)
         empty();
         modeler_batch_status_1(evra_platform_coupling,
             2, inputs, out, 208, status);
-        compare("evra_platform_coupling", out, at_platform_coupling, STATES, 208, REPLACED);
+        compare("evra_platform_coupling", out,
+                at_platform_coupling, STATES, 208, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -806,7 +819,8 @@ int main(void)
         modeler_batch_status_3(evra_regressor,
             2, inputs, out, 1680, status);
         multiply(out, 210, chi);
-        compare("evra_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("evra_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -818,7 +832,8 @@ int main(void)
         modeler_batch_status_3(evra_base_regressor,
             2, inputs, out, 720, status);
         multiply(out, 90, beta);
-        compare("evra_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("evra_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -830,20 +845,24 @@ int main(void)
         modeler_batch_status_3(evra_platform_base_regressor,
             2, inputs, out, 720, status);
         multiply(out, 90, beta);
-        compare("evra_platform_base_regressor", product, at_platform_inverse_dynamics, STATES, N, 0);
+        compare("evra_platform_base_regressor", product,
+                at_platform_inverse_dynamics, STATES, N, 0);
     }
     empty();
     evra_observation(STATES, q, qd, qdd, out, status);
     multiply(out, C, beta);
-    compare("evra_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("evra_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("evra_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("evra_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("evra %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("18 functions agree with the stored states to %.1e\n", worst);
+    printf("18 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

@@ -231,7 +231,8 @@ int main(void)
         empty();
         modeler_batch_status_4(five_bar_inverse_dynamics,
             2, inputs, out, 2, status);
-        compare("five_bar_inverse_dynamics", out, at_inverse_dynamics, STATES, 2, REPLACED);
+        compare("five_bar_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 2, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -241,7 +242,8 @@ int main(void)
         empty();
         modeler_batch_status_2(five_bar_gravity,
             2, inputs, out, 2, status);
-        compare("five_bar_gravity", out, at_gravity, STATES, 2, REPLACED);
+        compare("five_bar_gravity", out,
+                at_gravity, STATES, 2, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -252,7 +254,8 @@ int main(void)
         empty();
         modeler_batch_status_3(five_bar_coriolis,
             2, inputs, out, 2, status);
-        compare("five_bar_coriolis", out, at_coriolis, STATES, 2, REPLACED);
+        compare("five_bar_coriolis", out,
+                at_coriolis, STATES, 2, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -263,7 +266,8 @@ int main(void)
         empty();
         modeler_batch_status_3(five_bar_friction,
             2, inputs, out, 2, status);
-        compare("five_bar_friction", out, at_friction, STATES, 2, REPLACED);
+        compare("five_bar_friction", out,
+                at_friction, STATES, 2, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -273,7 +277,8 @@ int main(void)
         empty();
         modeler_batch_status_2(five_bar_inertia_matrix,
             2, inputs, out, 4, status);
-        compare("five_bar_inertia_matrix", out, at_inertia_matrix, STATES, 4, REPLACED);
+        compare("five_bar_inertia_matrix", out,
+                at_inertia_matrix, STATES, 4, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -282,7 +287,8 @@ int main(void)
         empty();
         modeler_batch_status_1(five_bar_forward_kinematics,
             2, inputs, out, 48, status);
-        compare("five_bar_forward_kinematics", out, at_forward_kinematics, STATES, 48, REPLACED);
+        compare("five_bar_forward_kinematics", out,
+                at_forward_kinematics, STATES, 48, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -291,7 +297,8 @@ int main(void)
         empty();
         modeler_batch_status_1(five_bar_close,
             2, inputs, out, 4, status);
-        compare("five_bar_close", out, at_close, STATES, 4, REPLACED);
+        compare("five_bar_close", out,
+                at_close, STATES, 4, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -301,7 +308,8 @@ int main(void)
         empty();
         modeler_batch_status_2(five_bar_close_from,
             2, inputs, out, 4, status);
-        compare("five_bar_close_from", out, at_close_from, STATES, 4, REPLACED);
+        compare("five_bar_close_from", out,
+                at_close_from, STATES, 4, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -310,7 +318,8 @@ int main(void)
         empty();
         modeler_batch_status_1(five_bar_coupling,
             2, inputs, out, 8, status);
-        compare("five_bar_coupling", out, at_coupling, STATES, 8, REPLACED);
+        compare("five_bar_coupling", out,
+                at_coupling, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -322,7 +331,8 @@ int main(void)
         modeler_batch_status_3(five_bar_regressor,
             2, inputs, out, 80, status);
         multiply(out, 40, chi);
-        compare("five_bar_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("five_bar_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -334,20 +344,24 @@ int main(void)
         modeler_batch_status_3(five_bar_base_regressor,
             2, inputs, out, 22, status);
         multiply(out, 11, beta);
-        compare("five_bar_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("five_bar_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     empty();
     five_bar_observation(STATES, q, qd, qdd, out, status);
     multiply(out, C, beta);
-    compare("five_bar_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("five_bar_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("five_bar_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("five_bar_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("five_bar %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("13 functions agree with the stored states to %.1e\n", worst);
+    printf("13 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

@@ -391,7 +391,8 @@ int main(void)
         empty();
         modeler_batch_status_4(orthoglide_2003_inverse_dynamics,
             2, inputs, out, 3, status);
-        compare("orthoglide_2003_inverse_dynamics", out, at_inverse_dynamics, STATES, 3, REPLACED);
+        compare("orthoglide_2003_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -401,7 +402,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2003_gravity,
             2, inputs, out, 3, status);
-        compare("orthoglide_2003_gravity", out, at_gravity, STATES, 3, REPLACED);
+        compare("orthoglide_2003_gravity", out,
+                at_gravity, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -412,7 +414,8 @@ int main(void)
         empty();
         modeler_batch_status_3(orthoglide_2003_coriolis,
             2, inputs, out, 3, status);
-        compare("orthoglide_2003_coriolis", out, at_coriolis, STATES, 3, REPLACED);
+        compare("orthoglide_2003_coriolis", out,
+                at_coriolis, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -423,7 +426,8 @@ int main(void)
         empty();
         modeler_batch_status_3(orthoglide_2003_friction,
             2, inputs, out, 3, status);
-        compare("orthoglide_2003_friction", out, at_friction, STATES, 3, REPLACED);
+        compare("orthoglide_2003_friction", out,
+                at_friction, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -433,7 +437,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2003_inertia_matrix,
             2, inputs, out, 9, status);
-        compare("orthoglide_2003_inertia_matrix", out, at_inertia_matrix, STATES, 9, REPLACED);
+        compare("orthoglide_2003_inertia_matrix", out,
+                at_inertia_matrix, STATES, 9, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -442,7 +447,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2003_forward_kinematics,
             2, inputs, out, 252, status);
-        compare("orthoglide_2003_forward_kinematics", out, at_forward_kinematics, STATES, 252, REPLACED);
+        compare("orthoglide_2003_forward_kinematics", out,
+                at_forward_kinematics, STATES, 252, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -451,7 +457,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2003_close,
             2, inputs, out, 12, status);
-        compare("orthoglide_2003_close", out, at_close, STATES, 12, REPLACED);
+        compare("orthoglide_2003_close", out,
+                at_close, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -461,7 +468,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2003_close_from,
             2, inputs, out, 12, status);
-        compare("orthoglide_2003_close_from", out, at_close_from, STATES, 12, REPLACED);
+        compare("orthoglide_2003_close_from", out,
+                at_close_from, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -470,7 +478,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2003_coupling,
             2, inputs, out, 36, status);
-        compare("orthoglide_2003_coupling", out, at_coupling, STATES, 36, REPLACED);
+        compare("orthoglide_2003_coupling", out,
+                at_coupling, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -482,7 +491,8 @@ int main(void)
         empty();
         modeler_batch_status_4(orthoglide_2003_platform_inverse_dynamics,
             2, inputs, out, 3, status);
-        compare("orthoglide_2003_platform_inverse_dynamics", out, at_platform_inverse_dynamics, STATES, 3, REPLACED);
+        compare("orthoglide_2003_platform_inverse_dynamics", out,
+                at_platform_inverse_dynamics, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -491,7 +501,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2003_platform_close,
             2, inputs, out, 12, status);
-        compare("orthoglide_2003_platform_close", out, at_platform_close, STATES, 12, REPLACED);
+        compare("orthoglide_2003_platform_close", out,
+                at_platform_close, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -501,7 +512,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2003_platform_close_from,
             2, inputs, out, 12, status);
-        compare("orthoglide_2003_platform_close_from", out, at_platform_close_from, STATES, 12, REPLACED);
+        compare("orthoglide_2003_platform_close_from", out,
+                at_platform_close_from, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -510,7 +522,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2003_platform_coupling,
             2, inputs, out, 36, status);
-        compare("orthoglide_2003_platform_coupling", out, at_platform_coupling, STATES, 36, REPLACED);
+        compare("orthoglide_2003_platform_coupling", out,
+                at_platform_coupling, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -522,7 +535,8 @@ int main(void)
         modeler_batch_status_3(orthoglide_2003_regressor,
             2, inputs, out, 489, status);
         multiply(out, 163, chi);
-        compare("orthoglide_2003_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_2003_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -534,7 +548,8 @@ int main(void)
         modeler_batch_status_3(orthoglide_2003_base_regressor,
             2, inputs, out, 129, status);
         multiply(out, 43, beta);
-        compare("orthoglide_2003_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_2003_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -546,20 +561,24 @@ int main(void)
         modeler_batch_status_3(orthoglide_2003_platform_base_regressor,
             2, inputs, out, 129, status);
         multiply(out, 43, beta);
-        compare("orthoglide_2003_platform_base_regressor", product, at_platform_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_2003_platform_base_regressor", product,
+                at_platform_inverse_dynamics, STATES, N, 0);
     }
     empty();
     orthoglide_2003_observation(STATES, q, qd, qdd, out, status);
     multiply(out, C, beta);
-    compare("orthoglide_2003_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("orthoglide_2003_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("orthoglide_2003_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("orthoglide_2003_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("orthoglide_2003 %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("18 functions agree with the stored states to %.1e\n", worst);
+    printf("18 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

@@ -368,7 +368,8 @@ int main(void)
         empty();
         modeler_batch_status_4(orthoglide_2012_inverse_dynamics,
             2, inputs, out, 3, status);
-        compare("orthoglide_2012_inverse_dynamics", out, at_inverse_dynamics, STATES, 3, REPLACED);
+        compare("orthoglide_2012_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -378,7 +379,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2012_gravity,
             2, inputs, out, 3, status);
-        compare("orthoglide_2012_gravity", out, at_gravity, STATES, 3, REPLACED);
+        compare("orthoglide_2012_gravity", out,
+                at_gravity, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -389,7 +391,8 @@ int main(void)
         empty();
         modeler_batch_status_3(orthoglide_2012_coriolis,
             2, inputs, out, 3, status);
-        compare("orthoglide_2012_coriolis", out, at_coriolis, STATES, 3, REPLACED);
+        compare("orthoglide_2012_coriolis", out,
+                at_coriolis, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -400,7 +403,8 @@ int main(void)
         empty();
         modeler_batch_status_3(orthoglide_2012_friction,
             2, inputs, out, 3, status);
-        compare("orthoglide_2012_friction", out, at_friction, STATES, 3, REPLACED);
+        compare("orthoglide_2012_friction", out,
+                at_friction, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -410,7 +414,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2012_inertia_matrix,
             2, inputs, out, 9, status);
-        compare("orthoglide_2012_inertia_matrix", out, at_inertia_matrix, STATES, 9, REPLACED);
+        compare("orthoglide_2012_inertia_matrix", out,
+                at_inertia_matrix, STATES, 9, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -419,7 +424,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2012_forward_kinematics,
             2, inputs, out, 216, status);
-        compare("orthoglide_2012_forward_kinematics", out, at_forward_kinematics, STATES, 216, REPLACED);
+        compare("orthoglide_2012_forward_kinematics", out,
+                at_forward_kinematics, STATES, 216, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -428,7 +434,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2012_close,
             2, inputs, out, 12, status);
-        compare("orthoglide_2012_close", out, at_close, STATES, 12, REPLACED);
+        compare("orthoglide_2012_close", out,
+                at_close, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -438,7 +445,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2012_close_from,
             2, inputs, out, 12, status);
-        compare("orthoglide_2012_close_from", out, at_close_from, STATES, 12, REPLACED);
+        compare("orthoglide_2012_close_from", out,
+                at_close_from, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -447,7 +455,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2012_coupling,
             2, inputs, out, 36, status);
-        compare("orthoglide_2012_coupling", out, at_coupling, STATES, 36, REPLACED);
+        compare("orthoglide_2012_coupling", out,
+                at_coupling, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -459,7 +468,8 @@ int main(void)
         empty();
         modeler_batch_status_4(orthoglide_2012_platform_inverse_dynamics,
             2, inputs, out, 3, status);
-        compare("orthoglide_2012_platform_inverse_dynamics", out, at_platform_inverse_dynamics, STATES, 3, REPLACED);
+        compare("orthoglide_2012_platform_inverse_dynamics", out,
+                at_platform_inverse_dynamics, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -468,7 +478,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2012_platform_close,
             2, inputs, out, 12, status);
-        compare("orthoglide_2012_platform_close", out, at_platform_close, STATES, 12, REPLACED);
+        compare("orthoglide_2012_platform_close", out,
+                at_platform_close, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -478,7 +489,8 @@ int main(void)
         empty();
         modeler_batch_status_2(orthoglide_2012_platform_close_from,
             2, inputs, out, 12, status);
-        compare("orthoglide_2012_platform_close_from", out, at_platform_close_from, STATES, 12, REPLACED);
+        compare("orthoglide_2012_platform_close_from", out,
+                at_platform_close_from, STATES, 12, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -487,7 +499,8 @@ int main(void)
         empty();
         modeler_batch_status_1(orthoglide_2012_platform_coupling,
             2, inputs, out, 36, status);
-        compare("orthoglide_2012_platform_coupling", out, at_platform_coupling, STATES, 36, REPLACED);
+        compare("orthoglide_2012_platform_coupling", out,
+                at_platform_coupling, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -499,7 +512,8 @@ int main(void)
         modeler_batch_status_3(orthoglide_2012_regressor,
             2, inputs, out, 588, status);
         multiply(out, 196, chi);
-        compare("orthoglide_2012_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_2012_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -511,7 +525,8 @@ int main(void)
         modeler_batch_status_3(orthoglide_2012_base_regressor,
             2, inputs, out, 159, status);
         multiply(out, 53, beta);
-        compare("orthoglide_2012_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_2012_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -523,20 +538,24 @@ int main(void)
         modeler_batch_status_3(orthoglide_2012_platform_base_regressor,
             2, inputs, out, 159, status);
         multiply(out, 53, beta);
-        compare("orthoglide_2012_platform_base_regressor", product, at_platform_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_2012_platform_base_regressor", product,
+                at_platform_inverse_dynamics, STATES, N, 0);
     }
     empty();
     orthoglide_2012_observation(STATES, q, qd, qdd, out, status);
     multiply(out, C, beta);
-    compare("orthoglide_2012_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("orthoglide_2012_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("orthoglide_2012_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("orthoglide_2012_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("orthoglide_2012 %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("18 functions agree with the stored states to %.1e\n", worst);
+    printf("18 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

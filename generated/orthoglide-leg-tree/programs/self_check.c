@@ -203,7 +203,8 @@ static void multiply_nonzeros(const double *values, const double *parameters)
     for (int i = 0; i < STATES; i++)
         for (int k = 0; k < ORTHOGLIDE_LEG_TREE_NONZEROS; k++)
             product[i * N + orthoglide_leg_tree_nonzero_row[k]] +=
-                values[i * ORTHOGLIDE_LEG_TREE_NONZEROS + k] * parameters[orthoglide_leg_tree_nonzero_column[k]];
+                values[i * ORTHOGLIDE_LEG_TREE_NONZEROS + k]
+                * parameters[orthoglide_leg_tree_nonzero_column[k]];
 }
 
 /* Many samples, the states one after another, against the same one by one. */
@@ -300,7 +301,8 @@ int main(void)
         empty();
         modeler_batch_4(orthoglide_leg_tree_inverse_dynamics,
             2, inputs, out, 6);
-        compare("orthoglide_leg_tree_inverse_dynamics", out, at_inverse_dynamics, STATES, 6, REPLACED);
+        compare("orthoglide_leg_tree_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -310,7 +312,8 @@ int main(void)
         empty();
         modeler_batch_2(orthoglide_leg_tree_inertia_matrix,
             2, inputs, out, 36);
-        compare("orthoglide_leg_tree_inertia_matrix", out, at_inertia_matrix, STATES, 36, REPLACED);
+        compare("orthoglide_leg_tree_inertia_matrix", out,
+                at_inertia_matrix, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -320,7 +323,8 @@ int main(void)
         empty();
         modeler_batch_2(orthoglide_leg_tree_gravity,
             2, inputs, out, 6);
-        compare("orthoglide_leg_tree_gravity", out, at_gravity, STATES, 6, REPLACED);
+        compare("orthoglide_leg_tree_gravity", out,
+                at_gravity, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -331,7 +335,8 @@ int main(void)
         empty();
         modeler_batch_3(orthoglide_leg_tree_coriolis,
             2, inputs, out, 6);
-        compare("orthoglide_leg_tree_coriolis", out, at_coriolis, STATES, 6, REPLACED);
+        compare("orthoglide_leg_tree_coriolis", out,
+                at_coriolis, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -341,7 +346,8 @@ int main(void)
         empty();
         modeler_batch_2(orthoglide_leg_tree_friction,
             2, inputs, out, 6);
-        compare("orthoglide_leg_tree_friction", out, at_friction, STATES, 6, REPLACED);
+        compare("orthoglide_leg_tree_friction", out,
+                at_friction, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -350,7 +356,8 @@ int main(void)
         empty();
         modeler_batch_1(orthoglide_leg_tree_forward_kinematics,
             2, inputs, out, 72);
-        compare("orthoglide_leg_tree_forward_kinematics", out, at_forward_kinematics, STATES, 72, REPLACED);
+        compare("orthoglide_leg_tree_forward_kinematics", out,
+                at_forward_kinematics, STATES, 72, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -362,7 +369,8 @@ int main(void)
         modeler_batch_3(orthoglide_leg_tree_regressor,
             2, inputs, out, 360);
         multiply(out, 60, chi);
-        compare("orthoglide_leg_tree_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_leg_tree_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -374,7 +382,8 @@ int main(void)
         modeler_batch_3(orthoglide_leg_tree_base_regressor,
             2, inputs, out, 192);
         multiply(out, 32, beta);
-        compare("orthoglide_leg_tree_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_leg_tree_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -386,20 +395,24 @@ int main(void)
         modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros,
             2, inputs, out, 88);
         multiply_nonzeros(out, beta);
-        compare("orthoglide_leg_tree_base_regressor_nonzeros", product, at_inverse_dynamics, STATES, N, 0);
+        compare("orthoglide_leg_tree_base_regressor_nonzeros", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     empty();
     orthoglide_leg_tree_observation(STATES, q, qd, qdd, out);
     multiply(out, C, beta);
-    compare("orthoglide_leg_tree_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("orthoglide_leg_tree_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("orthoglide_leg_tree_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("orthoglide_leg_tree_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("orthoglide_leg_tree %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("11 functions agree with the stored states to %.1e\n", worst);
+    printf("11 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

@@ -248,7 +248,8 @@ static void multiply_nonzeros(const double *values, const double *parameters)
     for (int i = 0; i < STATES; i++)
         for (int k = 0; k < SR400_TREE_NONZEROS; k++)
             product[i * N + sr400_tree_nonzero_row[k]] +=
-                values[i * SR400_TREE_NONZEROS + k] * parameters[sr400_tree_nonzero_column[k]];
+                values[i * SR400_TREE_NONZEROS + k]
+                * parameters[sr400_tree_nonzero_column[k]];
 }
 
 /* Many samples, the states one after another, against the same one by one. */
@@ -345,7 +346,8 @@ int main(void)
         empty();
         modeler_batch_4(sr400_tree_inverse_dynamics,
             2, inputs, out, 8);
-        compare("sr400_tree_inverse_dynamics", out, at_inverse_dynamics, STATES, 8, REPLACED);
+        compare("sr400_tree_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -355,7 +357,8 @@ int main(void)
         empty();
         modeler_batch_2(sr400_tree_inertia_matrix,
             2, inputs, out, 64);
-        compare("sr400_tree_inertia_matrix", out, at_inertia_matrix, STATES, 64, REPLACED);
+        compare("sr400_tree_inertia_matrix", out,
+                at_inertia_matrix, STATES, 64, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -365,7 +368,8 @@ int main(void)
         empty();
         modeler_batch_2(sr400_tree_gravity,
             2, inputs, out, 8);
-        compare("sr400_tree_gravity", out, at_gravity, STATES, 8, REPLACED);
+        compare("sr400_tree_gravity", out,
+                at_gravity, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -376,7 +380,8 @@ int main(void)
         empty();
         modeler_batch_3(sr400_tree_coriolis,
             2, inputs, out, 8);
-        compare("sr400_tree_coriolis", out, at_coriolis, STATES, 8, REPLACED);
+        compare("sr400_tree_coriolis", out,
+                at_coriolis, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -386,7 +391,8 @@ int main(void)
         empty();
         modeler_batch_2(sr400_tree_friction,
             2, inputs, out, 8);
-        compare("sr400_tree_friction", out, at_friction, STATES, 8, REPLACED);
+        compare("sr400_tree_friction", out,
+                at_friction, STATES, 8, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -395,7 +401,8 @@ int main(void)
         empty();
         modeler_batch_1(sr400_tree_forward_kinematics,
             2, inputs, out, 96);
-        compare("sr400_tree_forward_kinematics", out, at_forward_kinematics, STATES, 96, REPLACED);
+        compare("sr400_tree_forward_kinematics", out,
+                at_forward_kinematics, STATES, 96, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -407,7 +414,8 @@ int main(void)
         modeler_batch_3(sr400_tree_regressor,
             2, inputs, out, 640);
         multiply(out, 80, chi);
-        compare("sr400_tree_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("sr400_tree_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -419,7 +427,8 @@ int main(void)
         modeler_batch_3(sr400_tree_base_regressor,
             2, inputs, out, 400);
         multiply(out, 50, beta);
-        compare("sr400_tree_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("sr400_tree_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -431,20 +440,24 @@ int main(void)
         modeler_batch_3(sr400_tree_base_regressor_nonzeros,
             2, inputs, out, 172);
         multiply_nonzeros(out, beta);
-        compare("sr400_tree_base_regressor_nonzeros", product, at_inverse_dynamics, STATES, N, 0);
+        compare("sr400_tree_base_regressor_nonzeros", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     empty();
     sr400_tree_observation(STATES, q, qd, qdd, out);
     multiply(out, C, beta);
-    compare("sr400_tree_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("sr400_tree_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("sr400_tree_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("sr400_tree_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("sr400_tree %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("11 functions agree with the stored states to %.1e\n", worst);
+    printf("11 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

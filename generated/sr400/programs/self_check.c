@@ -241,7 +241,8 @@ static void multiply_nonzeros(const double *values, const double *parameters)
     for (int i = 0; i < STATES; i++)
         for (int k = 0; k < SR400_NONZEROS; k++)
             product[i * N + sr400_nonzero_row[k]] +=
-                values[i * SR400_NONZEROS + k] * parameters[sr400_nonzero_column[k]];
+                values[i * SR400_NONZEROS + k]
+                * parameters[sr400_nonzero_column[k]];
 }
 
 /* Many samples, the states one after another, against the same one by one. */
@@ -338,7 +339,8 @@ int main(void)
         empty();
         modeler_batch_4(sr400_inverse_dynamics,
             2, inputs, out, 6);
-        compare("sr400_inverse_dynamics", out, at_inverse_dynamics, STATES, 6, REPLACED);
+        compare("sr400_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -348,7 +350,8 @@ int main(void)
         empty();
         modeler_batch_2(sr400_inertia_matrix,
             2, inputs, out, 36);
-        compare("sr400_inertia_matrix", out, at_inertia_matrix, STATES, 36, REPLACED);
+        compare("sr400_inertia_matrix", out,
+                at_inertia_matrix, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -358,7 +361,8 @@ int main(void)
         empty();
         modeler_batch_2(sr400_gravity,
             2, inputs, out, 6);
-        compare("sr400_gravity", out, at_gravity, STATES, 6, REPLACED);
+        compare("sr400_gravity", out,
+                at_gravity, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -369,7 +373,8 @@ int main(void)
         empty();
         modeler_batch_3(sr400_coriolis,
             2, inputs, out, 6);
-        compare("sr400_coriolis", out, at_coriolis, STATES, 6, REPLACED);
+        compare("sr400_coriolis", out,
+                at_coriolis, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -379,7 +384,8 @@ int main(void)
         empty();
         modeler_batch_2(sr400_friction,
             2, inputs, out, 6);
-        compare("sr400_friction", out, at_friction, STATES, 6, REPLACED);
+        compare("sr400_friction", out,
+                at_friction, STATES, 6, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -388,7 +394,8 @@ int main(void)
         empty();
         modeler_batch_1(sr400_forward_kinematics,
             2, inputs, out, 108);
-        compare("sr400_forward_kinematics", out, at_forward_kinematics, STATES, 108, REPLACED);
+        compare("sr400_forward_kinematics", out,
+                at_forward_kinematics, STATES, 108, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -400,7 +407,8 @@ int main(void)
         modeler_batch_3(sr400_regressor,
             2, inputs, out, 480);
         multiply(out, 80, chi);
-        compare("sr400_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("sr400_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -412,7 +420,8 @@ int main(void)
         modeler_batch_3(sr400_base_regressor,
             2, inputs, out, 234);
         multiply(out, 39, beta);
-        compare("sr400_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("sr400_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -424,20 +433,24 @@ int main(void)
         modeler_batch_3(sr400_base_regressor_nonzeros,
             2, inputs, out, 126);
         multiply_nonzeros(out, beta);
-        compare("sr400_base_regressor_nonzeros", product, at_inverse_dynamics, STATES, N, 0);
+        compare("sr400_base_regressor_nonzeros", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     empty();
     sr400_observation(STATES, q, qd, qdd, out);
     multiply(out, C, beta);
-    compare("sr400_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("sr400_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("sr400_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("sr400_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("sr400 %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("11 functions agree with the stored states to %.1e\n", worst);
+    printf("11 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }

@@ -165,7 +165,8 @@ static void multiply_nonzeros(const double *values, const double *parameters)
     for (int i = 0; i < STATES; i++)
         for (int k = 0; k < WRIST_NONZEROS; k++)
             product[i * N + wrist_nonzero_row[k]] +=
-                values[i * WRIST_NONZEROS + k] * parameters[wrist_nonzero_column[k]];
+                values[i * WRIST_NONZEROS + k]
+                * parameters[wrist_nonzero_column[k]];
 }
 
 /* Many samples, the states one after another, against the same one by one. */
@@ -262,7 +263,8 @@ int main(void)
         empty();
         modeler_batch_4(wrist_inverse_dynamics,
             2, inputs, out, 3);
-        compare("wrist_inverse_dynamics", out, at_inverse_dynamics, STATES, 3, REPLACED);
+        compare("wrist_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -272,7 +274,8 @@ int main(void)
         empty();
         modeler_batch_2(wrist_inertia_matrix,
             2, inputs, out, 9);
-        compare("wrist_inertia_matrix", out, at_inertia_matrix, STATES, 9, REPLACED);
+        compare("wrist_inertia_matrix", out,
+                at_inertia_matrix, STATES, 9, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -282,7 +285,8 @@ int main(void)
         empty();
         modeler_batch_2(wrist_gravity,
             2, inputs, out, 3);
-        compare("wrist_gravity", out, at_gravity, STATES, 3, REPLACED);
+        compare("wrist_gravity", out,
+                at_gravity, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -293,7 +297,8 @@ int main(void)
         empty();
         modeler_batch_3(wrist_coriolis,
             2, inputs, out, 3);
-        compare("wrist_coriolis", out, at_coriolis, STATES, 3, REPLACED);
+        compare("wrist_coriolis", out,
+                at_coriolis, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -303,7 +308,8 @@ int main(void)
         empty();
         modeler_batch_2(wrist_friction,
             2, inputs, out, 3);
-        compare("wrist_friction", out, at_friction, STATES, 3, REPLACED);
+        compare("wrist_friction", out,
+                at_friction, STATES, 3, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -312,7 +318,8 @@ int main(void)
         empty();
         modeler_batch_1(wrist_forward_kinematics,
             2, inputs, out, 36);
-        compare("wrist_forward_kinematics", out, at_forward_kinematics, STATES, 36, REPLACED);
+        compare("wrist_forward_kinematics", out,
+                at_forward_kinematics, STATES, 36, REPLACED);
     }
     {
         const modeler_input inputs[] = {
@@ -324,7 +331,8 @@ int main(void)
         modeler_batch_3(wrist_regressor,
             2, inputs, out, 90);
         multiply(out, 30, chi);
-        compare("wrist_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("wrist_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -336,7 +344,8 @@ int main(void)
         modeler_batch_3(wrist_base_regressor,
             2, inputs, out, 51);
         multiply(out, 17, beta);
-        compare("wrist_base_regressor", product, at_inverse_dynamics, STATES, N, 0);
+        compare("wrist_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     {
         const modeler_input inputs[] = {
@@ -348,20 +357,24 @@ int main(void)
         modeler_batch_3(wrist_base_regressor_nonzeros,
             2, inputs, out, 37);
         multiply_nonzeros(out, beta);
-        compare("wrist_base_regressor_nonzeros", product, at_inverse_dynamics, STATES, N, 0);
+        compare("wrist_base_regressor_nonzeros", product,
+                at_inverse_dynamics, STATES, N, 0);
     }
     empty();
     wrist_observation(STATES, q, qd, qdd, out);
     multiply(out, C, beta);
-    compare("wrist_observation", product, at_inverse_dynamics, STATES, N, 0);
-    add_up(at_inertia_matrix, at_coriolis, at_gravity, at_friction);
-    compare("wrist_inertia_matrix and others", product, at_inverse_dynamics,
-            STATES, N, 0);
+    compare("wrist_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("wrist_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
     printf("wrist %s:\n", signature);
     if (failed) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }
-    printf("11 functions agree with the stored states to %.1e\n", worst);
+    printf("11 functions agree with the stored states to %.1e\n",
+           worst);
     return 0;
 }
