@@ -77,17 +77,21 @@ def compare_with_generated(
 ) -> Callable[[str, Mapping[str, str]], None]:
     """Compare emitted files with generated/<name>/, both ways; or rewrite them."""
 
+    def names(folder: Path) -> set[str]:
+        return {p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()}
+
     def compare(name: str, emitted: Mapping[str, str]) -> None:
         folder = ROOT / "generated" / name
         if request.config.getoption("--regenerate"):
             folder.mkdir(parents=True, exist_ok=True)
-            for stale in {path.name for path in folder.iterdir()} - emitted.keys():
+            for stale in names(folder) - emitted.keys():
                 (folder / stale).unlink()
             for file, text in emitted.items():
+                (folder / file).parent.mkdir(exist_ok=True)
                 (folder / file).write_bytes(text.encode())
             return
         assert folder.is_dir(), f"generated/{name} is missing; make it with pytest --regenerate"
-        assert sorted(path.name for path in folder.iterdir()) == sorted(emitted)
+        assert sorted(names(folder)) == sorted(emitted)
         for file, text in emitted.items():
             kept = (folder / file).read_bytes().decode()
             difference = "".join(

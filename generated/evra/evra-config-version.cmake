@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.38485.2575.57130) only what has the signature 96550a0fdf2a4ee3.
-set(PACKAGE_VERSION 1.38485.2575.57130)
+# find_package(evra 1.31689.46086.57698) only what has the signature 7bc9b406e1628724.
+set(PACKAGE_VERSION 1.31689.46086.57698)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -18,12 +18,13 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "96550a0fdf2a4ee3"
+#define EVRA_SIGNATURE "7bc9b406e1628724"
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210
 #define EVRA_BASE_PARAMETERS 90
 #define EVRA_FREE_VARIABLES 26
+#define EVRA_EVALUATIONS 5000
 
 /* chi: standard parameters, columns of evra_regressor
  *
@@ -399,8 +400,10 @@ enum {
 /* u: free variables of the opened tree: Px, Py, Pz, Pa, Pb, P, s1, s2, 11, 21, 31, 12, 22, 32, 13, 23, 33, 14, 24, 34, 15, 25, 35, 16, 26, 36
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
- * straight way from the home posture to these values; 2 singular posture; 3 a value is not finite.
- * Outputs are NaN unless it is 0. The assembly mode is that of the home posture.
+ * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
+ * or an output would not be; 4 these values are so far that EVRA_EVALUATIONS of
+ * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * mode is that of the home posture.
  */
 
 /* Tells whether this code belongs to a manifest. */

@@ -118,7 +118,7 @@ static void base_rows(const double *u, const double *qd, const double *qdd, doub
 
 const char *evra_signature(void)
 {
-    return "96550a0fdf2a4ee3";
+    return "7bc9b406e1628724";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
@@ -130,18 +130,17 @@ void evra_observation(size_t samples, const double *q, const double *qd, const d
 
     for (size_t i = 0; i < samples; i++) {
         const size_t at = i * EVRA_JOINTS;
-        int found = MODELER_OPEN;
+        int found = MODELER_NOT_FINITE;
 
-        if (i > 0 && status[i - 1] == MODELER_CLOSED)
-            found = modeler_close_next(&loops, q + at, u, work);
-        if (found != MODELER_CLOSED)
-            found = modeler_close(&loops, q + at, home, u, work);
-        if (found == MODELER_CLOSED) {
-            base_rows(u, qd + at, qdd + at, work, W + i * width);
-        } else {
-            modeler_nothing(W + i * width, width);
+        if (modeler_finite(qd + at, 8) && modeler_finite(qdd + at, 8)) {
+            if (i > 0 && status[i - 1] == MODELER_CLOSED)
+                found = modeler_close_next(&loops, q + at, u, work);
+            if (found != MODELER_CLOSED)
+                found = modeler_close(&loops, q + at, home, u, work);
         }
-        status[i] = found;
+        if (found == MODELER_CLOSED)
+            base_rows(u, qd + at, qdd + at, work, W + i * width);
+        status[i] = modeler_told(found, W + i * width, width);
     }
 }
 
@@ -149,17 +148,18 @@ void evra_observation(size_t samples, const double *q, const double *qd, const d
 int evra_regressor(const double *q, const double *qd, const double *qdd,
                    double *MODELER_RESTRICT phi)
 {
-    double u[26], G[208], ud[26], udd[26], rows[5460], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[208], ud[26], udd[26], rows[5460];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(phi, 1680);
-        return status;
+    if (modeler_finite(qd, 8) && modeler_finite(qdd, 8))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
+        evra_tree_regressor(u, ud, udd, rows);
+        modeler_project(&loops, G, rows, 210, phi);
     }
-    modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
-    evra_tree_regressor(u, ud, udd, rows);
-    modeler_project(&loops, G, rows, 210, phi);
-    return MODELER_CLOSED;
+    return modeler_told(status, phi, 1680);
 }
 
 /* Regressor of the base parameters. */
@@ -167,215 +167,219 @@ int evra_base_regressor(const double *q, const double *qd, const double *qdd,
                         double *MODELER_RESTRICT phi)
 {
     double u[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    if (modeler_finite(qd, 8) && modeler_finite(qdd, 8))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         base_rows(u, qd, qdd, work, phi);
-    else
-        modeler_nothing(phi, 720);
-    return status;
+    }
+    return modeler_told(status, phi, 720);
 }
 
 /* Torques that move the closed robot so. */
 int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, const double *beta,
                           double *MODELER_RESTRICT tau)
 {
-    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[208], ud[26], udd[26], rows[26];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 8);
-        return status;
+    if (modeler_finite(qd, 8) && modeler_finite(qdd, 8) && modeler_finite(beta, 90))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
+        evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
-    evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 8);
 }
 
 /* Torques that hold the robot still, without friction. */
 int evra_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
-    double u[26], G[208], rows[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[208], rows[26];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 8);
-        return status;
+    if (modeler_finite(beta, 90))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_coupling(&loops, G, work);
+        evra_tree_gravity(u, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_coupling(&loops, G, work);
-    evra_tree_gravity(u, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 8);
 }
 
 /* Coriolis and centripetal torques. */
 int evra_coriolis(const double *q, const double *qd, const double *beta,
                   double *MODELER_RESTRICT tau)
 {
-    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[208], ud[26], udd[26], rows[26];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 8);
-        return status;
+    if (modeler_finite(qd, 8) && modeler_finite(beta, 90))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
+        evra_tree_coriolis(u, ud, udd, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
-    evra_tree_coriolis(u, ud, udd, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 8);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
 int evra_friction(const double *q, const double *qd, const double *beta,
                   double *MODELER_RESTRICT tau)
 {
-    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[208], ud[26], udd[26], rows[26];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 8);
-        return status;
+    if (modeler_finite(qd, 8) && modeler_finite(beta, 90))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
+        evra_tree_friction(ud, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
-    evra_tree_friction(ud, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 8);
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
 int evra_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
-    double u[26], G[208], rows[676], half[208], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[208], rows[676], half[208];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(M, 64);
-        return status;
+    if (modeler_finite(beta, 90))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_coupling(&loops, G, work);
+        evra_tree_inertia_matrix(u, beta, rows);
+        modeler_project(&loops, G, rows, 26, half);
+        for (int i = 0; i < 8; i++)
+            for (int k = 0; k < 26; k++)
+                rows[k * 8 + i] = half[i * 26 + k];
+        modeler_project(&loops, G, rows, 8, M);
     }
-    modeler_coupling(&loops, G, work);
-    evra_tree_inertia_matrix(u, beta, rows);
-    modeler_project(&loops, G, rows, 26, half);
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 26; k++)
-            rows[k * 8 + i] = half[i * 26 + k];
-    modeler_project(&loops, G, rows, 8, M);
-    return MODELER_CLOSED;
+    return modeler_told(status, M, 64);
 }
 
 /* Pose of the frame of every moving row of the table. */
 int evra_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     double u[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         evra_tree_forward_kinematics(u, T);
-    else
-        modeler_nothing(T, 312);
-    return status;
+    }
+    return modeler_told(status, T, 312);
 }
 
 /* Closed posture, on a straight way from home. */
 int evra_close(const double *q, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 26);
-    return status;
+    status = modeler_close(&loops, q, home, u, work);
+    return modeler_told(status, u, 26);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
 int evra_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&loops, q, start, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 26);
-    return status;
+    status = modeler_close(&loops, q, start, u, work);
+    return modeler_told(status, u, 26);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int evra_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[26], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         modeler_coupling(&loops, G, work);
-    else
-        modeler_nothing(G, 208);
-    return status;
+    }
+    return modeler_told(status, G, 208);
 }
 
 /* Regressor of the base parameters. */
 int evra_platform_base_regressor(const double *x, const double *xd, const double *xdd,
                                  double *MODELER_RESTRICT phi)
 {
-    double u[26], G[208], ud[26], udd[26], rows[2340], work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    double G[208], ud[26], udd[26], rows[2340];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(phi, 720);
-        return status;
+    if (modeler_finite(xd, 8) && modeler_finite(xdd, 8))
+        status = modeler_close(&platform_loops, x, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
+        evra_tree_base_regressor(u, ud, udd, rows);
+        modeler_project(&platform_loops, G, rows, 90, phi);
     }
-    modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
-    evra_tree_base_regressor(u, ud, udd, rows);
-    modeler_project(&platform_loops, G, rows, 90, phi);
-    return MODELER_CLOSED;
+    return modeler_told(status, phi, 720);
 }
 
 /* Torques that move the closed robot so. */
 int evra_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
                                    const double *beta, double *MODELER_RESTRICT f)
 {
-    double u[26], G[208], ud[26], udd[26], rows[26], work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    double G[208], ud[26], udd[26], rows[26];
+    double u[26], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(f, 8);
-        return status;
+    if (modeler_finite(xd, 8) && modeler_finite(xdd, 8) && modeler_finite(beta, 90))
+        status = modeler_close(&platform_loops, x, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
+        evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
+        modeler_project(&platform_loops, G, rows, 1, f);
     }
-    modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
-    evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
-    modeler_project(&platform_loops, G, rows, 1, f);
-    return MODELER_CLOSED;
+    return modeler_told(status, f, 8);
 }
 
 /* Closed posture, on a straight way from home. */
 int evra_platform_close(const double *x, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 26);
-    return status;
+    status = modeler_close(&platform_loops, x, home, u, work);
+    return modeler_told(status, u, 26);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
 int evra_platform_close_from(const double *x, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&platform_loops, x, start, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 26);
-    return status;
+    status = modeler_close(&platform_loops, x, start, u, work);
+    return modeler_told(status, u, 26);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int evra_platform_coupling(const double *x, double *MODELER_RESTRICT G)
 {
     double u[26], work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&platform_loops, x, home, u, work);
+    if (status == MODELER_CLOSED) {
         modeler_coupling(&platform_loops, G, work);
-    else
-        modeler_nothing(G, 208);
-    return status;
+    }
+    return modeler_told(status, G, 208);
 }

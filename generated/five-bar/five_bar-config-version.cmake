@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 1) any of this C interface,
-# find_package(five_bar 1.1832.58199.4658) only what has the signature 0728e3571232ca7a.
-set(PACKAGE_VERSION 1.1832.58199.4658)
+# find_package(five_bar 1.15256.54073.43549) only what has the signature 3b98d339aa1d439e.
+set(PACKAGE_VERSION 1.15256.54073.43549)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -18,12 +18,13 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "0728e3571232ca7a"
+#define FIVE_BAR_SIGNATURE "3b98d339aa1d439e"
 
 #define FIVE_BAR_JOINTS 2
 #define FIVE_BAR_STANDARD_PARAMETERS 40
 #define FIVE_BAR_BASE_PARAMETERS 11
 #define FIVE_BAR_FREE_VARIABLES 4
+#define FIVE_BAR_EVALUATIONS 5000
 
 /* chi: standard parameters, columns of five_bar_regressor
  *
@@ -102,8 +103,10 @@ enum {
 /* u: free variables of the opened tree: 11, 21, 12, 22
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
- * straight way from the home posture to these values; 2 singular posture; 3 a value is not finite.
- * Outputs are NaN unless it is 0. The assembly mode is that of the home posture.
+ * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
+ * or an output would not be; 4 these values are so far that FIVE_BAR_EVALUATIONS of
+ * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * mode is that of the home posture.
  */
 
 /* Tells whether this code belongs to a manifest. */

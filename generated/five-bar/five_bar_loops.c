@@ -68,7 +68,7 @@ static void base_rows(const double *u, const double *qd, const double *qdd, doub
 
 const char *five_bar_signature(void)
 {
-    return "0728e3571232ca7a";
+    return "3b98d339aa1d439e";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
@@ -80,18 +80,17 @@ void five_bar_observation(size_t samples, const double *q, const double *qd, con
 
     for (size_t i = 0; i < samples; i++) {
         const size_t at = i * FIVE_BAR_JOINTS;
-        int found = MODELER_OPEN;
+        int found = MODELER_NOT_FINITE;
 
-        if (i > 0 && status[i - 1] == MODELER_CLOSED)
-            found = modeler_close_next(&loops, q + at, u, work);
-        if (found != MODELER_CLOSED)
-            found = modeler_close(&loops, q + at, home, u, work);
-        if (found == MODELER_CLOSED) {
-            base_rows(u, qd + at, qdd + at, work, W + i * width);
-        } else {
-            modeler_nothing(W + i * width, width);
+        if (modeler_finite(qd + at, 2) && modeler_finite(qdd + at, 2)) {
+            if (i > 0 && status[i - 1] == MODELER_CLOSED)
+                found = modeler_close_next(&loops, q + at, u, work);
+            if (found != MODELER_CLOSED)
+                found = modeler_close(&loops, q + at, home, u, work);
         }
-        status[i] = found;
+        if (found == MODELER_CLOSED)
+            base_rows(u, qd + at, qdd + at, work, W + i * width);
+        status[i] = modeler_told(found, W + i * width, width);
     }
 }
 
@@ -99,17 +98,18 @@ void five_bar_observation(size_t samples, const double *q, const double *qd, con
 int five_bar_regressor(const double *q, const double *qd, const double *qdd,
                        double *MODELER_RESTRICT phi)
 {
-    double u[4], G[8], ud[4], udd[4], rows[160], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[8], ud[4], udd[4], rows[160];
+    double u[4], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(phi, 80);
-        return status;
+    if (modeler_finite(qd, 2) && modeler_finite(qdd, 2))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
+        five_bar_tree_regressor(u, ud, udd, rows);
+        modeler_project(&loops, G, rows, 40, phi);
     }
-    modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
-    five_bar_tree_regressor(u, ud, udd, rows);
-    modeler_project(&loops, G, rows, 40, phi);
-    return MODELER_CLOSED;
+    return modeler_told(status, phi, 80);
 }
 
 /* Regressor of the base parameters. */
@@ -117,146 +117,150 @@ int five_bar_base_regressor(const double *q, const double *qd, const double *qdd
                             double *MODELER_RESTRICT phi)
 {
     double u[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    if (modeler_finite(qd, 2) && modeler_finite(qdd, 2))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         base_rows(u, qd, qdd, work, phi);
-    else
-        modeler_nothing(phi, 22);
-    return status;
+    }
+    return modeler_told(status, phi, 22);
 }
 
 /* Torques that move the closed robot so. */
 int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                               const double *beta, double *MODELER_RESTRICT tau)
 {
-    double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[8], ud[4], udd[4], rows[4];
+    double u[4], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 2);
-        return status;
+    if (modeler_finite(qd, 2) && modeler_finite(qdd, 2) && modeler_finite(beta, 11))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
+        five_bar_tree_inverse_dynamics(u, ud, udd, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
-    five_bar_tree_inverse_dynamics(u, ud, udd, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 2);
 }
 
 /* Torques that hold the robot still, without friction. */
 int five_bar_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
-    double u[4], G[8], rows[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[8], rows[4];
+    double u[4], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 2);
-        return status;
+    if (modeler_finite(beta, 11))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_coupling(&loops, G, work);
+        five_bar_tree_gravity(u, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_coupling(&loops, G, work);
-    five_bar_tree_gravity(u, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 2);
 }
 
 /* Coriolis and centripetal torques. */
 int five_bar_coriolis(const double *q, const double *qd, const double *beta,
                       double *MODELER_RESTRICT tau)
 {
-    double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[8], ud[4], udd[4], rows[4];
+    double u[4], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 2);
-        return status;
+    if (modeler_finite(qd, 2) && modeler_finite(beta, 11))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
+        five_bar_tree_coriolis(u, ud, udd, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
-    five_bar_tree_coriolis(u, ud, udd, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 2);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
 int five_bar_friction(const double *q, const double *qd, const double *beta,
                       double *MODELER_RESTRICT tau)
 {
-    double u[4], G[8], ud[4], udd[4], rows[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[8], ud[4], udd[4], rows[4];
+    double u[4], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 2);
-        return status;
+    if (modeler_finite(qd, 2) && modeler_finite(beta, 11))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
+        five_bar_tree_friction(ud, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
-    five_bar_tree_friction(ud, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 2);
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
 int five_bar_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
-    double u[4], G[8], rows[16], half[8], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[8], rows[16], half[8];
+    double u[4], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(M, 4);
-        return status;
+    if (modeler_finite(beta, 11))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_coupling(&loops, G, work);
+        five_bar_tree_inertia_matrix(u, beta, rows);
+        modeler_project(&loops, G, rows, 4, half);
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k < 4; k++)
+                rows[k * 2 + i] = half[i * 4 + k];
+        modeler_project(&loops, G, rows, 2, M);
     }
-    modeler_coupling(&loops, G, work);
-    five_bar_tree_inertia_matrix(u, beta, rows);
-    modeler_project(&loops, G, rows, 4, half);
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 4; k++)
-            rows[k * 2 + i] = half[i * 4 + k];
-    modeler_project(&loops, G, rows, 2, M);
-    return MODELER_CLOSED;
+    return modeler_told(status, M, 4);
 }
 
 /* Pose of the frame of every moving row of the table. */
 int five_bar_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     double u[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         five_bar_tree_forward_kinematics(u, T);
-    else
-        modeler_nothing(T, 48);
-    return status;
+    }
+    return modeler_told(status, T, 48);
 }
 
 /* Closed posture, on a straight way from home. */
 int five_bar_close(const double *q, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 4);
-    return status;
+    status = modeler_close(&loops, q, home, u, work);
+    return modeler_told(status, u, 4);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
 int five_bar_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&loops, q, start, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 4);
-    return status;
+    status = modeler_close(&loops, q, start, u, work);
+    return modeler_told(status, u, 4);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int five_bar_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[4], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         modeler_coupling(&loops, G, work);
-    else
-        modeler_nothing(G, 8);
-    return status;
+    }
+    return modeler_told(status, G, 8);
 }

@@ -5,7 +5,6 @@
 
 #define STEP 0.3          /* longest change of a variable in one step, in its scale */
 #define SHORTEST 1e-7     /* share of the way; where shorter steps fail too, the way ends */
-#define EVALUATIONS 1000  /* of all equations and their derivatives, at most */
 #define NEWTON 12         /* corrections of one step, at most */
 #define CONVERGED 1e-8    /* a correction after which the error is its square */
 #define EXACT 1e-14       /* a correction that is not worth making */
@@ -41,6 +40,7 @@ typedef struct {
     double *start;  /* of a step: posture */
     double *coupled; /* nonzeros of G in solved rows */
     int at;         /* place of the values of the trial posture */
+    int left;       /* evaluations */
 } workspace;
 
 static double *take(double **work, int length)
@@ -76,6 +76,7 @@ static workspace parts(const modeler_closure *loops, double *work)
     w.trial = take(&work, n);
     w.start = take(&work, n);
     w.at = w.kept[PLACE] > 0.0;
+    w.left = MODELER_EVALUATIONS;
     return w;
 }
 
@@ -190,7 +191,7 @@ static double largest(const modeler_closure *loops, const workspace *w, const do
 
     for (int j = 0; j < loops->solved; j++) {
         const double size = fabs(x[j]) * w->share[j];
-        if (!(size <= found))
+        if (size > found || isnan(size))
             found = size;
     }
     return found;
@@ -211,14 +212,13 @@ static int diverges(double size, double before, int round, double allowed)
 
 /* Newton on w->trial with the given variables held. 1 if it contracts, within a move of `allowed`;
  * values and factors are then those there. */
-static int corrected(const modeler_closure *loops, workspace *w, double allowed, int *evaluations)
+static int corrected(const modeler_closure *loops, workspace *w, double allowed)
 {
     double before = 0.0;
     int polished = 0;
 
-    for (int round = 0; round < NEWTON; round++) {
+    for (int round = 0; round < NEWTON && w->left-- > 0; round++) {
         loops->closure(w->trial, w->values[w->at]);
-        ++*evaluations;
         if (!factor(loops, w, w->at))
             return 0;
         solve(loops, w, w->at, w->values[w->at], w->step);
@@ -241,7 +241,7 @@ static int neared(const modeler_closure *loops, workspace *w, double allowed, do
 
     if (length > NEAR)
         return 1;
-    for (int round = 0; round < NEWTON; round++) {
+    for (int round = 0; round < NEWTON && w->left-- > 0; round++) {
         loops->residual(w->trial, w->right);
         solve(loops, w, 1 - w->at, w->right, w->step);
         const double size = largest(loops, w, w->step);
@@ -339,7 +339,8 @@ static void along_solution(const modeler_closure *loops, const workspace *w)
     solve(loops, w, w->at, w->right, w->along);
 }
 
-/* The posture w->trial is where the next step starts, straight to q; gives its length, in scales. */
+/* The posture w->trial is where the next step starts, straight to q; gives its length, in scales:
+ * infinite where more steps would be needed than evaluations are left. */
 static double arrive(const modeler_closure *loops, workspace *w, const double *q)
 {
     double length;
@@ -357,7 +358,9 @@ static double arrive(const modeler_closure *loops, workspace *w, const double *q
     length = largest(loops, w, w->along);
     for (int j = 0; j < loops->given; j++) {
         const double own = fabs(w->change[j]) / loops->scale[loops->given_places[j]];
-        if (!(own <= length))
+        if (own > STEP * (double)w->left)
+            return INFINITY;
+        if (own > length || isnan(own))
             length = own;
     }
     return length;
@@ -411,19 +414,18 @@ static void remember(const modeler_closure *loops, workspace *w, double share)
 
 /* A share of the way; 1 if the loops are closed at its end, in the same assembly mode. */
 static int stepped(const modeler_closure *loops, workspace *w, const double *q, double share,
-                   double length, int *evaluations)
+                   double length)
 {
     const double allowed = 0.5 * share * length + INEXACT;
 
     advance(loops, w, q, share);
     if (!neared(loops, w, allowed, share * length))
         advance(loops, w, q, share);
-    return corrected(loops, w, allowed, evaluations) && alike(loops, w) && closed(loops, w);
+    return corrected(loops, w, allowed) && alike(loops, w) && closed(loops, w);
 }
 
 /* From w->trial, whose values and factors are at hand, to q. */
-static int walk(const modeler_closure *loops, workspace *w, const double *q, double *u,
-                int evaluations)
+static int walk(const modeler_closure *loops, workspace *w, const double *q, double *u)
 {
     double share = 1.0;
 
@@ -436,9 +438,11 @@ static int walk(const modeler_closure *loops, workspace *w, const double *q, dou
         share = fmin(1.0, 2.0 * share);
         if (share * length > STEP)
             share = STEP / length;
-        while (!stepped(loops, w, q, share, length, &evaluations)) {
+        while (!stepped(loops, w, q, share, length)) {
             share *= 0.5;
-            if (share < SHORTEST || evaluations > EVALUATIONS)
+            if (w->left <= 0)
+                return MODELER_UNFINISHED;
+            if (share < SHORTEST)
                 return MODELER_OPEN;
         }
         remember(loops, w, share);
@@ -454,10 +458,11 @@ int modeler_close(const modeler_closure *loops, const double *q, const double *s
                   double *work)
 {
     workspace w;
-    int evaluations = 0;
 
     for (int k = 0; k < KEPT; k++)
         work[k] = 0.0;
+    if (!modeler_finite(q, (size_t)loops->given) || !modeler_finite(start, (size_t)loops->unknowns))
+        return MODELER_NOT_FINITE;
     w = parts(loops, work);
     for (int j = 0; j < loops->solved; j++)
         w.bend[j] = 0.0;
@@ -465,9 +470,9 @@ int modeler_close(const modeler_closure *loops, const double *q, const double *s
         w.share[j] = 1.0 / loops->scale[loops->solved_places[j]];
     for (int k = 0; k < loops->unknowns; k++)
         w.trial[k] = start[k];
-    if (!corrected(loops, &w, INEXACT, &evaluations))
+    if (!corrected(loops, &w, INEXACT))
         return factor(loops, &w, w.at) ? MODELER_OPEN : MODELER_SINGULAR;
-    return walk(loops, &w, q, u, evaluations);
+    return walk(loops, &w, q, u);
 }
 
 int modeler_close_next(const modeler_closure *loops, const double *q, double *u, double *work)
@@ -475,12 +480,14 @@ int modeler_close_next(const modeler_closure *loops, const double *q, double *u,
     workspace w = parts(loops, work);
     int moved = 0;
 
+    if (!modeler_finite(q, (size_t)loops->given))
+        return MODELER_NOT_FINITE;
     if (!(w.kept[VALID] > 0.0))
         return MODELER_OPEN;
     for (int j = 0; j < loops->given; j++)
         moved |= !(q[j] == w.trial[loops->given_places[j]]);
     if (moved)
-        return walk(loops, &w, q, u, 0);
+        return walk(loops, &w, q, u);
     for (int k = 0; k < loops->unknowns; k++)
         u[k] = w.trial[k];
     return MODELER_CLOSED;
@@ -574,10 +581,21 @@ void modeler_project(const modeler_closure *loops, const double *G, const double
         }
 }
 
-void modeler_nothing(double *out, size_t length)
+int modeler_finite(const double *x, size_t length)
 {
     for (size_t i = 0; i < length; i++)
+        if (!isfinite(x[i]))
+            return 0;
+    return 1;
+}
+
+int modeler_told(int status, double *out, size_t length)
+{
+    if (status == MODELER_CLOSED && !modeler_finite(out, length))
+        status = MODELER_NOT_FINITE;
+    for (size_t i = 0; i < length && status != MODELER_CLOSED; i++)
         out[i] = NAN;
+    return status;
 }
 
 /* Values of input `which` at sample i. */

@@ -17,12 +17,16 @@
 extern "C" {
 #endif
 
+/* Evaluations of the closure equations in one call of modeler_close or modeler_close_next, at most. */
+#define MODELER_EVALUATIONS 5000
+
 /* What functions of robots with loops return; outputs are NaN unless it is MODELER_CLOSED. */
 enum {
-    MODELER_CLOSED = 0,    /* done */
-    MODELER_OPEN = 1,      /* the loops cannot be closed on the way to these values */
-    MODELER_SINGULAR = 2,  /* singular posture: the passive joints are not determined */
-    MODELER_UNFINISHED = 3 /* too many steps, or a value that is not finite */
+    MODELER_CLOSED = 0,     /* done */
+    MODELER_OPEN = 1,       /* the loops cannot be closed on the way to these values */
+    MODELER_SINGULAR = 2,   /* singular posture: the passive joints are not determined */
+    MODELER_NOT_FINITE = 3, /* an input is not finite, or an output would not be */
+    MODELER_UNFINISHED = 4  /* too far: MODELER_EVALUATIONS did not do */
 };
 
 /* The loops of a robot; its functions are straight-line code without the zeros of df/du.
@@ -93,8 +97,12 @@ int modeler_eliminated(const modeler_closure *loops, double *work, const double 
 void modeler_project(const modeler_closure *loops, const double *G, const double *rows, int width,
                      double *out);
 
-/* All NaN. */
-void modeler_nothing(double *out, size_t length);
+/* 1 if all are finite. */
+int modeler_finite(const double *x, size_t length);
+
+/* What a function returns: the status, or MODELER_NOT_FINITE. Unless it is MODELER_CLOSED, `out` is
+ * all NaN then. */
+int modeler_told(int status, double *out, size_t length);
 
 /* Emitted functions with a status, and loops over samples that keep it. */
 typedef int (*modeler_status_1)(const double *, double *);

@@ -18,12 +18,13 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "da16c78e8221a765"
+#define ORTHOGLIDE_2003_SIGNATURE "54882c543f6b1a90"
 
 #define ORTHOGLIDE_2003_JOINTS 3
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163
 #define ORTHOGLIDE_2003_BASE_PARAMETERS 43
 #define ORTHOGLIDE_2003_FREE_VARIABLES 12
+#define ORTHOGLIDE_2003_EVALUATIONS 5000
 
 /* chi: standard parameters, columns of orthoglide_2003_regressor
  *
@@ -317,8 +318,10 @@ enum {
 /* u: free variables of the opened tree: Px, Py, P, 11, 12, 13, 21, 31, 22, 32, 23, 33
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
- * straight way from the home posture to these values; 2 singular posture; 3 a value is not finite.
- * Outputs are NaN unless it is 0. The assembly mode is that of the home posture.
+ * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
+ * or an output would not be; 4 these values are so far that ORTHOGLIDE_2003_EVALUATIONS of
+ * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * mode is that of the home posture.
  */
 
 /* Tells whether this code belongs to a manifest. */

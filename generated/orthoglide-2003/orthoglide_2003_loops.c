@@ -90,7 +90,7 @@ static void base_rows(const double *u, const double *qd, const double *qdd, doub
 
 const char *orthoglide_2003_signature(void)
 {
-    return "da16c78e8221a765";
+    return "54882c543f6b1a90";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */
@@ -102,18 +102,17 @@ void orthoglide_2003_observation(size_t samples, const double *q, const double *
 
     for (size_t i = 0; i < samples; i++) {
         const size_t at = i * ORTHOGLIDE_2003_JOINTS;
-        int found = MODELER_OPEN;
+        int found = MODELER_NOT_FINITE;
 
-        if (i > 0 && status[i - 1] == MODELER_CLOSED)
-            found = modeler_close_next(&loops, q + at, u, work);
-        if (found != MODELER_CLOSED)
-            found = modeler_close(&loops, q + at, home, u, work);
-        if (found == MODELER_CLOSED) {
-            base_rows(u, qd + at, qdd + at, work, W + i * width);
-        } else {
-            modeler_nothing(W + i * width, width);
+        if (modeler_finite(qd + at, 3) && modeler_finite(qdd + at, 3)) {
+            if (i > 0 && status[i - 1] == MODELER_CLOSED)
+                found = modeler_close_next(&loops, q + at, u, work);
+            if (found != MODELER_CLOSED)
+                found = modeler_close(&loops, q + at, home, u, work);
         }
-        status[i] = found;
+        if (found == MODELER_CLOSED)
+            base_rows(u, qd + at, qdd + at, work, W + i * width);
+        status[i] = modeler_told(found, W + i * width, width);
     }
 }
 
@@ -121,17 +120,18 @@ void orthoglide_2003_observation(size_t samples, const double *q, const double *
 int orthoglide_2003_regressor(const double *q, const double *qd, const double *qdd,
                               double *MODELER_RESTRICT phi)
 {
-    double u[12], G[36], ud[12], udd[12], rows[1956], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[36], ud[12], udd[12], rows[1956];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(phi, 489);
-        return status;
+    if (modeler_finite(qd, 3) && modeler_finite(qdd, 3))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
+        orthoglide_2003_tree_regressor(u, ud, udd, rows);
+        modeler_project(&loops, G, rows, 163, phi);
     }
-    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
-    orthoglide_2003_tree_regressor(u, ud, udd, rows);
-    modeler_project(&loops, G, rows, 163, phi);
-    return MODELER_CLOSED;
+    return modeler_told(status, phi, 489);
 }
 
 /* Regressor of the base parameters. */
@@ -139,193 +139,198 @@ int orthoglide_2003_base_regressor(const double *q, const double *qd, const doub
                                    double *MODELER_RESTRICT phi)
 {
     double u[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    if (modeler_finite(qd, 3) && modeler_finite(qdd, 3))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         base_rows(u, qd, qdd, work, phi);
-    else
-        modeler_nothing(phi, 129);
-    return status;
+    }
+    return modeler_told(status, phi, 129);
 }
 
 /* Torques that move the closed robot so. */
 int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                                      const double *beta, double *MODELER_RESTRICT tau)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[36], ud[12], udd[12], rows[12];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 3);
-        return status;
+    if (modeler_finite(qd, 3) && modeler_finite(qdd, 3) && modeler_finite(beta, 43))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
+        orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
-    orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 3);
 }
 
 /* Torques that hold the robot still, without friction. */
 int orthoglide_2003_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
 {
-    double u[12], G[36], rows[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[36], rows[12];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 3);
-        return status;
+    if (modeler_finite(beta, 43))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_coupling(&loops, G, work);
+        orthoglide_2003_tree_gravity(u, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_coupling(&loops, G, work);
-    orthoglide_2003_tree_gravity(u, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 3);
 }
 
 /* Coriolis and centripetal torques. */
 int orthoglide_2003_coriolis(const double *q, const double *qd, const double *beta,
                              double *MODELER_RESTRICT tau)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[36], ud[12], udd[12], rows[12];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 3);
-        return status;
+    if (modeler_finite(qd, 3) && modeler_finite(beta, 43))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
+        orthoglide_2003_tree_coriolis(u, ud, udd, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
-    orthoglide_2003_tree_coriolis(u, ud, udd, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 3);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
 int orthoglide_2003_friction(const double *q, const double *qd, const double *beta,
                              double *MODELER_RESTRICT tau)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[36], ud[12], udd[12], rows[12];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(tau, 3);
-        return status;
+    if (modeler_finite(qd, 3) && modeler_finite(beta, 43))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
+        orthoglide_2003_tree_friction(ud, beta, rows);
+        modeler_project(&loops, G, rows, 1, tau);
     }
-    modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
-    orthoglide_2003_tree_friction(ud, beta, rows);
-    modeler_project(&loops, G, rows, 1, tau);
-    return MODELER_CLOSED;
+    return modeler_told(status, tau, 3);
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
 int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
 {
-    double u[12], G[36], rows[144], half[36], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    double G[36], rows[144], half[36];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(M, 9);
-        return status;
+    if (modeler_finite(beta, 43))
+        status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_coupling(&loops, G, work);
+        orthoglide_2003_tree_inertia_matrix(u, beta, rows);
+        modeler_project(&loops, G, rows, 12, half);
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 12; k++)
+                rows[k * 3 + i] = half[i * 12 + k];
+        modeler_project(&loops, G, rows, 3, M);
     }
-    modeler_coupling(&loops, G, work);
-    orthoglide_2003_tree_inertia_matrix(u, beta, rows);
-    modeler_project(&loops, G, rows, 12, half);
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 12; k++)
-            rows[k * 3 + i] = half[i * 12 + k];
-    modeler_project(&loops, G, rows, 3, M);
-    return MODELER_CLOSED;
+    return modeler_told(status, M, 9);
 }
 
 /* Pose of the frame of every moving row of the table. */
 int orthoglide_2003_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     double u[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         orthoglide_2003_tree_forward_kinematics(u, T);
-    else
-        modeler_nothing(T, 252);
-    return status;
+    }
+    return modeler_told(status, T, 252);
 }
 
 /* Closed posture, on a straight way from home. */
 int orthoglide_2003_close(const double *q, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 12);
-    return status;
+    status = modeler_close(&loops, q, home, u, work);
+    return modeler_told(status, u, 12);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
 int orthoglide_2003_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&loops, q, start, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 12);
-    return status;
+    status = modeler_close(&loops, q, start, u, work);
+    return modeler_told(status, u, 12);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int orthoglide_2003_coupling(const double *q, double *MODELER_RESTRICT G)
 {
     double u[12], work[WORK];
-    const int status = modeler_close(&loops, q, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&loops, q, home, u, work);
+    if (status == MODELER_CLOSED) {
         modeler_coupling(&loops, G, work);
-    else
-        modeler_nothing(G, 36);
-    return status;
+    }
+    return modeler_told(status, G, 36);
 }
 
 /* Regressor of the base parameters. */
 int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, const double *xdd,
                                             double *MODELER_RESTRICT phi)
 {
-    double u[12], G[36], ud[12], udd[12], rows[516], work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    double G[36], ud[12], udd[12], rows[516];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(phi, 129);
-        return status;
+    if (modeler_finite(xd, 3) && modeler_finite(xdd, 3))
+        status = modeler_close(&platform_loops, x, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
+        orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
+        modeler_project(&platform_loops, G, rows, 43, phi);
     }
-    modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
-    orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
-    modeler_project(&platform_loops, G, rows, 43, phi);
-    return MODELER_CLOSED;
+    return modeler_told(status, phi, 129);
 }
 
 /* Torques that move the closed robot so. */
 int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
                                               const double *beta, double *MODELER_RESTRICT f)
 {
-    double u[12], G[36], ud[12], udd[12], rows[12], work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    double G[36], ud[12], udd[12], rows[12];
+    double u[12], work[WORK];
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED) {
-        modeler_nothing(f, 3);
-        return status;
+    if (modeler_finite(xd, 3) && modeler_finite(xdd, 3) && modeler_finite(beta, 43))
+        status = modeler_close(&platform_loops, x, home, u, work);
+    if (status == MODELER_CLOSED) {
+        modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
+        orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
+        modeler_project(&platform_loops, G, rows, 1, f);
     }
-    modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
-    orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
-    modeler_project(&platform_loops, G, rows, 1, f);
-    return MODELER_CLOSED;
+    return modeler_told(status, f, 3);
 }
 
 /* Closed posture, on a straight way from home. */
 int orthoglide_2003_platform_close(const double *x, double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 12);
-    return status;
+    status = modeler_close(&platform_loops, x, home, u, work);
+    return modeler_told(status, u, 12);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
@@ -333,22 +338,21 @@ int orthoglide_2003_platform_close_from(const double *x, const double *start,
                                         double *MODELER_RESTRICT u)
 {
     double work[WORK];
-    const int status = modeler_close(&platform_loops, x, start, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status != MODELER_CLOSED)
-        modeler_nothing(u, 12);
-    return status;
+    status = modeler_close(&platform_loops, x, start, u, work);
+    return modeler_told(status, u, 12);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
 int orthoglide_2003_platform_coupling(const double *x, double *MODELER_RESTRICT G)
 {
     double u[12], work[WORK];
-    const int status = modeler_close(&platform_loops, x, home, u, work);
+    int status = MODELER_NOT_FINITE;
 
-    if (status == MODELER_CLOSED)
+    status = modeler_close(&platform_loops, x, home, u, work);
+    if (status == MODELER_CLOSED) {
         modeler_coupling(&platform_loops, G, work);
-    else
-        modeler_nothing(G, 36);
-    return status;
+    }
+    return modeler_told(status, G, 36);
 }

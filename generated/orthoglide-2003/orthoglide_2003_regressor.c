@@ -73,7 +73,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[500] = qdd[3];
     MODELER_ZEROS(phi + 25, 8);
     phi[501] = qd[3];
-    phi[502] = (double)((qd[3] > 0.0) - (qd[3] < 0.0));
+    phi[502] = modeler_sign(qd[3]);
     MODELER_ZEROS(phi + 33, 8);
     phi[503] = 1.0;
     MODELER_ZEROS(phi + 41, 8);
@@ -82,7 +82,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[677] = qdd[4];
     MODELER_ZEROS(phi + 57, 8);
     phi[678] = qd[4];
-    phi[679] = (double)((qd[4] > 0.0) - (qd[4] < 0.0));
+    phi[679] = modeler_sign(qd[4]);
     MODELER_ZEROS(phi + 65, 8);
     phi[680] = 1.0;
     MODELER_ZEROS(phi + 73, 8);
@@ -93,7 +93,7 @@ void orthoglide_2003_tree_regressor(const double *q, const double *qd, const dou
     phi[854] = qdd[5];
     phi[855] = qd[5];
     MODELER_ZEROS(phi + 97, 8);
-    phi[856] = (double)((qd[5] > 0.0) - (qd[5] < 0.0));
+    phi[856] = modeler_sign(qd[5]);
     MODELER_ZEROS(phi + 105, 8);
     phi[857] = 1.0;
     MODELER_ZEROS(phi + 113, 8);

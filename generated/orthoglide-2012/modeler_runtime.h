@@ -8,6 +8,10 @@
 
 #include <stddef.h>
 
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "modeler: NaN must stay NaN: compile without -ffast-math and -ffinite-math-only (/fp:fast)"
+#endif
+
 /* `restrict`, which C++ spells otherwise or has not. */
 #if !defined(__cplusplus)
 #define MODELER_RESTRICT restrict
@@ -30,6 +34,12 @@
 #define MODELER_ALL_ZEROS(x, length) (void)0
 #define MODELER_ZEROS(x, length) MODELER_CLEAR(x, length)
 #endif
+
+/* -1, 0 or 1; NaN where x is not finite. */
+static inline double modeler_sign(double x)
+{
+    return (double)((x > 0.0) - (x < 0.0)) + (x - x);
+}
 
 #ifdef __cplusplus
 extern "C" {

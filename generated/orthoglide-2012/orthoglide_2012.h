@@ -18,12 +18,13 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "a1d90d71ee162fb1"
+#define ORTHOGLIDE_2012_SIGNATURE "ca89a4197e504a5c"
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196
 #define ORTHOGLIDE_2012_BASE_PARAMETERS 53
 #define ORTHOGLIDE_2012_FREE_VARIABLES 12
+#define ORTHOGLIDE_2012_EVALUATIONS 5000
 
 /* chi: standard parameters, columns of orthoglide_2012_regressor
  *
@@ -378,8 +379,10 @@ enum {
 /* u: free variables of the opened tree: 6x, 6y, 6, 11, 12, 13, 21, 31, 22, 32, 23, 33
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
- * straight way from the home posture to these values; 2 singular posture; 3 a value is not finite.
- * Outputs are NaN unless it is 0. The assembly mode is that of the home posture.
+ * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
+ * or an output would not be; 4 these values are so far that ORTHOGLIDE_2012_EVALUATIONS of
+ * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * mode is that of the home posture.
  */
 
 /* Tells whether this code belongs to a manifest. */

@@ -52,11 +52,11 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[159] = qdd[3];
     phi[160] = qd[3];
     MODELER_ZEROS(phi + 0, 8);
-    phi[161] = (double)((qd[3] > 0.0) - (qd[3] < 0.0));
+    phi[161] = modeler_sign(qd[3]);
     phi[215] = qdd[4];
     MODELER_ZEROS(phi + 8, 8);
     phi[216] = qd[4];
-    phi[217] = (double)((qd[4] > 0.0) - (qd[4] < 0.0));
+    phi[217] = modeler_sign(qd[4]);
     MODELER_ZEROS(phi + 16, 8);
     const double t1 = qdd[5] - orthoglide_2012_geo_g;
     phi[271] = t1;
@@ -64,7 +64,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[272] = qdd[5];
     MODELER_ZEROS(phi + 32, 8);
     phi[273] = qd[5];
-    phi[274] = (double)((qd[5] > 0.0) - (qd[5] < 0.0));
+    phi[274] = modeler_sign(qd[5]);
     MODELER_ZEROS(phi + 40, 8);
     phi[328] = qdd[6];
     const double t2 = qd[6]*qd[6];
@@ -81,7 +81,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[330] = t5;
     MODELER_ZEROS(phi + 80, 8);
     phi[331] = qd[6];
-    phi[332] = (double)((qd[6] > 0.0) - (qd[6] < 0.0));
+    phi[332] = modeler_sign(qd[6]);
     MODELER_ZEROS(phi + 88, 8);
     const double t6 = s7*qdd[6];
     MODELER_ZEROS(phi + 96, 8);
@@ -135,7 +135,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[392] = c7*t5 - orthoglide_2012_geo_g*s7;
     phi[393] = qd[7];
     MODELER_ZEROS(phi + 240, 7);
-    phi[394] = (double)((qd[7] > 0.0) - (qd[7] < 0.0));
+    phi[394] = modeler_sign(qd[7]);
     phi[183] = t3;
     MODELER_ZEROS(phi + 248, 2);
     phi[342] = orthoglide_2012_geo_d4*c7*qdd[6] - (t4 + orthoglide_2012_geo_d4*t14);
@@ -157,7 +157,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     MODELER_ZEROS(phi + 291, 8);
     phi[452] = qd[8];
     MODELER_ZEROS(phi + 299, 6);
-    phi[453] = (double)((qd[8] > 0.0) - (qd[8] < 0.0));
+    phi[453] = modeler_sign(qd[8]);
     const double t27 = s9*qdd[8];
     MODELER_ZEROS(phi + 307, 7);
     const double t28 = c9*qd[8];
@@ -200,7 +200,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[512] = c9*t26;
     MODELER_ZEROS(phi + 412, 8);
     phi[513] = qd[9];
-    phi[514] = (double)((qd[9] > 0.0) - (qd[9] < 0.0));
+    phi[514] = modeler_sign(qd[9]);
     MODELER_ZEROS(phi + 420, 8);
     phi[250] = t24;
     MODELER_ZEROS(phi + 428, 8);
@@ -222,7 +222,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[571] = t44;
     MODELER_ZEROS(phi + 471, 8);
     phi[572] = qd[10];
-    phi[573] = (double)((qd[10] > 0.0) - (qd[10] < 0.0));
+    phi[573] = modeler_sign(qd[10]);
     MODELER_ZEROS(phi + 479, 8);
     const double t45 = s11*qdd[10];
     MODELER_ZEROS(phi + 487, 8);
@@ -266,7 +266,7 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[632] = c11*t44;
     MODELER_ZEROS(phi + 599, 8);
     phi[633] = qd[11];
-    phi[634] = (double)((qd[11] > 0.0) - (qd[11] < 0.0));
+    phi[634] = modeler_sign(qd[11]);
     MODELER_ZEROS(phi + 607, 8);
     phi[317] = t42;
     phi[582] = orthoglide_2012_geo_d4*c11*qdd[10] - (t43 + orthoglide_2012_geo_d4*t53);
@@ -285,15 +285,15 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
 
     phi[0] = a[0];
     phi[1] = v[0];
-    phi[2] = (double)((v[0] > 0.0) - (v[0] < 0.0));
+    phi[2] = modeler_sign(v[0]);
     phi[56] = a[1];
     phi[57] = v[1];
-    phi[58] = (double)((v[1] > 0.0) - (v[1] < 0.0));
+    phi[58] = modeler_sign(v[1]);
     const double t1 = orthoglide_2012_geo_g - a[2];
     phi[112] = -t1;
     phi[113] = a[2];
     phi[114] = v[2];
-    phi[115] = (double)((v[2] > 0.0) - (v[2] < 0.0));
+    phi[115] = modeler_sign(v[2]);
     const double t2 = G[3]*v[0] + G[12]*v[1] + G[21]*v[2];
     const double t3 = t[0]*t2;
     const double t4 = G[4]*v[0] + G[13]*v[1] + G[22]*v[2];
@@ -350,7 +350,7 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
     phi[13] = G[3]*t2;
     phi[66] = G[12]*t2;
     phi[119] = G[21]*t2;
-    const double t46 = (double)((t2 > 0.0) - (t2 < 0.0));
+    const double t46 = modeler_sign(t2);
     phi[14] = G[3]*t46;
     phi[67] = G[12]*t46;
     MODELER_ZEROS(phi + 3, 7);
@@ -406,7 +406,7 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
     phi[22] = G[4]*t4;
     phi[75] = G[13]*t4;
     phi[128] = G[22]*t4;
-    const double t74 = (double)((t4 > 0.0) - (t4 < 0.0));
+    const double t74 = modeler_sign(t4);
     phi[23] = G[4]*t74;
     phi[76] = G[13]*t74;
     phi[129] = G[22]*t74;
@@ -435,7 +435,7 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
     phi[28] = G[5]*t13;
     phi[81] = G[14]*t13;
     phi[134] = G[23]*t13;
-    const double t84 = (double)((t13 > 0.0) - (t13 < 0.0));
+    const double t84 = modeler_sign(t13);
     phi[29] = G[5]*t84;
     phi[82] = G[14]*t84;
     phi[135] = G[23]*t84;
@@ -482,7 +482,7 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
     phi[36] = G[6]*t15;
     phi[89] = G[15]*t15;
     phi[142] = G[24]*t15;
-    const double t107 = (double)((t15 > 0.0) - (t15 < 0.0));
+    const double t107 = modeler_sign(t15);
     phi[37] = G[6]*t107;
     phi[90] = G[15]*t107;
     phi[143] = G[24]*t107;
@@ -509,7 +509,7 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
     phi[42] = G[7]*t29;
     phi[95] = G[16]*t29;
     phi[148] = G[25]*t29;
-    const double t115 = (double)((t29 > 0.0) - (t29 < 0.0));
+    const double t115 = modeler_sign(t29);
     phi[43] = G[7]*t115;
     phi[96] = G[16]*t115;
     phi[149] = G[25]*t115;
@@ -556,7 +556,7 @@ void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G
     phi[50] = G[8]*t10;
     phi[103] = G[17]*t10;
     phi[156] = G[26]*t10;
-    const double t138 = (double)((t10 > 0.0) - (t10 < 0.0));
+    const double t138 = modeler_sign(t10);
     phi[51] = G[8]*t138;
     phi[104] = G[17]*t138;
     phi[157] = G[26]*t138;

@@ -61,7 +61,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 33, 8);
     phi[600] = qd[3];
     MODELER_ZEROS(phi + 41, 8);
-    phi[601] = (double)((qd[3] > 0.0) - (qd[3] < 0.0));
+    phi[601] = modeler_sign(qd[3]);
     MODELER_ZEROS(phi + 49, 8);
     phi[807] = qdd[4];
     MODELER_ZEROS(phi + 57, 8);
@@ -70,7 +70,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     phi[809] = qd[4];
     MODELER_ZEROS(phi + 73, 8);
     MODELER_ZEROS(phi + 81, 8);
-    phi[810] = (double)((qd[4] > 0.0) - (qd[4] < 0.0));
+    phi[810] = modeler_sign(qd[4]);
     MODELER_ZEROS(phi + 89, 8);
     const double t1 = qdd[5] - orthoglide_2012_geo_g;
     MODELER_ZEROS(phi + 97, 8);
@@ -80,7 +80,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 113, 8);
     phi[1018] = qd[5];
     MODELER_ZEROS(phi + 121, 8);
-    phi[1019] = (double)((qd[5] > 0.0) - (qd[5] < 0.0));
+    phi[1019] = modeler_sign(qd[5]);
     MODELER_ZEROS(phi + 129, 8);
     phi[1221] = qdd[6];
     MODELER_ZEROS(phi + 137, 8);
@@ -110,7 +110,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 237, 8);
     phi[1227] = qd[6];
     MODELER_ZEROS(phi + 245, 8);
-    const double t7 = (double)((qd[6] > 0.0) - (qd[6] < 0.0));
+    const double t7 = modeler_sign(qd[6]);
     MODELER_ZEROS(phi + 253, 8);
     phi[1228] = t7;
     MODELER_ZEROS(phi + 261, 8);
@@ -205,7 +205,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 636, 1);
     phi[1436] = qd[7];
     MODELER_ZEROS(phi + 638, 8);
-    const double t29 = (double)((qd[7] > 0.0) - (qd[7] < 0.0));
+    const double t29 = modeler_sign(qd[7]);
     MODELER_ZEROS(phi + 646, 1);
     phi[1437] = t29;
     MODELER_ZEROS(phi + 651, 8);
@@ -295,7 +295,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 965, 8);
     phi[1671] = qd[8];
     MODELER_ZEROS(phi + 973, 8);
-    const double t44 = (double)((qd[8] > 0.0) - (qd[8] < 0.0));
+    const double t44 = modeler_sign(qd[8]);
     MODELER_ZEROS(phi + 981, 8);
     MODELER_ZEROS(phi + 989, 8);
     phi[1672] = t44;
@@ -390,7 +390,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 1332, 8);
     phi[1880] = qd[9];
     MODELER_ZEROS(phi + 1340, 8);
-    const double t66 = (double)((qd[9] > 0.0) - (qd[9] < 0.0));
+    const double t66 = modeler_sign(qd[9]);
     MODELER_ZEROS(phi + 1348, 8);
     MODELER_ZEROS(phi + 1356, 8);
     phi[1881] = t66;
@@ -481,7 +481,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 1696, 8);
     phi[2115] = qd[10];
     MODELER_ZEROS(phi + 1704, 4);
-    const double t81 = (double)((qd[10] > 0.0) - (qd[10] < 0.0));
+    const double t81 = modeler_sign(qd[10]);
     MODELER_ZEROS(phi + 1712, 8);
     phi[2116] = t81;
     MODELER_ZEROS(phi + 1720, 8);
@@ -576,7 +576,7 @@ void orthoglide_2012_tree_regressor(const double *q, const double *qd, const dou
     MODELER_ZEROS(phi + 2089, 8);
     phi[2324] = qd[11];
     MODELER_ZEROS(phi + 2097, 8);
-    const double t103 = (double)((qd[11] > 0.0) - (qd[11] < 0.0));
+    const double t103 = modeler_sign(qd[11]);
     MODELER_ZEROS(phi + 2105, 4);
     phi[2325] = t103;
     MODELER_ZEROS(phi + 2112, 2);

@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "d803ee67f7da5910";
+    return "544fd65d8d702cb6";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

@@ -53,7 +53,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "d803ee67f7da5910";
+    return "544fd65d8d702cb6";
 }
 
 #else /* for one instruction set */

@@ -115,7 +115,7 @@ MODELER_INLINE double modeler_lanes_pow(double x, double y) { return pow(x, y); 
 
 MODELER_INLINE double modeler_lanes_sign(double x)
 {
-    return (double)((x > 0.0) - (x < 0.0));
+    return modeler_sign(x);
 }
 
 MODELER_INLINE void modeler_lanes_sincos(double x, double *sine, double *cosine)
@@ -158,13 +158,14 @@ MODELER_INLINE modeler_lanes modeler_lanes_fabs(modeler_lanes x)
     return (modeler_lanes)((modeler_bits)x & ~(modeler_bits)minus);
 }
 
-/* 1 with the sign of x, where |x| > 0. A comparison gives all bits or none in each lane. */
+/* 1 with the sign of x, where |x| > 0; NaN where x is not finite. A comparison gives all bits or
+ * none in each lane. */
 MODELER_INLINE modeler_lanes modeler_lanes_sign(modeler_lanes x)
 {
     const modeler_bits minus = (modeler_bits)modeler_lanes_spread(-0.0);
     const modeler_bits one = (modeler_bits)modeler_lanes_spread(1.0) | ((modeler_bits)x & minus);
 
-    return (modeler_lanes)(one & (modeler_lanes_fabs(x) > 0.0));
+    return (modeler_lanes)(one & (modeler_lanes_fabs(x) > 0.0)) + (x - x);
 }
 
 /* Method, bounds and coefficients as in modeler_sincos.h, which does the lanes beyond them. */

@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 1) any of this C interface,
-# find_package(sr400_tree 1.43596.25006.18036) only what has the signature aa4c61ae46747914.
-set(PACKAGE_VERSION 1.43596.25006.18036)
+# find_package(sr400_tree 1.9600.23921.56757) only what has the signature 25805d71ddb57416.
+set(PACKAGE_VERSION 1.9600.23921.56757)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -69,7 +69,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "aa4c61ae46747914";
+    return "25805d71ddb57416";
 }
 
 #else /* for one instruction set */

@@ -10,6 +10,8 @@
 
 #include <stddef.h>
 
+#include "modeler_runtime.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.6180.13178.2702) only what has the signature 1824337a0a8e22cb.
-set(PACKAGE_VERSION 1.6180.13178.2702)
+# find_package(sr400 1.14390.7132.49158) only what has the signature 38361bdcc006782c.
+set(PACKAGE_VERSION 1.14390.7132.49158)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -56,7 +56,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "1824337a0a8e22cb";
+    return "38361bdcc006782c";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -66,7 +66,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "1824337a0a8e22cb";
+    return "38361bdcc006782c";
 }
 
 #else /* for one instruction set */

@@ -38,7 +38,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "4ad2b19818801194";
+    return "898f4418b901ec38";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

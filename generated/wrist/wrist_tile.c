@@ -47,7 +47,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "4ad2b19818801194";
+    return "898f4418b901ec38";
 }
 
 #else /* for one instruction set */

@@ -119,8 +119,6 @@ def _multiple(
             continue
         if not node.static:
             named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
-        if node.op == "sign":
-            named |= {abs(arg) for arg in node.args}
     return {i for i in named if graph.nodes[i].op not in _LEAVES}
 
 

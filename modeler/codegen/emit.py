@@ -35,6 +35,7 @@ from modeler.codegen.symbols import SymbolLines, symbol_lines
 from modeler.codegen.target import OF_PRECISION
 from modeler.codegen.tile import UNIT as TILE_UNIT
 from modeler.codegen.tile import Tile, tile_of
+from modeler.codegen.vectors import stored_states
 from modeler.core.choices import Precision
 from modeler.core.contract import (
     CLOSURE_RUNTIME,
@@ -72,6 +73,7 @@ class _Written:
     definition: str
     lines: list[str]
     closed: Closed | None
+    inputs: tuple[ArgumentSpec, ...]
     output: ArgumentSpec
     length: int
     symbols: frozenset[str]
@@ -105,10 +107,13 @@ def emit(
     spec, values = module.spec, module.values
     code = _code(spec, values)
     kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
+    functions = [function for function, _ in module.blocks]
     if fitted is not None:
         spec, unit = _fitted_unit(model, base, fitted, module)
+        functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
+    values |= {"vectors": stored_states(model, base, functions)}
     files = {
         **code,
         **kernels,
@@ -269,6 +274,7 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
         closed=function.closed,
+        inputs=function.inputs,
         output=function.output,
         length=layout.output_size(function.output),
         symbols=block.symbols if block else frozenset(),

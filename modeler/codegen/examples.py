@@ -6,13 +6,16 @@ from typing import Any
 
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
+FOLDER = "programs"
+"""Of a module's folder, so that all C files beside the library's are the library's."""
+
 EXAMPLES = ("example_computed_torque", "example_residual_observer")
 """Templates, and names of the programs."""
 
 SELF_CHECK = "self_check"
 COUNT = "count_instructions"
 PROGRAMS = (SELF_CHECK, COUNT, *EXAMPLES)
-"""All programs that a folder may hold: their C files stand beside the library's."""
+"""All programs that a module may have."""
 
 
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:

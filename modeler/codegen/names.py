@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterable
 
-from modeler.codegen.examples import PROGRAMS
 from modeler.core.errors import EmitError
 
 # Headers of C99: a file of that name beside the code would stand in their place.
@@ -18,7 +17,7 @@ def module_prefix(robot: str) -> str:
     """Start of all C names of a robot: `sr400-tree` -> `sr400_tree`, `3rrr` -> `robot_3rrr`.
 
     Raises:
-        EmitError: the name would clash with the runtime's, a header of C, or a program beside it.
+        EmitError: the name would clash with the runtime's or a header of C.
     """
     prefix = re.sub(r"[^A-Za-z0-9_]+", "_", robot).strip("_").lower() or "robot"
     if prefix[0].isdigit():
@@ -27,10 +26,6 @@ def module_prefix(robot: str) -> str:
         raise EmitError(f'name "{robot}": names that start with modeler_ are taken; choose another')
     if prefix in _HEADERS:
         raise EmitError(f'name "{robot}": {prefix}.h is a header of C; choose another')
-    if prefix in PROGRAMS:
-        raise EmitError(
-            f'name "{robot}": {prefix}.c is a program of every emitted folder; choose another'
-        )
     return prefix
 
 

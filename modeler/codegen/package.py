@@ -7,6 +7,7 @@ from typing import Any
 
 from modeler.codegen.examples import (
     COUNT,
+    FOLDER,
     SELF_CHECK,
     call_head,
     count_values,
@@ -69,6 +70,7 @@ def package_files(
     given = {
         **values,
         "package": _package(spec, code),
+        "folder": FOLDER,
         "examples": examples,
         "programs": (SELF_CHECK, *examples),
         "counts": count is not None,
@@ -80,10 +82,10 @@ def package_files(
         **_counts(values["functions"], prefix),
     }
     texts = {name: render(template, **given) for name, template in _names(prefix).items()}
-    for name in examples:
-        texts[f"{name}.c"] = render(f"{name}.c", **given, **example_values(spec, name))
-    if count is not None:
-        texts[f"{COUNT}.c"] = render(f"{COUNT}.c", **given, **count)
+    own = {SELF_CHECK: {}, **{name: example_values(spec, name) for name in examples}}
+    own |= {COUNT: count} if count is not None else {}
+    for name, more in own.items():
+        texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
     return of_precision(spec.precision, texts)
 
 
@@ -95,7 +97,6 @@ def _names(prefix: str) -> dict[str, str]:
         f"{prefix}.pc.in": "package.pc.in",
         f"{prefix}-config.cmake": "config.cmake",
         f"{prefix}-config-version.cmake": "config-version.cmake",
-        f"{SELF_CHECK}.c": "self_check.c",
         "README.md": "README.md",
     }
 

@@ -88,15 +88,12 @@ def power_text(base: Text, exponent: Text, target: Target = DOUBLE) -> Text:
 
 
 def call_text(name: str, argument: Text, target: Target = DOUBLE) -> Text:
-    """name(argument); the argument of `sign` must be a name, because it may be written twice.
+    """name(argument).
 
     Raises:
         EmitError: no such function in C99.
     """
-    if name == "sign":
-        assert argument.level == ATOM
-        return Text(target.sign.format(argument.text), ATOM)
     if name not in target.functions:
-        expected = ", ".join([*(f for f in FUNCTIONS if f != "pow"), "sign"])
+        expected = ", ".join(f for f in FUNCTIONS if f != "pow")
         raise EmitError(f"function {name} has no C99 form here; expected {expected}")
     return Text(f"{target.functions[name]}({argument.text})", ATOM)

@@ -10,8 +10,8 @@ from types import MappingProxyType
 
 from modeler.core.choices import Precision
 
-FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "tanh", "abs", "pow")
-"""Functions of the graph that math.h has; `sign` is written with comparisons."""
+FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "tanh", "abs", "pow", "sign")
+"""Functions of the graph: those of math.h, and the sign of modeler_runtime.h."""
 
 _MATH = {name: name for name in FUNCTIONS} | {"abs": "fabs"}
 
@@ -29,7 +29,6 @@ class Target:
         functions: {function of the graph: C name}, all of `FUNCTIONS`.
         sincos: C name of the function that gives sine and cosine at once.
         smooth_sign: C name of the sign that turns over a width.
-        sign: C text of the sign of `{0}`, a name.
         spread: C text of a value of all lanes that are alike, of `{0}`, one number.
         constant: target of values that do not depend on the motion; None: this one.
     """
@@ -42,7 +41,6 @@ class Target:
     functions: Mapping[str, str]
     sincos: str
     smooth_sign: str
-    sign: str
     spread: str = "{0}"
     constant: "Target | None" = None
 
@@ -62,10 +60,9 @@ DOUBLE = Target(
     precision="double",
     exact=2**53,
     largest=_largest(53, 1024),
-    functions=MappingProxyType(_MATH),
+    functions=MappingProxyType(_MATH | {"sign": "modeler_sign"}),
     sincos="modeler_sincos",
     smooth_sign="smooth_sign",
-    sign="(double)(({0} > 0.0) - ({0} < 0.0))",
 )
 
 SINGLE = Target(
@@ -74,10 +71,11 @@ SINGLE = Target(
     precision="single",
     exact=2**24,
     largest=_largest(24, 128),
-    functions=MappingProxyType({name: f"{c}f" for name, c in _MATH.items()}),
+    functions=MappingProxyType(
+        {name: f"{c}f" for name, c in _MATH.items()} | {"sign": "modelerf_sign"}
+    ),
     sincos="modelerf_sincos",
     smooth_sign="smooth_sign",
-    sign="(float)(({0} > 0.0f) - ({0} < 0.0f))",
 )
 
 OF_PRECISION: Mapping[Precision, Target] = MappingProxyType({"double": DOUBLE, "single": SINGLE})
@@ -92,7 +90,6 @@ TILE = Target(
     functions=MappingProxyType({name: f"modeler_lanes_{c}" for name, c in _MATH.items()}),
     sincos="modeler_lanes_sincos",
     smooth_sign="modeler_lanes_smooth_sign",
-    sign="modeler_lanes_sign({0})",
     spread="modeler_lanes_spread({0})",
     constant=DOUBLE,
 )

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from modeler.codegen.examples import EXAMPLES
+from modeler.codegen.examples import EXAMPLES, FOLDER, PROGRAMS
 from modeler.codegen.record import RECORD, Record, checksum, read_record, record_text
 from modeler.core.contract import Emitted
 from modeler.core.errors import ModelerError
@@ -57,10 +57,14 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
 
 
 def _unwanted(emitted: Emitted) -> set[str]:
-    """Files that hold a model's values, or need them, or CUDA, and are not emitted now."""
-    stems = (f"{emitted.spec.prefix}_fitted", *EXAMPLES)
-    names = {f"{stem}{kind}" for stem in stems for kind in (".c", ".h")}
-    return (names | {f"{emitted.spec.prefix}.cu"}) - emitted.files.keys()
+    """Files that hold a model's values, or need them, or CUDA, and are not emitted now.
+
+    And programs that stand among the library's files, as earlier versions wrote them.
+    """
+    prefix = emitted.spec.prefix
+    names = {f"{prefix}_fitted.c", f"{prefix}_fitted.h", f"{prefix}.cu"}
+    names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
+    return names - emitted.files.keys()
 
 
 def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:

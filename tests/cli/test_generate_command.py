@@ -49,11 +49,11 @@ def run(capsys, *words):
 def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_path):
     """But an example that somebody edited, which is told."""
     assert run(capsys, "generate", place, "--out", tmp_path)[0] == 0
-    (tmp_path / "example_computed_torque.c").write_text("mine")
+    (tmp_path / "programs" / "example_computed_torque.c").write_text("mine")
     status, _, err = run(capsys, "generate", "two-link", "--out", tmp_path)
     assert status == 0 and len(err.splitlines()) == 1
-    assert f"{tmp_path}: example_computed_torque.c is of an earlier generate" in err
-    left = {path.name for path in tmp_path.iterdir()}
+    assert f"{tmp_path}: programs/example_computed_torque.c is of an earlier generate" in err
+    left = {path.name for path in tmp_path.rglob("*")}
     assert "two_link.c" in left and not {name for name in left if "fitted" in name}
     assert {name for name in left if "example" in name} == {"example_computed_torque.c"}
 

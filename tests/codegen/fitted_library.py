@@ -11,7 +11,7 @@ import numpy as np
 from modeler.base import base_parameters
 from modeler.codegen import emit
 from modeler.compiled.build import build_library
-from modeler.core.contract import Emitted, FittedParameter, FittedSpec, ModuleSpec
+from modeler.core.contract import ArgumentSpec, Emitted, FittedParameter, FittedSpec, ModuleSpec
 from modeler.robot import builtin_text, robot_from_text
 from modeler.robot.edit import with_effects
 from modeler.symbolic import derive_model
@@ -84,14 +84,24 @@ class Functions:
         with _flags(defined):
             path = build_library({name: emitted.files[name] for name in self.spec.sources})
         self._library = ctypes.CDLL(str(path))
-        assert self.spec.fitted is not None
-        known = (*self.spec.functions, *self.spec.fitted.functions)
+        fitted = self.spec.fitted.functions if self.spec.fitted is not None else ()
+        known = (*self.spec.functions, *fitted)
+        self._number = np.float32 if self.spec.precision == "single" else np.float64
         self._known = {f.name.removeprefix(f"{self.spec.prefix}_"): f for f in known}
 
     @property
     def roles(self) -> list[str]:
         """Names of the functions with values, without the robot's."""
         return [role for role in self._known if role.startswith("fitted_")]
+
+    @property
+    def every(self) -> list[str]:
+        """Names of all functions, without the robot's."""
+        return list(self._known)
+
+    def inputs(self, role: str) -> tuple[ArgumentSpec, ...]:
+        """Arguments that a function reads."""
+        return self._known[role].inputs
 
     def text(self, role: str) -> str:
         """What a function without arguments says."""
@@ -109,11 +119,10 @@ class Functions:
         function = self._known[role]
         arrays = [given[argument.name] for argument in function.inputs]
         call = getattr(self._library, function.name)
-        pointer = ctypes.POINTER(ctypes.c_double)
-        found = np.full((len(given["q"]), *function.outputs[0].shape), np.nan)
+        found = np.full((len(given["q"]), *function.outputs[0].shape), np.nan, self._number)
         for i, out in enumerate(found):
-            rows = [np.ascontiguousarray(a if a.ndim == 1 else a[i]) for a in arrays]
-            status = call(*(a.ctypes.data_as(pointer) for a in (*rows, out)))
+            rows = [np.ascontiguousarray(a if a.ndim == 1 else a[i], self._number) for a in arrays]
+            status = call(*(a.ctypes.data_as(ctypes.c_void_p) for a in (*rows, out)))
             assert not function.status or status == 0
         return found
 

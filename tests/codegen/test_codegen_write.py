@@ -28,7 +28,8 @@ def changed(emitted: Emitted, *names: str) -> Emitted:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.iterdir()}
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
 
 def test_only_changed_files_are_written_and_foreign_ones_stay(emitted, tmp_path):
@@ -89,7 +90,7 @@ def test_another_robot_in_the_same_folder_and_back(emitted, tmp_path):
     assert "Makefile" in write_emitted(emitted, tmp_path)
 
 
-EXAMPLE = "example_residual_observer.c"
+EXAMPLE = "programs/example_residual_observer.c"
 
 
 def test_what_is_no_longer_emitted_goes_unless_it_was_edited(emitted, tmp_path):
@@ -116,7 +117,7 @@ def test_what_cannot_be_removed_stays_and_is_told(emitted, tmp_path, monkeypatch
     real = Path.unlink
 
     def refused(path: Path, missing_ok: bool = False) -> None:
-        if path.name == EXAMPLE:
+        if path.name == Path(EXAMPLE).name:
             raise PermissionError(13, "Permission denied", str(path))
         real(path, missing_ok)
 

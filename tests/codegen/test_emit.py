@@ -14,7 +14,7 @@ import sympy
 import modeler
 from modeler.base import grouping_matrix
 from modeler.codegen import emit, write_emitted
-from modeler.codegen.examples import PROGRAMS
+from modeler.codegen.examples import FOLDER, PROGRAMS
 from modeler.codegen.names import module_prefix, symbol_macros
 from modeler.core.contract import module_from_json
 from modeler.core.errors import EmitError, ModelerError
@@ -257,18 +257,13 @@ def test_names_that_would_clash_are_refused():
         module_prefix("Math")
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_no_robot_has_the_name_of_a_program_beside_it(program):
-    with pytest.raises(EmitError, match=rf"{program}\.c is a program of every emitted folder"):
-        module_prefix(program.replace("_", "-"))
-
-
-def test_every_program_of_a_folder_is_known_by_name():
-    """So a robot cannot be called as one that is added later: all C files without its prefix."""
+def test_programs_stand_in_a_folder_of_their_own():
+    """So `cc *.c` is the library, and a robot may be called as a program."""
     made = module("wrist")
     files = emit(made.model, made.base, fitted_of(made.emitted.spec)).files
-    others = {name[:-2] for name in files if name.endswith(".c") and "wrist" not in name}
-    assert {name for name in others if not name.startswith("modeler_")} == set(PROGRAMS)
+    units = {name[:-2] for name in files if name.endswith(".c")}
+    assert {name for name in units if "/" in name} == {f"{FOLDER}/{name}" for name in PROGRAMS}
+    assert all(re.match(r"wrist|modeler_", name) for name in units if "/" not in name)
 
 
 def test_macros_of_symbols_are_apart_from_all_others():

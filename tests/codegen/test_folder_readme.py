@@ -39,4 +39,4 @@ def test_it_tells_of_statuses_and_signals_where_there_are_any(name):
         assert f"of joint {signal.joint}" in text
     call = "_fitted_inverse_dynamics(q, qd, v" if spec.fitted else "_inverse_dynamics(q, qd, v"
     assert call in text
-    assert ("example_computed_torque.c" in emitted.files) == (spec.fitted is not None)
+    assert ("programs/example_computed_torque.c" in emitted.files) == (spec.fitted is not None)

@@ -45,7 +45,8 @@ def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path) -> np.ndar
     lines = "\n".join((*block.constants, *block.calls, *block.body))
     source, library = tmp_path / "f.c", tmp_path / "f.so"
     source.write_text(
-        f'#include "modeler_sincos.h"\nvoid f(const double *in, double *out);\n'
+        '#include "modeler_runtime.h"\n#include "modeler_sincos.h"\n'
+        "void f(const double *in, double *out);\n"
         f"void f(const double *in, double *out)\n{{\n(void)in;\n{lines}\n}}\n"
     )
     # No contraction: what is printed must be what Python computes.

@@ -21,6 +21,7 @@ SINGLE_SOURCE = """
 #include <math.h>
 static const float arm_geo_L = 0.3f;
 static void modelerf_sincos(float x, float *s, float *c) {{ *s = sinf(x); *c = cosf(x); }}
+static float modelerf_sign(float x) {{ return (float)((x > 0.0f) - (x < 0.0f)); }}
 static float smooth_sign(float v, float width) {{ return tanhf(v/width); }}
 void f(const float *in, float *out);
 void f(const float *in, float *out)

@@ -170,7 +170,7 @@ def test_every_file_of_a_fitted_folder_compiles_strictly_as_c_and_as_cpp(name, t
     """Signals with a temperature that is read, load and position; loops."""
     write_emitted(values_of(name), tmp_path)
     make(tmp_path, "check", "examples")
-    for source in sorted(tmp_path.glob("e*.c")):
+    for source in sorted(tmp_path.glob("programs/*.c")):
         command = [compiler("g++"), "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
-                   "-x", "c++", "-fsyntax-only", source]  # fmt: skip
+                   "-I", tmp_path, "-x", "c++", "-fsyntax-only", source]  # fmt: skip
         subprocess.run(command, check=True)

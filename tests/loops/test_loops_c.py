@@ -5,6 +5,7 @@ import subprocess
 import numpy as np
 import pytest
 
+from modeler.codegen import write_emitted
 from tests.loops.closed_states import closed
 from tests.modules import STRICT, compiled, compiler, module
 
@@ -35,8 +36,7 @@ int main(void)
 
 
 def write(name, folder):
-    for file, text in module(name).emitted.files.items():
-        (folder / file).write_text(text, encoding="utf-8")
+    write_emitted(module(name).emitted, folder)
 
 
 @pytest.mark.parametrize("cc", ["gcc", "clang"])
@@ -51,7 +51,6 @@ def test_strict_compilers_have_nothing_to_say(name, cc, tmp_path):
 
 def test_a_program_closes_the_loop_under_sanitizers(tmp_path):
     write("five-bar", tmp_path)
-    (tmp_path / "self_check.c").unlink()  # a program of its own
     (tmp_path / "main.c").write_text(PROGRAM, encoding="utf-8")
     sources = sorted(str(path) for path in tmp_path.glob("*.c"))
     command = [

@@ -1,4 +1,4 @@
-/* One leg of the Orthoglide, cut open
+/* SR400, 6R arm with a parallelogram
  *
  * Counts the instructions of one call of every function on a Cortex-M4 or M7, in qemu, and prints
  * them as a header: the most of 16 states. The code has no branches but signs, so further
@@ -16,18 +16,18 @@ int main(void)
 #include <stdint.h>
 
 #include "modeler_runtime.h"
-#include "orthoglide_leg_tree.h"
+#include "sr400.h"
 
-#define N ORTHOGLIDE_LEG_TREE_JOINTS
+#define N SR400_JOINTS
 #define STATES 16
 #define REPEAT 400    /* calls of one count */
 #define PER_TICK 40   /* instructions: 1 ns each, and the timer has 25 MHz */
-#define LARGEST 360
+#define LARGEST 480
 
 int main(void);
 
-static double q[N], qd[N], qdd[N], dq[N], dt[1], beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS];
-static double chi[ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS], out[LARGEST];
+static double q[N], qd[N], qdd[N], dq[N], dt[1], beta[SR400_BASE_PARAMETERS];
+static double chi[SR400_STANDARD_PARAMETERS], out[LARGEST];
 
 /* The debugger's service `what` of the machine. */
 static int service(int what, const void *with)
@@ -127,9 +127,9 @@ static void prepare(int state)
         dq[i] = 0.01 * (double)(sign * i);
     }
     dt[0] = 0.001;
-    for (int k = 0; k < ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS; k++)
+    for (int k = 0; k < SR400_BASE_PARAMETERS; k++)
         beta[k] = 1.0 + 0.1 * (double)k;
-    for (int k = 0; k < ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS; k++)
+    for (int k = 0; k < SR400_STANDARD_PARAMETERS; k++)
         chi[k] = 1.0 + 0.1 * (double)k;
 }
 
@@ -158,7 +158,7 @@ static unsigned long count_regressor(void)
 
         prepare(state);
         before = now();
-        modeler_batch_3(orthoglide_leg_tree_regressor, REPEAT, inputs, out, 0);
+        modeler_batch_3(sr400_regressor, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_3(nothing_3, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -180,7 +180,7 @@ static unsigned long count_base_regressor(void)
 
         prepare(state);
         before = now();
-        modeler_batch_3(orthoglide_leg_tree_base_regressor, REPEAT, inputs, out, 0);
+        modeler_batch_3(sr400_base_regressor, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_3(nothing_3, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -202,7 +202,7 @@ static unsigned long count_base_regressor_nonzeros(void)
 
         prepare(state);
         before = now();
-        modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros, REPEAT, inputs, out, 0);
+        modeler_batch_3(sr400_base_regressor_nonzeros, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_3(nothing_3, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -225,7 +225,7 @@ static unsigned long count_inverse_dynamics(void)
 
         prepare(state);
         before = now();
-        modeler_batch_4(orthoglide_leg_tree_inverse_dynamics, REPEAT, inputs, out, 0);
+        modeler_batch_4(sr400_inverse_dynamics, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_4(nothing_4, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -246,7 +246,7 @@ static unsigned long count_inertia_matrix(void)
 
         prepare(state);
         before = now();
-        modeler_batch_2(orthoglide_leg_tree_inertia_matrix, REPEAT, inputs, out, 0);
+        modeler_batch_2(sr400_inertia_matrix, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_2(nothing_2, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -267,7 +267,7 @@ static unsigned long count_gravity(void)
 
         prepare(state);
         before = now();
-        modeler_batch_2(orthoglide_leg_tree_gravity, REPEAT, inputs, out, 0);
+        modeler_batch_2(sr400_gravity, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_2(nothing_2, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -289,7 +289,7 @@ static unsigned long count_coriolis(void)
 
         prepare(state);
         before = now();
-        modeler_batch_3(orthoglide_leg_tree_coriolis, REPEAT, inputs, out, 0);
+        modeler_batch_3(sr400_coriolis, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_3(nothing_3, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -310,7 +310,7 @@ static unsigned long count_friction(void)
 
         prepare(state);
         before = now();
-        modeler_batch_2(orthoglide_leg_tree_friction, REPEAT, inputs, out, 0);
+        modeler_batch_2(sr400_friction, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_2(nothing_2, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -330,7 +330,7 @@ static unsigned long count_base_parameters(void)
 
         prepare(state);
         before = now();
-        modeler_batch_1(orthoglide_leg_tree_base_parameters, REPEAT, inputs, out, 0);
+        modeler_batch_1(sr400_base_parameters, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_1(nothing_1, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -350,7 +350,7 @@ static unsigned long count_forward_kinematics(void)
 
         prepare(state);
         before = now();
-        modeler_batch_1(orthoglide_leg_tree_forward_kinematics, REPEAT, inputs, out, 0);
+        modeler_batch_1(sr400_forward_kinematics, REPEAT, inputs, out, 0);
         between = now();
         modeler_batch_1(nothing_1, REPEAT, inputs, out, 0);
         keep(&most, before, between, now());
@@ -361,35 +361,35 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * orthoglide_leg_tree d803ee67f7da5910. */\n");
-    say("#define ORTHOGLIDE_LEG_TREE_REGRESSOR_INSTRUCTIONS ");
+    say(" * sr400 38361bdcc006782c. */\n");
+    say("#define SR400_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_BASE_REGRESSOR_INSTRUCTIONS ");
+    say("#define SR400_BASE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_base_regressor());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_BASE_REGRESSOR_NONZEROS_INSTRUCTIONS ");
+    say("#define SR400_BASE_REGRESSOR_NONZEROS_INSTRUCTIONS ");
     say_number(count_base_regressor_nonzeros());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_INVERSE_DYNAMICS_INSTRUCTIONS ");
+    say("#define SR400_INVERSE_DYNAMICS_INSTRUCTIONS ");
     say_number(count_inverse_dynamics());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_INERTIA_MATRIX_INSTRUCTIONS ");
+    say("#define SR400_INERTIA_MATRIX_INSTRUCTIONS ");
     say_number(count_inertia_matrix());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_GRAVITY_INSTRUCTIONS ");
+    say("#define SR400_GRAVITY_INSTRUCTIONS ");
     say_number(count_gravity());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_CORIOLIS_INSTRUCTIONS ");
+    say("#define SR400_CORIOLIS_INSTRUCTIONS ");
     say_number(count_coriolis());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_FRICTION_INSTRUCTIONS ");
+    say("#define SR400_FRICTION_INSTRUCTIONS ");
     say_number(count_friction());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS_INSTRUCTIONS ");
+    say("#define SR400_BASE_PARAMETERS_INSTRUCTIONS ");
     say_number(count_base_parameters());
     say("\n");
-    say("#define ORTHOGLIDE_LEG_TREE_FORWARD_KINEMATICS_INSTRUCTIONS ");
+    say("#define SR400_FORWARD_KINEMATICS_INSTRUCTIONS ");
     say_number(count_forward_kinematics());
     say("\n");
     return 0;

@@ -1,0 +1,418 @@
+/* One leg of the Orthoglide, cut open
+ *
+ * Checks the library as it was compiled for this machine: header and library belong together, and
+ * every function gives at stored states what the equations of motion give there, evaluated with 40
+ * digits and not by this code. Prints what differs and one line more; returns 0 if all is well.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "orthoglide_leg_tree.h"
+#include "modeler_runtime.h"
+#include "modeler_sincos.h"
+#include "orthoglide_leg_tree_tile.h"
+
+#define N 6
+#define C 32
+#define STATES 2
+#define TOLERANCE 1e-9 /* of the largest number of an output ... */
+#define LEAST 1e-3      /* ... or of this, where all are smaller */
+#define ROUNDINGS 1.5e-14 /* 64 of them */
+
+#if ORTHOGLIDE_LEG_TREE_JOINTS != N || ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS != C \
+    || ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS != 60
+#error the header has other lengths
+#endif
+
+/* Where -D replaces a length or a width, no stored number holds: then what the functions give is
+ * taken for it, and checked by what else they give. */
+#define REPLACED 0
+#ifdef ORTHOGLIDE_LEG_TREE_GEO_g
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef ORTHOGLIDE_LEG_TREE_GEO_D4
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef ORTHOGLIDE_LEG_TREE_GEO_b3
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef ORTHOGLIDE_LEG_TREE_GEO_b7
+#undef REPLACED
+#define REPLACED 1
+#endif
+#define WIDE 0
+
+/* Inputs, one row for each state. */
+static double q[] = {
+    -1.0625, 0.3125, -1.1875, 0.1875, -1.3125, 0.0625, -0.1875, 1.1875, -0.3125, 1.0625, -0.4375,
+    0.9375
+};
+static double qd[] = {
+    1.0, -1.3125, 1.625, -1.125, 1.4375, -1.75, -0.0185546875, 0.0234375, -0.015625, 0.0205078125,
+    -0.025390625, 0.017578125
+};
+static double qdd[] = {
+    -2.125, -0.875, 0.375, 1.625, -2.875, -1.625, -0.375, 0.875, 2.125, -2.375, -1.125, 0.125
+};
+static double chi[] = {
+    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
+    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
+    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
+    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
+    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
+    1.891357421875, 1.77978515625, 1.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
+    1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 1.775634765625, 1.6640625,
+    1.552490234375, 1.44091796875, 1.329345703125, 1.2177734375, 1.106201171875, 1.99462890625,
+    1.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 1.3251953125,
+    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625, 1.767333984375, 1.65576171875
+};
+static double beta[] = {
+    8.67041015625, 6.470740869140625, 1.453369140625, 6.222412109375, -1.016883447265625,
+    1.8955078125, 1.16431396484375, 1.560791015625, 1.800818994140625, 2.4718408203125,
+    1.22607421875, 1.775634765625, 1.77978515625, 1.668212890625, 1.445068359375, 2.7744140625,
+    1.221923828125, -0.772705078125, 0.334716796875, 1.6640625, 1.552490234375, 1.329345703125,
+    1.2177734375, 1.106201171875, 1.99462890625, 0.334716796875, 1.54833984375, 1.436767578125,
+    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625
+};
+
+/* What the functions give there. */
+static double at_inverse_dynamics[] = {
+    23.19346930669078, -5.304337802486618, 48.57579744517955, 21.42955340595294, -12.15251543889556,
+    13.69603294526637, 1.24175575553303, 5.179205577251672, 54.55737946560335, 24.95952544381214,
+    -11.22405340186926, -5.75045996873926
+};
+static double at_inertia_matrix[] = {
+    8.67041015625, -4.528802506516393, -1.580285530093216, -1.01645877481505, -2.196959993914295,
+    0.6147422591583031, -4.528802506516393, 6.875977218519408, -0.6345082497914306,
+    -1.291637620101791, 2.329487889969512, -1.3009929836896, -1.580285530093216,
+    -0.6345082497914306, 6.246619839094626, 3.35558919415285, -1.129068869288827, 0.0,
+    -1.01645877481505, -1.291637620101791, 3.35558919415285, 2.2653775433517, -1.161429007158552,
+    0.0, -2.196959993914295, 2.329487889969512, -1.129068869288827, -1.161429007158552,
+    1.2177734375, 0.0, 0.6147422591583031, -1.3009929836896, 0.0, 0.0, 0.0, 1.10205078125,
+    8.67041015625, 4.536844304675597, 1.793043747273331, 1.415805202690821, 0.2172485239583163,
+    2.519320602284754, 4.536844304675597, 10.60467248300807, -3.688962209530239, -2.434190442883073,
+    0.09342350451259979, -1.876379480077853, 1.793043747273331, -3.688962209530239,
+    4.70265193435817, 2.229544417189861, 0.1840202251091454, 0.0, 1.415805202690821,
+    -2.434190442883073, 2.229544417189861, 1.557255894162178, 0.5463862760484332, 0.0,
+    0.2172485239583163, 0.09342350451259979, 0.1840202251091454, 0.5463862760484332, 1.2177734375,
+    0.0, 2.519320602284754, -1.876379480077853, 0.0, 0.0, 0.0, 1.10205078125
+};
+static double at_gravity[] = {
+    0.0, 0.0, 32.04087158968079, 11.8173151522388, -4.622780079397156, 18.33721423382596, 0.0, 0.0,
+    53.96809869876655, 27.19595207755799, -8.947648805118741, -3.301806095552644
+};
+static double at_coriolis[] = {
+    34.58243746700824, -1.991547251125527, 1.580236506118925, -1.956612411691573,
+    -4.348151847414498, -2.682390329045348, 0.005229705138015863, -0.001074960136172899,
+    -0.001430511034139478, -0.0001976225528979634, -6.242226907902476e-05, 0.0001670500820375607
+};
+static double at_friction[] = {
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+};
+static double at_forward_kinematics[] = {
+    1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0625, 0.9515679480481722,
+    -0.3074385145803809, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -0.3074385145803809, -0.9515679480481722,
+    0.0, -1.0625, 0.355867029915514, 0.8825192444200407, -0.3074385145803809, 0.0,
+    0.9274369173848677, -0.3739796308245332, 0.0, -0.04, -0.1149757421840137, -0.2851298282478111,
+    -0.9515679480481722, -1.0625, 0.5141343565206417, 0.8007168183557247, -0.3074385145803809,
+    0.1103187792738093, 0.8414709848078965, -0.5403023058681398, 0.0, 0.247505444389309,
+    -0.1661097383404555, -0.2587005896318299, -0.9515679480481722, -1.098142480077044,
+    0.4285669958205608, 0.4185485717280907, -0.8007168183557247, 0.1103187792738093,
+    0.2149401033771191, 0.8135564948015623, 0.5403023058681398, 0.247505444389309,
+    0.8775711264926467, -0.4036618917740077, 0.2587005896318299, -1.098142480077044,
+    0.9497100218114796, -0.05943428491576232, -0.3074385145803809, 0.0, -0.0624593178423802,
+    -0.9980475107000991, 0.0, 0.04, -0.3068382441702853, 0.01920239989916525, -0.9515679480481722,
+    -1.0625, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, -0.1875, 0.3739796308245332,
+    -0.9274369173848677, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -0.9274369173848677, -0.3739796308245332,
+    0.0, -0.1875, 0.355867029915514, 0.1149757421840137, -0.9274369173848677, 0.0,
+    0.3074385145803809, -0.9515679480481722, 0.0, -0.04, -0.8825192444200407, -0.2851298282478111,
+    -0.3739796308245332, -0.1875, 0.2736367330598518, -0.2549190118292191, -0.9274369173848677,
+    0.1103187792738093, -0.6816387600233341, -0.7316888688738209, 0.0, 0.05530593951991807,
+    -0.6785952690331571, 0.6321769503660846, -0.3739796308245332, -0.4610809657702126,
+    0.6407968990439626, -0.7241516633852718, 0.2549190118292191, 0.1103187792738093,
+    -0.6174377159826243, -0.2887941586118195, 0.7316888688738209, 0.05530593951991807,
+    -0.4562345899400896, -0.6262605706637097, -0.6321769503660846, -0.4610809657702126,
+    0.2213230435031699, -0.3014579152819645, -0.9274369173848677, 0.0, -0.806081108260693,
+    -0.5918050750924775, 0.0, 0.04, -0.5488618745364875, 0.747589378207475, -0.3739796308245332,
+    -0.1875
+};
+
+static double out[STATES * 360], product[STATES * N], worst;
+static int failed;
+
+static void empty(void)
+{
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+        out[i] = NAN;
+}
+
+/* Compares what a function gave with what it should; or takes it for that. */
+static void compare(const char *name, const double *given, double *expected, int states, int length,
+                    int taken)
+{
+    for (int k = 0; k < states * length; k++) {
+        const double *const state = expected + k / length * length;
+        double largest = LEAST, apart;
+
+        if (taken)
+            expected[k] = given[k];
+        for (int i = 0; i < length; i++)
+            largest = fmax(largest, fabs(state[i]));
+        apart = fabs(given[k] - expected[k]) / largest;
+        if (!(apart <= TOLERANCE)) {
+            printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
+                   given[k], expected[k]);
+            failed = 1;
+            return;
+        }
+        worst = fmax(worst, apart);
+    }
+}
+
+/* Rows times parameters, into `product`. */
+static void multiply(const double *rows, int columns, const double *parameters)
+{
+    for (int i = 0; i < STATES * N; i++) {
+        product[i] = 0.0;
+        for (int k = 0; k < columns; k++)
+            product[i] += rows[i * columns + k] * parameters[k];
+    }
+}
+
+/* M qdd + c + g + f, into `product`. */
+static void add_up(const double *M, const double *c, const double *g, const double *f)
+{
+    for (int i = 0; i < STATES * N; i++) {
+        product[i] = c[i] + g[i] + f[i];
+        for (int k = 0; k < N; k++)
+            product[i] += M[i * N + k] * qdd[i / N * N + k];
+    }
+}
+
+/* The same as `multiply` of the entries that are not always 0. */
+static void multiply_nonzeros(const double *values, const double *parameters)
+{
+    for (int i = 0; i < STATES * N; i++)
+        product[i] = 0.0;
+    for (int i = 0; i < STATES; i++)
+        for (int k = 0; k < ORTHOGLIDE_LEG_TREE_NONZEROS; k++)
+            product[i * N + orthoglide_leg_tree_nonzero_row[k]] +=
+                values[i * ORTHOGLIDE_LEG_TREE_NONZEROS + k]
+                * parameters[orthoglide_leg_tree_nonzero_column[k]];
+}
+
+/* Many samples, the states one after another, against the same one by one. */
+static void compare_tiles(void)
+{
+    enum { MANY = 19, SIGNALS = 0, LENGTH = ORTHOGLIDE_LEG_TREE_NONZEROS };
+    static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], S[MANY * SIGNALS + 1];
+    static double work[2 * MANY * (LENGTH + N * C) + 4096];
+    static double W[MANY * N * C], entries[MANY * LENGTH], one[LENGTH], dense[N * C];
+    const modeler_tiled *const robot = orthoglide_leg_tree_tiled();
+
+    for (int i = 0; i < MANY; i++) {
+        for (int k = 0; k < N; k++) {
+            Q[i * N + k] = q[i % STATES * N + k] + 0.1 * (double)i;
+            QD[i * N + k] = qd[i % STATES * N + k];
+            QDD[i * N + k] = qdd[i % STATES * N + k] - 0.1 * (double)i;
+        }
+    }
+    if (modeler_tile_work(robot) > sizeof(work)) {
+        failed = 1;
+        return;
+    }
+    modeler_tile_nonzeros(robot, MANY, Q, QD, QDD, S, entries, work);
+    modeler_tile_observation(robot, MANY, Q, QD, QDD, S, W, work);
+    for (int i = 0; i < MANY; i++) {
+        double largest = 0.0, apart = 0.0;
+
+        orthoglide_leg_tree_base_regressor_nonzeros(Q + i * N, QD + i * N, QDD + i * N,
+            one);
+        orthoglide_leg_tree_base_regressor(Q + i * N, QD + i * N, QDD + i * N,
+            dense);
+        for (int k = 0; k < LENGTH; k++) {
+            largest = fmax(largest, fabs(one[k]));
+            apart = fmax(apart, fabs(entries[i * LENGTH + k] - one[k]));
+        }
+        for (int k = 0; k < N * C; k++)
+            apart = fmax(apart, fabs(W[i * N * C + k] - dense[k]));
+        if (!(apart <= ROUNDINGS * largest)) {
+            printf("tiles: sample %d of %d is not what it is alone\n", i, (int)MANY);
+            failed = 1;
+            return;
+        }
+    }
+}
+
+/* Sines and cosines against those of <math.h>. */
+static void compare_sines(void)
+{
+    for (int i = -400; i <= 400; i++) {
+        const double angle = 0.37 * (double)i;
+        double sine, cosine;
+
+        modeler_sincos(angle, &sine, &cosine);
+        if (!(fabs(sine - sin(angle)) + fabs(cosine - cos(angle)) <= 1e-15)) {
+            printf("sine, cosine of %g: %g, %g\n", angle, sine, cosine);
+            failed = 1;
+            return;
+        }
+    }
+}
+
+int main(void)
+{
+    const char *const signature = orthoglide_leg_tree_signature();
+
+    if (strcmp(signature, ORTHOGLIDE_LEG_TREE_SIGNATURE) != 0) {
+        printf("orthoglide_leg_tree: the library is %s,\n", signature);
+        printf("the header %s\n", ORTHOGLIDE_LEG_TREE_SIGNATURE);
+        return 1;
+    }
+    if (strcmp(orthoglide_leg_tree_tile_signature(), signature) != 0) {
+        printf("orthoglide_leg_tree: the tiles are %s,\n", orthoglide_leg_tree_tile_signature());
+        printf("the library %s\n", signature);
+        return 1;
+    }
+    compare_sines();
+    compare_tiles();
+    {
+        const modeler_input inputs[] = {
+            {chi, 0},
+        };
+        empty();
+        modeler_batch_1(orthoglide_leg_tree_base_parameters,
+            1, inputs, out, 32);
+        compare("orthoglide_leg_tree_base_parameters", out, beta, 1, C, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {qd, 6},
+            {qdd, 6},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_4(orthoglide_leg_tree_inverse_dynamics,
+            2, inputs, out, 6);
+        compare("orthoglide_leg_tree_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 6, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_2(orthoglide_leg_tree_inertia_matrix,
+            2, inputs, out, 36);
+        compare("orthoglide_leg_tree_inertia_matrix", out,
+                at_inertia_matrix, STATES, 36, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_2(orthoglide_leg_tree_gravity,
+            2, inputs, out, 6);
+        compare("orthoglide_leg_tree_gravity", out,
+                at_gravity, STATES, 6, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {qd, 6},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_3(orthoglide_leg_tree_coriolis,
+            2, inputs, out, 6);
+        compare("orthoglide_leg_tree_coriolis", out,
+                at_coriolis, STATES, 6, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {qd, 6},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_2(orthoglide_leg_tree_friction,
+            2, inputs, out, 6);
+        compare("orthoglide_leg_tree_friction", out,
+                at_friction, STATES, 6, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+        };
+        empty();
+        modeler_batch_1(orthoglide_leg_tree_forward_kinematics,
+            2, inputs, out, 72);
+        compare("orthoglide_leg_tree_forward_kinematics", out,
+                at_forward_kinematics, STATES, 72, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {qd, 6},
+            {qdd, 6},
+        };
+        empty();
+        modeler_batch_3(orthoglide_leg_tree_regressor,
+            2, inputs, out, 360);
+        multiply(out, 60, chi);
+        compare("orthoglide_leg_tree_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {qd, 6},
+            {qdd, 6},
+        };
+        empty();
+        modeler_batch_3(orthoglide_leg_tree_base_regressor,
+            2, inputs, out, 192);
+        multiply(out, 32, beta);
+        compare("orthoglide_leg_tree_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 6},
+            {qd, 6},
+            {qdd, 6},
+        };
+        empty();
+        modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros,
+            2, inputs, out, 88);
+        multiply_nonzeros(out, beta);
+        compare("orthoglide_leg_tree_base_regressor_nonzeros", product,
+                at_inverse_dynamics, STATES, N, 0);
+    }
+    empty();
+    orthoglide_leg_tree_observation(STATES, q, qd, qdd, out);
+    multiply(out, C, beta);
+    compare("orthoglide_leg_tree_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("orthoglide_leg_tree_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
+    printf("orthoglide_leg_tree %s:\n", signature);
+    if (failed) {
+        printf("functions do not agree with the stored states; other compiler flags?\n");
+        return 1;
+    }
+    printf("11 functions agree with the stored states to %.1e\n",
+           worst);
+    return 0;
+}

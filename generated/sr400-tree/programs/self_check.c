@@ -1,0 +1,463 @@
+/* SR400, 6R arm with a parallelogram, cut open
+ *
+ * Checks the library as it was compiled for this machine: header and library belong together, and
+ * every function gives at stored states what the equations of motion give there, evaluated with 40
+ * digits and not by this code. Prints what differs and one line more; returns 0 if all is well.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "sr400_tree.h"
+#include "modeler_runtime.h"
+#include "modeler_sincos.h"
+#include "sr400_tree_tile.h"
+
+#define N 8
+#define C 50
+#define STATES 2
+#define TOLERANCE 1e-9 /* of the largest number of an output ... */
+#define LEAST 1e-3      /* ... or of this, where all are smaller */
+#define ROUNDINGS 1.5e-14 /* 64 of them */
+
+#if SR400_TREE_JOINTS != N || SR400_TREE_BASE_PARAMETERS != C \
+    || SR400_TREE_STANDARD_PARAMETERS != 80
+#error the header has other lengths
+#endif
+
+/* Where -D replaces a length or a width, no stored number holds: then what the functions give is
+ * taken for it, and checked by what else they give. */
+#define REPLACED 0
+#ifdef SR400_TREE_GEO_g
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef SR400_TREE_GEO_D2
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef SR400_TREE_GEO_D3
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef SR400_TREE_GEO_D4
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef SR400_TREE_GEO_RL4
+#undef REPLACED
+#define REPLACED 1
+#endif
+#ifdef SR400_TREE_GEO_D8
+#undef REPLACED
+#define REPLACED 1
+#endif
+#define WIDE 0
+
+/* Inputs, one row for each state. */
+static double q[] = {
+    -1.0625, 0.3125, -1.1875, 0.1875, -1.3125, 0.0625, -1.4375, -0.0625, -0.1875, 1.1875, -0.3125,
+    1.0625, -0.4375, 0.9375, -0.5625, 0.8125
+};
+static double qd[] = {
+    1.0, -1.3125, 1.625, -1.125, 1.4375, -1.75, 1.25, -1.5625, -0.0185546875, 0.0234375, -0.015625,
+    0.0205078125, -0.025390625, 0.017578125, -0.0224609375, 0.02734375
+};
+static double qdd[] = {
+    -2.125, -0.875, 0.375, 1.625, -2.875, -1.625, -0.375, 0.875, -0.375, 0.875, 2.125, -2.375,
+    -1.125, 0.125, 1.375, 2.625
+};
+static double chi[] = {
+    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
+    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
+    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
+    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
+    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
+    1.891357421875, 1.77978515625, 1.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
+    1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 1.775634765625, 1.6640625,
+    1.552490234375, 1.44091796875, 1.329345703125, 1.2177734375, 1.106201171875, 1.99462890625,
+    1.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 1.3251953125,
+    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625, 1.767333984375, 1.65576171875,
+    1.544189453125, 1.4326171875, 1.321044921875, 1.20947265625, 1.097900390625, 1.986328125,
+    1.874755859375, 1.76318359375, 1.651611328125, 1.5400390625, 1.428466796875, 1.31689453125,
+    1.205322265625, 1.09375, 1.982177734375, 1.87060546875, 1.759033203125, 1.6474609375,
+    1.535888671875, 1.42431640625
+};
+static double beta[] = {
+    12.22795288085937, -4.21881103515625, 1.01123046875, 1.06378173828125, 1.676513671875,
+    5.11846923828125, 6.19140625, 1.341796875, 7.3710791015625, 0.95795654296875, 1.783935546875,
+    1.560791015625, 9.7247314453125, 2.134814453125, 7.476416015625, 1.775634765625, 1.77978515625,
+    1.668212890625, 1.445068359375, 2.7744140625, 1.221923828125, -0.772705078125, 1.659912109375,
+    1.6640625, 1.552490234375, 1.329345703125, 2.54296875, 1.106201171875, 3.761962890625,
+    0.334716796875, 1.54833984375, 1.436767578125, 1.213623046875, 1.10205078125, 1.990478515625,
+    1.87890625, 0.160238037109375, 1.4326171875, 0.78348388671875, 1.097900390625,
+    2.160806884765625, 2.3732666015625, 1.76318359375, 0.334716796875, 1.31689453125,
+    1.205322265625, 1.982177734375, 1.87060546875, 1.759033203125, 1.6474609375
+};
+
+/* What the functions give there. */
+static double at_inverse_dynamics[] = {
+    -62.98163095639691, -136.7020355188365, -103.5583472030816, 19.23245929986962,
+    -43.31394984523575, -20.06620855403423, -39.26913934057787, -17.30849936369177,
+    -22.44871052857059, 128.3565822109492, 125.1320923776599, 24.78743547109401, 4.577381165879411,
+    -0.9806902176308017, -30.13739562697404, -4.399809388186907
+};
+static double at_inertia_matrix[] = {
+    47.32542907089388, -3.689830734042951, -1.248024064649127, -12.12764874806258,
+    -0.2117113282500852, -1.461498439058032, 1.692709865104748, 1.062089211065463,
+    -3.689830734042951, 28.70528745657345, 17.63588615145937, 2.17199845056084, 1.762362598711169,
+    0.5623499884359965, 0.0, 0.0, -1.248024064649127, 17.63588615145937, 11.68495408462655,
+    0.6050179189326846, 1.838249176219298, -0.5712962301277082, 0.0, 0.0, -12.12764874806258,
+    2.17199845056084, 0.6050179189326846, 3.036403941289379, 0.0117228162713318, -1.031604403193735,
+    0.0, 0.0, -0.2117113282500852, 1.762362598711169, 1.838249176219298, 0.0117228162713318,
+    2.737313393125832, -1.3009929836896, 0.0, 0.0, -1.461498439058032, 0.5623499884359965,
+    -0.5712962301277082, -1.031604403193735, -1.3009929836896, 1.10205078125, 0.0, 0.0,
+    1.692709865104748, 0.0, 0.0, 0.0, 0.0, 0.0, 5.332360950677788, 2.521079767331081,
+    1.062089211065463, 0.0, 0.0, 0.0, 0.0, 0.0, 2.521079767331081, 1.87060546875, 14.91614390019771,
+    -7.195314476055493, -2.789145442975899, -0.9148899795381745, -2.392710110588868,
+    0.5971919224920079, -2.729664916253002, -2.218758129567457, -7.195314476055493,
+    31.58770017152638, 22.50286230162069, 0.2238961430262031, 4.320096620242065, 0.7053212364235574,
+    0.0, 0.0, -2.789145442975899, 22.50286230162069, 18.53649366999624, -0.7018290878673356,
+    2.339256480972947, -0.3243718406968903, 0.0, 0.0, -0.9148899795381745, 0.2238961430262031,
+    -0.7018290878673356, 2.553475360807686, -1.282106167341896, 1.052479961769727, 0.0, 0.0,
+    -2.392710110588868, 4.320096620242065, 2.339256480972947, -1.282106167341896, 4.237705626333406,
+    -1.876379480077853, 0.0, 0.0, 0.5971919224920079, 0.7053212364235574, -0.3243718406968903,
+    1.052479961769727, -1.876379480077853, 1.10205078125, 0.0, 0.0, -2.729664916253002, 0.0, 0.0,
+    0.0, 0.0, 0.0, 4.040925939714262, 1.875362261849318, -2.218758129567457, 0.0, 0.0, 0.0, 0.0,
+    0.0, 1.875362261849318, 1.87060546875
+};
+static double at_gravity[] = {
+    0.0, -142.319221613151, -88.56999908940374, -16.96250406953155, -13.4779508992691,
+    -18.55842789514046, -37.57933952887115, -17.34175613079878, 0.0, 55.49289768760593,
+    65.99968105456743, 30.22975107500406, -3.113525958173194, -0.4338753609411362,
+    -41.64026810692814, -12.72122307575571
+};
+static double at_coriolis[] = {
+    51.25357527435383, 18.73107872251953, -3.217400760857892, 5.520516241404192, -23.69654885540779,
+    -4.180337669099227, 1.700899211730343, 1.598821468214027, 0.0058954507112023,
+    0.01131843669951035, 0.01179415681315976, 0.0006528887706968633, -0.0003996149997308003,
+    0.000222840314384607, 0.0001490318976566925, 0.0004169234694401921
+};
+static double at_friction[] = {
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+};
+static double at_forward_kinematics[] = {
+    0.4866896677019633, 0.8735749351670711, 0.0, 0.0, -0.8735749351670711, 0.4866896677019633, 0.0,
+    0.0, 0.0, 0.0, 1.0, 0.0, 0.463118288431404, -0.1496271484999108, 0.8735749351670711,
+    0.146006900310589, -0.8312659085232449, 0.2685705804424168, 0.4866896677019633,
+    -0.2620724805501213, -0.3074385145803809, -0.9515679480481722, 0.0, 0.0, 0.3119665478975112,
+    0.3735554920500532, 0.8735749351670711, 0.493345616634142, -0.5599587888123231,
+    -0.6705067652037441, 0.4866896677019633, -0.885521911942555, 0.7675435022360271,
+    -0.6409968581633251, 0.0, -0.2305788859352856, 0.1436615600056011, -0.9164156538034472,
+    0.3735554920500532, 0.8389849924588112, -0.6408651250043887, -0.3737814459936722,
+    -0.6705067652037441, -1.505921142427399, 0.7540910075911702, -0.1430726392252541,
+    -0.6409968581633251, -0.6282448471305417, -0.3244673566843465, 0.2343144978661656,
+    0.9164156538034472, 0.8389849924588112, 0.4845651540958898, -0.7908754908750846,
+    0.3737814459936722, -1.505921142427399, 0.8123530918771096, 0.5653429702603727,
+    0.1430726392252541, -0.6282448471305417, -0.3810725342388954, -0.8943603522845098,
+    0.2343144978661656, 0.8389849924588112, 0.4602729116785096, -0.4033172506948852,
+    -0.7908754908750846, -1.505921142427399, 0.8018307617095598, -0.1935323113938509,
+    0.5653429702603727, -0.6282448471305417, 0.06468200318269028, 0.482372336595002,
+    0.8735749351670711, 0.146006900310589, -0.1160998075089545, -0.865825618729624,
+    0.4866896677019633, -0.2620724805501213, 0.9911291909537616, -0.1329019444528252, 0.0, 0.0,
+    0.0344270651738211, 0.4854705035647016, 0.8735749351670711, 0.1686456014245306,
+    -0.0617942463607636, -0.8713866182521153, 0.4866896677019633, -0.3027074131782554,
+    0.9974949866040544, -0.07073720166770291, 0.0, 0.3468952168338166, 0.9824733131012553,
+    0.1864032967622699, 0.0, 0.0, -0.1864032967622699, 0.9824733131012553, 0.0, 0.0, 0.0, 0.0, 1.0,
+    0.0, 0.3674250069285634, -0.9111820209155261, 0.1864032967622699, 0.2947419939303766,
+    -0.06971103610762959, 0.1728772989395763, 0.9824733131012553, -0.05592098902868096,
+    -0.9274369173848677, -0.3739796308245332, 0.0, 0.0, 0.6297623069272175, -0.7540910075911702,
+    0.1864032967622699, 0.5703107491267991, -0.1194839275759009, 0.1430726392252541,
+    0.9824733131012553, -0.1082042661094032, -0.7675435022360271, -0.6409968581633251, 0.0,
+    -0.6955776880386507, 0.1436615600056011, -0.6408651250043887, -0.7540910075911702,
+    0.06150228909294561, -0.9164156538034472, -0.3737814459936722, 0.1430726392252541,
+    -0.01166874386558501, -0.3735554920500532, 0.6705067652037441, -0.6409968581633251,
+    -1.323506699904715, 0.4496210625227631, -0.6221999611772817, 0.6408651250043887,
+    0.06150228909294561, -0.8907183192161333, -0.2586663999124468, 0.3737814459936722,
+    -0.01166874386558501, -0.06679652647172564, -0.738890317887116, -0.6705067652037441,
+    -1.323506699904715, -0.2505012435397219, -0.7416982778030714, -0.6221999611772817,
+    0.06150228909294561, -0.8284297840238128, 0.4967854531873825, -0.2586663999124468,
+    -0.01166874386558501, 0.50095231302721, 0.4506527246177092, -0.738890317887116,
+    -1.323506699904715, 0.8310982453930675, 0.5239556445546909, 0.1864032967622699,
+    0.2947419939303766, -0.1576831154686433, -0.09940937651924671, 0.9824733131012553,
+    -0.05592098902868096, 0.5333026735360201, -0.8459244992310679, 0.0, 0.0, 0.9519305970630177,
+    -0.2430677875231591, 0.1864032967622699, 0.5856263798179502, -0.1806084696807789,
+    0.04611691363708136, 0.9824733131012553, -0.1111100794427061, -0.2474039592545229,
+    -0.9689124217106447, 0.0, 0.1866559357376071
+};
+
+static double out[STATES * 640], product[STATES * N], worst;
+static int failed;
+
+static void empty(void)
+{
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+        out[i] = NAN;
+}
+
+/* Compares what a function gave with what it should; or takes it for that. */
+static void compare(const char *name, const double *given, double *expected, int states, int length,
+                    int taken)
+{
+    for (int k = 0; k < states * length; k++) {
+        const double *const state = expected + k / length * length;
+        double largest = LEAST, apart;
+
+        if (taken)
+            expected[k] = given[k];
+        for (int i = 0; i < length; i++)
+            largest = fmax(largest, fabs(state[i]));
+        apart = fabs(given[k] - expected[k]) / largest;
+        if (!(apart <= TOLERANCE)) {
+            printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
+                   given[k], expected[k]);
+            failed = 1;
+            return;
+        }
+        worst = fmax(worst, apart);
+    }
+}
+
+/* Rows times parameters, into `product`. */
+static void multiply(const double *rows, int columns, const double *parameters)
+{
+    for (int i = 0; i < STATES * N; i++) {
+        product[i] = 0.0;
+        for (int k = 0; k < columns; k++)
+            product[i] += rows[i * columns + k] * parameters[k];
+    }
+}
+
+/* M qdd + c + g + f, into `product`. */
+static void add_up(const double *M, const double *c, const double *g, const double *f)
+{
+    for (int i = 0; i < STATES * N; i++) {
+        product[i] = c[i] + g[i] + f[i];
+        for (int k = 0; k < N; k++)
+            product[i] += M[i * N + k] * qdd[i / N * N + k];
+    }
+}
+
+/* The same as `multiply` of the entries that are not always 0. */
+static void multiply_nonzeros(const double *values, const double *parameters)
+{
+    for (int i = 0; i < STATES * N; i++)
+        product[i] = 0.0;
+    for (int i = 0; i < STATES; i++)
+        for (int k = 0; k < SR400_TREE_NONZEROS; k++)
+            product[i * N + sr400_tree_nonzero_row[k]] +=
+                values[i * SR400_TREE_NONZEROS + k]
+                * parameters[sr400_tree_nonzero_column[k]];
+}
+
+/* Many samples, the states one after another, against the same one by one. */
+static void compare_tiles(void)
+{
+    enum { MANY = 19, SIGNALS = 0, LENGTH = SR400_TREE_NONZEROS };
+    static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], S[MANY * SIGNALS + 1];
+    static double work[2 * MANY * (LENGTH + N * C) + 4096];
+    static double W[MANY * N * C], entries[MANY * LENGTH], one[LENGTH], dense[N * C];
+    const modeler_tiled *const robot = sr400_tree_tiled();
+
+    for (int i = 0; i < MANY; i++) {
+        for (int k = 0; k < N; k++) {
+            Q[i * N + k] = q[i % STATES * N + k] + 0.1 * (double)i;
+            QD[i * N + k] = qd[i % STATES * N + k];
+            QDD[i * N + k] = qdd[i % STATES * N + k] - 0.1 * (double)i;
+        }
+    }
+    if (modeler_tile_work(robot) > sizeof(work)) {
+        failed = 1;
+        return;
+    }
+    modeler_tile_nonzeros(robot, MANY, Q, QD, QDD, S, entries, work);
+    modeler_tile_observation(robot, MANY, Q, QD, QDD, S, W, work);
+    for (int i = 0; i < MANY; i++) {
+        double largest = 0.0, apart = 0.0;
+
+        sr400_tree_base_regressor_nonzeros(Q + i * N, QD + i * N, QDD + i * N,
+            one);
+        sr400_tree_base_regressor(Q + i * N, QD + i * N, QDD + i * N,
+            dense);
+        for (int k = 0; k < LENGTH; k++) {
+            largest = fmax(largest, fabs(one[k]));
+            apart = fmax(apart, fabs(entries[i * LENGTH + k] - one[k]));
+        }
+        for (int k = 0; k < N * C; k++)
+            apart = fmax(apart, fabs(W[i * N * C + k] - dense[k]));
+        if (!(apart <= ROUNDINGS * largest)) {
+            printf("tiles: sample %d of %d is not what it is alone\n", i, (int)MANY);
+            failed = 1;
+            return;
+        }
+    }
+}
+
+/* Sines and cosines against those of <math.h>. */
+static void compare_sines(void)
+{
+    for (int i = -400; i <= 400; i++) {
+        const double angle = 0.37 * (double)i;
+        double sine, cosine;
+
+        modeler_sincos(angle, &sine, &cosine);
+        if (!(fabs(sine - sin(angle)) + fabs(cosine - cos(angle)) <= 1e-15)) {
+            printf("sine, cosine of %g: %g, %g\n", angle, sine, cosine);
+            failed = 1;
+            return;
+        }
+    }
+}
+
+int main(void)
+{
+    const char *const signature = sr400_tree_signature();
+
+    if (strcmp(signature, SR400_TREE_SIGNATURE) != 0) {
+        printf("sr400_tree: the library is %s,\n", signature);
+        printf("the header %s\n", SR400_TREE_SIGNATURE);
+        return 1;
+    }
+    if (strcmp(sr400_tree_tile_signature(), signature) != 0) {
+        printf("sr400_tree: the tiles are %s,\n", sr400_tree_tile_signature());
+        printf("the library %s\n", signature);
+        return 1;
+    }
+    compare_sines();
+    compare_tiles();
+    {
+        const modeler_input inputs[] = {
+            {chi, 0},
+        };
+        empty();
+        modeler_batch_1(sr400_tree_base_parameters,
+            1, inputs, out, 50);
+        compare("sr400_tree_base_parameters", out, beta, 1, C, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {qd, 8},
+            {qdd, 8},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_4(sr400_tree_inverse_dynamics,
+            2, inputs, out, 8);
+        compare("sr400_tree_inverse_dynamics", out,
+                at_inverse_dynamics, STATES, 8, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_2(sr400_tree_inertia_matrix,
+            2, inputs, out, 64);
+        compare("sr400_tree_inertia_matrix", out,
+                at_inertia_matrix, STATES, 64, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_2(sr400_tree_gravity,
+            2, inputs, out, 8);
+        compare("sr400_tree_gravity", out,
+                at_gravity, STATES, 8, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {qd, 8},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_3(sr400_tree_coriolis,
+            2, inputs, out, 8);
+        compare("sr400_tree_coriolis", out,
+                at_coriolis, STATES, 8, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {qd, 8},
+            {beta, 0},
+        };
+        empty();
+        modeler_batch_2(sr400_tree_friction,
+            2, inputs, out, 8);
+        compare("sr400_tree_friction", out,
+                at_friction, STATES, 8, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+        };
+        empty();
+        modeler_batch_1(sr400_tree_forward_kinematics,
+            2, inputs, out, 96);
+        compare("sr400_tree_forward_kinematics", out,
+                at_forward_kinematics, STATES, 96, REPLACED);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {qd, 8},
+            {qdd, 8},
+        };
+        empty();
+        modeler_batch_3(sr400_tree_regressor,
+            2, inputs, out, 640);
+        multiply(out, 80, chi);
+        compare("sr400_tree_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {qd, 8},
+            {qdd, 8},
+        };
+        empty();
+        modeler_batch_3(sr400_tree_base_regressor,
+            2, inputs, out, 400);
+        multiply(out, 50, beta);
+        compare("sr400_tree_base_regressor", product,
+                at_inverse_dynamics, STATES, N, 0);
+    }
+    {
+        const modeler_input inputs[] = {
+            {q, 8},
+            {qd, 8},
+            {qdd, 8},
+        };
+        empty();
+        modeler_batch_3(sr400_tree_base_regressor_nonzeros,
+            2, inputs, out, 172);
+        multiply_nonzeros(out, beta);
+        compare("sr400_tree_base_regressor_nonzeros", product,
+                at_inverse_dynamics, STATES, N, 0);
+    }
+    empty();
+    sr400_tree_observation(STATES, q, qd, qdd, out);
+    multiply(out, C, beta);
+    compare("sr400_tree_observation", product,
+            at_inverse_dynamics, STATES, N, 0);
+    add_up(at_inertia_matrix, at_coriolis, at_gravity,
+           at_friction);
+    compare("sr400_tree_inertia_matrix and others", product,
+            at_inverse_dynamics, STATES, N, 0);
+    printf("sr400_tree %s:\n", signature);
+    if (failed) {
+        printf("functions do not agree with the stored states; other compiler flags?\n");
+        return 1;
+    }
+    printf("11 functions agree with the stored states to %.1e\n",
+           worst);
+    return 0;
+}

@@ -1,0 +1,111 @@
+"""All C files beside the header are the library: they compile at once, and link with a program."""
+
+import dataclasses
+import subprocess
+
+import numpy as np
+import pytest
+
+from modeler.codegen import emit, write_emitted
+from modeler.core.resources import resource_dir
+from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
+from tests.modules import compiler, module
+
+FAST = {"gcc": ["-ffast-math", "-ffinite-math-only"], "clang": ["-ffast-math"]}
+USER = """#include "{prefix}.h"
+#include <stdio.h>
+#include <string.h>
+
+int main(void)
+{{
+    const int same = strcmp({prefix}_signature(), {macro}_SIGNATURE) == 0;
+    printf("%d %d", {macro}_JOINTS, same);
+    return !same;
+}}
+"""
+KINDS = {
+    "serial": lambda: module("wrist").emitted,
+    "loops": lambda: module("orthoglide-2003").emitted,
+    "fitted": lambda: with_values("slow-arm"),
+    "loops with values": lambda: with_values("five-bar"),
+    "single": lambda: single("wrist"),
+    "robot called as a program": lambda: renamed("self_check"),
+}
+
+
+def single(name):
+    made = robot_module(name)
+    return emit(made.model, made.base, precision="single")
+
+
+def renamed(name):
+    made = module("two-link")
+    model = type(made.model).__new__(type(made.model))
+    model.__dict__.update(made.model.__dict__)
+    model.__dict__["robot"] = dataclasses.replace(made.model.robot, name=name)
+    return emit(model, made.base)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_c_file_of_the_folder_links_with_a_main_of_the_user(kind, tmp_path):
+    emitted = KINDS[kind]()
+    prefix = emitted.spec.prefix
+    write_emitted(emitted, tmp_path / "c")
+    (tmp_path / "main.c").write_text(USER.format(prefix=prefix, macro=prefix.upper()))
+    units = sorted((tmp_path / "c").glob("*.c"))
+    command = [
+        compiler("gcc"),
+        "-std=c99",
+        "-O0",
+        "-I",
+        tmp_path / "c",
+        tmp_path / "main.c",
+        *units,
+    ]
+    subprocess.run([*command, "-lm", "-o", tmp_path / "main"], check=True)
+    ran = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
+    assert ran.stdout == f"{len(emitted.spec.joints)} 1"
+    assert sorted(unit.name for unit in units) == sorted(
+        name for name in (*emitted.spec.sources, *emitted.spec.tile_sources) if name.endswith(".c")
+    )
+
+
+@pytest.mark.parametrize(("cc", "flag"), [(cc, flag) for cc in FAST for flag in FAST[cc]])
+def test_no_unit_compiles_where_nan_would_not_stay_nan(cc, flag, tmp_path):
+    """Tiles too, and what reduces samples in modeler itself."""
+    write_emitted(module("wrist").emitted, tmp_path)
+    write_emitted(with_values("five-bar"), tmp_path)
+    csrc = resource_dir("csrc")
+    for unit in (*sorted(tmp_path.glob("*.c")), *sorted(csrc.glob("*.c"))):
+        include = ["-I", csrc / "include", "-I", csrc] if unit.parent == csrc else []
+        command = [compiler(cc), "-std=c99", flag, *include, "-fsyntax-only", unit]
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode != 0, unit.name
+        assert "NaN must stay NaN: compile without -ffast-math" in done.stderr
+        command.insert(3, "-fno-finite-math-only")
+        subprocess.run(command, check=True)
+
+
+@pytest.mark.parametrize("name", ["wrist", "slow-arm", "puma560", "sr400"])
+def test_no_number_comes_of_an_input_that_is_none(name):
+    """Each output hangs on the inputs that move it: NaN there is NaN here, in friction too."""
+    emitted = with_values(name)
+    functions, given = Functions(emitted), motion(name, 3)
+    random = np.random.default_rng(5)
+    spec = emitted.spec
+    given |= {"dq": 0.01 * given["qd"], "dt": np.full((3, 1), 0.01)}
+    given |= {
+        kind: np.tile(random.uniform(0.5, 1.5, size), (3, 1))
+        for kind, size in (("beta", len(spec.base)), ("chi", len(spec.standard)))
+    }
+    for role in functions.every:
+        plain = functions(role, given)
+        for argument in functions.inputs(role):
+            for k in range(argument.shape[0]):
+                moved, bad = (
+                    {**given, argument.name: np.array(given[argument.name])} for _ in range(2)
+                )
+                moved[argument.name][:, k] *= -1.37
+                bad[argument.name][:, k] = np.nan
+                depends = np.any(functions(role, moved) != plain, axis=0)
+                assert np.isnan(functions(role, bad)[:, depends]).all(), (role, argument.name, k)

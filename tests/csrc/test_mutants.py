@@ -1,0 +1,197 @@
+"""`make check` of an emitted folder notices a wrong sign or constant wherever one may stand."""
+
+import dataclasses
+import random
+import re
+import subprocess
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.codegen import emit, write_emitted
+from modeler.core.contract import Emitted
+from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
+from tests.modules import compiler, module
+
+FOLDERS = {
+    "wrist": lambda: module("wrist").emitted,
+    "puma560 with values": lambda: with_values("puma560"),
+    "slow-arm with values": lambda: with_values("slow-arm"),
+    "sr400": lambda: module("sr400").emitted,
+    "five-bar with values": lambda: with_values("five-bar"),
+    "orthoglide-2003": lambda: module("orthoglide-2003").emitted,
+    "wrist in single precision": lambda: single("wrist"),
+}
+"""Chains, one with effects of all kinds, a tied one, loops, a platform; floats."""
+
+SIGN = re.compile(r"(?<=[\w)\]]) ([+-]) (?=[\w(-])|(?<== )(-)(?=[\w(])")
+CONSTANT = re.compile(r"(?<![\w.\"])\d+\.\d+(?:e[-+]?\d+)?(?=f?\b)")
+
+STEERING = r"_tree_(platform_)?(turned|spread|residual)\("
+"""Functions that say how far a step may go, or where Newton starts: whether loops close, never
+where. Their mutants are left out; of all others that pass, `same_results` has to say why."""
+
+
+def single(name: str) -> Emitted:
+    made = robot_module(name)
+    return emit(made.model, made.base, precision="single")
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One place of one file, and what stands there instead."""
+
+    file: str
+    start: int
+    end: int
+    text: str
+
+
+def changed(emitted: Emitted, mutant: Mutant) -> Emitted:
+    """The folder with the mutant."""
+    text = emitted.files[mutant.file]
+    text = text[: mutant.start] + mutant.text + text[mutant.end :]
+    return dataclasses.replace(emitted, files={**emitted.files, mutant.file: text})
+
+
+def heads(text: str) -> list[str]:
+    """Of each line, the head of the function or table that it is in."""
+    found, head = [], ""
+    for line in text.splitlines(keepends=True):
+        if re.match(r"[A-Za-z]", line):
+            head = line
+        found.append(head)
+    return found
+
+
+def mutants_of(emitted: Emitted) -> list[Mutant]:
+    """All of the robot's own files, and of sine and cosine."""
+    found = []
+    for file, text in emitted.files.items():
+        own = file.startswith(emitted.spec.prefix) and file.endswith(".c")
+        if not own and file != "modeler_sincos.h":
+            continue
+        plain = re.sub(
+            r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S
+        )
+        at = 0
+        for line, head in zip(plain.splitlines(keepends=True), heads(plain), strict=True):
+            if not re.search(STEERING, head):
+                found += in_line(file, line, at)
+            at += len(line)
+    return found
+
+
+def in_line(file: str, line: str, at: int) -> list[Mutant]:
+    if line.startswith(("#include", "#if", "#error")) or "for (" in line:
+        return []
+    made = []
+    for m in SIGN.finditer(line):
+        new = {"+": " - ", "-": " + "}[m[1]] if m[1] else ""
+        made.append(Mutant(file, at + m.start(), at + m.end(), new))
+    for m in CONSTANT.finditer(line):
+        made.append(Mutant(file, at + m.start(), at + m.end(), repr(float(m[0]) * 1.01 or 0.01)))
+    return made
+
+
+def same_results(emitted: Emitted, changed: Emitted, name: str) -> bool:
+    """Whether the mutant is the same function: so it is at twelve further states, to rounding.
+
+    There are terms that cancel (w x of a vector along w), vanish wherever the loops are closed, or
+    are read for their sign alone; lengths that a file does not use; limits that nothing reaches.
+    """
+    given = motion(name)
+    random = np.random.default_rng(3)
+    spec, n = emitted.spec, len(given["q"])
+    rounding = 1e-5 if spec.precision == "single" else 1e-12
+    given |= {
+        "beta": random.normal(size=len(spec.base)),
+        "chi": random.normal(size=len(spec.standard)),
+    }
+    given |= {"dq": 0.01 * given["qd"], "dt": np.full((n, 1), 0.002)}
+    both = [Functions(each) for each in (emitted, changed)]
+    if spec.closure is not None:
+        given["start"] = both[0]("close", given)[::-1]
+    for role in both[0].every:
+        try:
+            right, found = (each(role, given) for each in both)
+        except AssertionError:  # a status
+            return False
+        if not np.all(np.abs(found - right) <= rounding * np.abs(right).max()):
+            return False
+    return True
+
+
+class Folder:
+    """An emitted folder with its objects; a mutant compiles what it has changed."""
+
+    def __init__(self, emitted: Emitted, place: Path) -> None:
+        self.emitted, self.place = emitted, place
+        write_emitted(emitted, place)
+        self.units = [n for n in emitted.files if n.endswith(".c") and "/" not in n]
+        self.units.append("programs/self_check.c")
+        for unit in self.units:
+            self.compile(unit, place, place)
+
+    def compile(self, unit: str, source: Path, target: Path) -> bool:
+        out = target / f"{Path(unit).stem}.o"
+        flags = ["-std=c99", "-O0", "-w", "-I", source, "-I", self.place]
+        command = [compiler("gcc"), *flags, "-c", source / unit, "-o", out]
+        return subprocess.run(command, capture_output=True).returncode == 0
+
+    def passes(self, changed: Path, units: list[str]) -> bool:
+        """Whether the check still passes with these units compiled in that folder."""
+        if not all(self.compile(unit, changed, changed) for unit in units):
+            return False
+        objects = [
+            (changed if unit in units else self.place) / f"{Path(unit).stem}.o"
+            for unit in self.units
+        ]
+        link = [compiler("gcc"), *objects, "-lm", "-o", changed / "check"]
+        if subprocess.run(link, capture_output=True).returncode != 0:
+            return False
+        try:
+            ran = subprocess.run([changed / "check"], capture_output=True, timeout=20)
+        except subprocess.TimeoutExpired:
+            return False
+        return ran.returncode == 0
+
+    def survives(self, mutant: Mutant) -> bool:
+        place = self.place / "mutant"
+        (place / "programs").mkdir(parents=True, exist_ok=True)
+        new = changed(self.emitted, mutant).files
+        header = mutant.file.endswith(".h")
+        units = self.units if header else [mutant.file]
+        for name in (*units, mutant.file, *(n for n in new if n.endswith(".h"))):
+            (place / name).write_text(new[name])
+        return self.passes(place, units)
+
+
+@cache
+def all_mutants(name: str) -> tuple[Emitted, list[Mutant]]:
+    emitted = FOLDERS[name]()
+    return emitted, mutants_of(emitted)
+
+
+@pytest.mark.parametrize("count", [4, pytest.param(40, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", FOLDERS)
+def test_the_check_of_a_folder_notices_a_wrong_sign_or_constant(name, count, tmp_path):
+    emitted, every = all_mutants(name)
+    robot = name.split()[0]
+    folder = Folder(emitted, tmp_path)
+    (tmp_path / "right").mkdir()
+    assert folder.passes(tmp_path / "right", []), "the check of the folder as it is"
+    survived = []
+    for mutant in random.Random(count).sample(every, count):
+        if folder.survives(mutant) and not same_results(emitted, changed(emitted, mutant), robot):
+            text = emitted.files[mutant.file]
+            line = (
+                text[: mutant.start].rpartition("\n")[2]
+                + ">"
+                + text[mutant.start :].partition("\n")[0]
+            )
+            survived.append(f"{mutant.file}: {line} -> {mutant.text}")
+    assert not survived, "\n".join(survived)

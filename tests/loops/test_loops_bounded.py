@@ -1,0 +1,150 @@
+"""Emitted loops in a controller: whatever they are given, they end, and say what is the matter."""
+
+import ctypes
+import re
+import subprocess
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.base import base_parameters
+from modeler.codegen import emit, write_emitted
+from modeler.core.contract import Emitted
+from modeler.core.resources import resource_dir
+from modeler.robot import read_robot
+from modeler.symbolic import derive_model
+from tests.codegen.fitted_library import Functions, motion, with_values
+from tests.modules import compiler, module
+
+HERE = Path(__file__).resolve().parent
+ROBOTS = ["five-bar", "evra", "orthoglide-2003", "stewart"]
+DONE, OPEN, SINGULAR, NOT_FINITE, UNFINISHED = range(5)
+
+
+def counted(emitted: Emitted, folder: Path, rows: np.ndarray) -> tuple[np.ndarray, int]:
+    """(rows, 2): status and evaluations of closing at each q; and how many are allowed."""
+    write_emitted(emitted, folder)
+    prefix = emitted.spec.prefix
+    units = [folder / n for n in emitted.spec.sources if n.endswith(".c") and "_loops" not in n]
+    command = [compiler("gcc"), "-std=c99", "-O1", f'-DLOOPS="{prefix}_loops.c"', "-I", folder]
+    command += [HERE / "counted.c", *units, "-lm", "-o", folder / "counted"]
+    subprocess.run(command, check=True)
+    text = "\n".join(" ".join(repr(float(x)) for x in row) for row in rows)
+    ran = subprocess.run(
+        [folder / "counted"], input=text, capture_output=True, text=True, check=True, timeout=60
+    )
+    *lines, allowed = ran.stdout.splitlines()
+    return np.array([line.split() for line in lines], dtype=int), int(allowed)
+
+
+def far_and_near(home: np.ndarray) -> np.ndarray:
+    """Coordinates alone and together, both ways, at every magnitude that a double has."""
+    sizes = [0.0, 5e-324, 1e-310, *(10.0**k for k in range(-12, 309, 4)), 1e3, 1e5, 1.7e308]
+    n = len(home)
+    ways = [*np.eye(n), np.ones(n), (-1.0) ** np.arange(n)]
+    return np.array([home + sign * x * way for x, way, sign in product(sizes, ways, (1, -1))])
+
+
+def check_bound(emitted: Emitted, folder: Path) -> None:
+    closure = emitted.spec.closure
+    rows = far_and_near(np.array([closure.home[k] for k in closure.given]))
+    found, allowed = counted(emitted, folder, rows)
+    assert len(found) == len(rows) and found[:, 1].max() <= allowed
+    assert set(found[:, 0]) <= {DONE, OPEN, SINGULAR, UNFINISHED}
+    moved = np.abs(rows - rows[0]).max(axis=1)
+    assert np.all(found[moved < 1e-6, 0] == DONE)
+    assert np.all(found[moved > 1e5, 0] != DONE)
+    text = emitted.files[f"{emitted.spec.prefix}.h"]
+    assert int(re.search(r"_EVALUATIONS (\d+)", text)[1]) == allowed
+    assert f"{emitted.spec.prefix.upper()}_EVALUATIONS` times" in emitted.files["README.md"]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_every_call_ends_within_the_stated_number_of_evaluations(name, tmp_path):
+    """A slider of evra at 1e5 m took a second, at 1e300 m it went on for ever; 2 s each."""
+    check_bound(module(name).emitted, tmp_path)
+
+
+@pytest.mark.measured
+def test_so_do_those_of_further_robots(loop_robots_folder, tmp_path):
+    for path in loop_robots_folder.all():
+        try:
+            model = derive_model(read_robot(path))
+        except Exception:
+            continue
+        if model.closure is not None:
+            check_bound(emit(model, base_parameters(model)), tmp_path / path.stem)
+
+
+def statuses(emitted: Emitted) -> dict[str, list[tuple[int, bool]]]:
+    """By function: (status, whether all outputs are NaN) with each input in turn not finite."""
+    functions = Functions(emitted)
+    spec, given = emitted.spec, motion(emitted.spec.robot, 1)
+    given |= {"beta": np.ones((1, len(spec.base))), "chi": np.ones((1, len(spec.standard)))}
+    given["start"] = np.array([spec.closure.home])
+    known = [
+        f for f in (*spec.functions, *(spec.fitted.functions if spec.fitted else ())) if f.status
+    ]
+    found: dict[str, list[tuple[int, bool]]] = {}
+    for f in known:
+        call = getattr(functions._library, f.name)
+        for argument, bad in product(f.inputs, (np.nan, np.inf, -np.inf)):
+            for k in range(argument.shape[0]):
+                rows = {a.name: np.array(given[a.name][0], dtype=float) for a in f.inputs}
+                rows[argument.name][k] = bad
+                out = np.zeros(f.outputs[0].shape)
+                arrays = [a.ctypes.data_as(ctypes.c_void_p) for a in (*rows.values(), out)]
+                found.setdefault(f.name, []).append((call(*arrays), bool(np.isnan(out).all())))
+    return found
+
+
+@pytest.mark.parametrize("name", ["five-bar", "orthoglide-2003", "evra"])
+def test_what_is_not_finite_has_one_status_at_every_place_of_every_input(name):
+    """q, qd, qdd, beta, a posture to start from; of the platform too; with values and without."""
+    found = statuses(with_values(name))
+    assert len(found) >= 15
+    for function, each in found.items():
+        assert set(each) == {(NOT_FINITE, True)}, function
+
+
+def test_a_log_marks_the_samples_that_are_not_finite():
+    emitted = module("five-bar").emitted
+    library = Functions(emitted)._library
+    q, qd, qdd = (np.repeat(motion("five-bar", 1)[k], 9, axis=0) for k in ("q", "qd", "qdd"))
+    for k, array in enumerate((q, qd, qdd)):
+        array[2 * k + 1, k % 2] = (np.nan, np.inf, -np.inf)[k]
+    W, status = np.zeros((9, 2, len(emitted.spec.base))), np.zeros(9, dtype=np.intc)
+    pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (q, qd, qdd, W, status)]
+    library.five_bar_observation(ctypes.c_size_t(9), *pointers)
+    bad = np.array([0, 1, 0, 1, 0, 1, 0, 0, 0], dtype=bool)
+    assert list(status) == list(np.where(bad, NOT_FINITE, DONE))
+    assert np.isnan(W[bad]).all() and np.isfinite(W[~bad]).all()
+
+
+def test_torques_that_overflow_are_told_too():
+    emitted = with_values("five-bar")
+    functions, given = Functions(emitted), motion("five-bar", 1)
+    rows = [given["q"][0], np.full(2, 1e200), given["qdd"][0]]
+    out = np.zeros(2)
+    pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (*rows, out)]
+    call = functions._library.five_bar_fitted_inverse_dynamics
+    assert call(*pointers) == NOT_FINITE and np.isnan(out).all()
+
+
+def test_statuses_mean_the_same_wherever_they_are_written():
+    header = (resource_dir("csrc") / "include" / "modeler_closure.h").read_text()
+    codes = dict(re.findall(r"MODELER_([A-Z_]+) = (\d)", header))
+    assert codes == {
+        "CLOSED": "0", "OPEN": "1", "SINGULAR": "2", "NOT_FINITE": "3", "UNFINISHED": "4"
+    }  # fmt: skip
+    files = module("five-bar").emitted.files
+    told = " ".join(files["five_bar.h"].replace("\n *", " ").split())
+    assert (
+        "2 singular posture; 3 an input is not finite" in told
+        and "4 these values are so far" in told
+    )
+    rows = re.findall(r"^\| (\d) \| ([a-z ]+)", files["README.md"], re.MULTILINE)
+    assert [row[0] for row in rows] == list("01234")
+    assert rows[3][1].startswith("an input that is not finite") and rows[4][1].startswith("too far")
