@@ -176,7 +176,7 @@ def _covariance(
     places = np.concatenate([np.arange(d), d + kept])
     covariance = np.zeros((d + len(beta),) * 2)
     lengths = np.linalg.norm(R, axis=0)  # 0 for the gain of a joint whose torque is noise
-    if not (np.isfinite(gains).all() and lengths.all()) or np.linalg.cond(R / lengths) > 1e12:
+    if not (np.isfinite(R).all() and lengths.all()) or np.linalg.cond(R / lengths) > 1e12:
         covariance[places, places] = np.inf
         return covariance
     _, root = solve_by_qr(R, np.zeros(len(R)))

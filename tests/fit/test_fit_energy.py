@@ -182,7 +182,9 @@ def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
     assert identify(seen).to_json()["energy"] is None
 
     every, sigma = np.ones(len(seen.y), dtype=bool), NOISE
-    own, torque = (crossed(base_equations(seen), every, sigma, refit).errors for refit in (fit.without, None))
+    own, torque = (
+        crossed(base_equations(seen), every, sigma, refit).errors for refit in (fit.without, None)
+    )
     assert np.all(own > torque)  # stretches are left out of the energies, not of the torques
 
 

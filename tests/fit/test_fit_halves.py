@@ -24,9 +24,7 @@ def fitted(name, seed, hide=None, rate=500.0):
     hidden = () if hide is None else (hidden_from_text(hide),)
     made = simulate(
         derivation.robot,
-        SimulationSettings(
-            duration=12.0, rate=rate, seed=seed, hidden=hidden, parameter_seed=seed
-        ),
+        SimulationSettings(duration=12.0, rate=rate, seed=seed, hidden=hidden, parameter_seed=seed),
     )
     observation = observe(compiled, [made])
     fit = with_verdict(compiled, observation, identify(observation))
