@@ -10,7 +10,8 @@ from modeler.estimate.least_squares import Estimate, solve_by_qr
 from modeler.observation import Observation
 
 _FAR = 4.5  # standard deviations; noise alone reaches it in one of 1e5 differences
-_FELT = 2.0  # where another value differs so far, or most of the residual is no noise
+_NEAR = 3.0  # where most of the residual is no noise
+_FELT = 2.0  # where another value differs so far
 _MOST = 0.5  # of its variance: lasts from row to row
 
 
@@ -21,22 +22,27 @@ class Halves:
     Attributes:
         factors: (c,) on the standard deviations, 1 and more.
         worst: index of the column that differs by most standard deviations, the joint and the
-            signal whose halves say so; None where nothing does.
+            signal whose halves say so, and by how many; None where nothing does.
     """
 
     factors: np.ndarray
-    worst: tuple[int, int, str] | None = None
+    worst: tuple[int, int, str, float] | None = None
 
     def sentences(self, names: Sequence[str], joints: Sequence[str]) -> list[str]:
         """One, if something differs."""
         if self.worst is None:
             return []
-        column, joint, signal = self.worst
+        column, joint, signal, apart = self.worst
+        why = (
+            "by more than noise: an effect is missing, and `modeler diagnose` names it"
+            if apart > _FAR
+            else "and most of the residual lasts from row to row: noise that remembers, or an effect "
+            "that is missing; `modeler diagnose` tells which"
+        )
         return [
             f"joint {joints[joint]}: rows of little and of much {signal} tell different "
-            f"{names[column]}, by more than noise: an effect is missing; the sigmas are raised for "
-            f"it, by up to a factor {self.factors.max():.2g} "
-            f"({names[int(self.factors.argmax())]}); `modeler diagnose` names it"
+            f"{names[column]}, {why}; the sigmas are raised for it, by up to a factor "
+            f"{self.factors.max():.2g} ({names[int(self.factors.argmax())]})"
         ]
 
 
@@ -94,11 +100,12 @@ def halves(
             weight = 1.0 / np.array([v for _, v in found])
             more = np.sum(weight * (d**2 - noise), axis=0) / weight.sum(axis=0)
             z = z.max(axis=0)
-            if z.max() < (_FELT if lasting[j] > _MOST else _FAR):
+            if z.max() < (_NEAR if lasting[j] > _MOST else _FAR):
                 continue
             added[kept] = np.maximum(added[kept], np.where(z > _FELT, more, 0.0))
             if z.max() > farthest:
-                farthest, worst = float(z.max()), (int(kept[z.argmax()]), j, name)
+                farthest = float(z.max())
+                worst = int(kept[z.argmax()]), j, name, farthest
     square = np.where(sigma > 0.0, sigma, 1.0) ** 2
     return Halves(np.sqrt(1.0 + added / square), worst)
 

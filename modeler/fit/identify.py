@@ -1,6 +1,5 @@
 """From an observation to a fitted model."""
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -142,7 +141,7 @@ def fit_equations(
         condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before,
         essential_error=essential.error_after,
-        joints=joints_of(observation, problem.data, estimate),
+        joints=joints_of(observation, problem.data, estimate.beta, estimate.sigma),
         parameters=every[:count],
         covariance=covariance[:count, :count],
         loads=every[count:],
@@ -154,7 +153,7 @@ def fit_equations(
         own=estimate.sentences,
         essential=_reduced(equations, rows, alive, essential, differ.factors),
         by_load={
-            name: joints_of(observation, equations.compressed(own), estimate)
+            name: joints_of(observation, equations.compressed(own), estimate.beta, estimate.sigma)
             for name, own in equations.conditions(alive).items()
         },
     )  # fmt: skip
@@ -200,12 +199,10 @@ def parts_of(
     alive = ~np.isin(observation.row_joint, dead_joints(observation))
     equations = base_equations(observation)
     data = _problem(observation, equations, alive, None).data
-    rms = data.residual_norms(estimate.beta) / np.sqrt(np.maximum(data.rows, 1))
-    seen = dataclasses.replace(estimate, sigma=np.maximum(rms, least_sigma(data)))
     sigma = np.sqrt(np.diag(estimate.covariance))
     return (
         parameters_of(estimate, essential, equations, sigma),
-        joints_of(observation, data, seen),
+        joints_of(observation, data, estimate.beta),
         data,
     )
 
@@ -260,10 +257,15 @@ def parameters_of(
 
 
 def joints_of(
-    observation: Observation, data: Compressed, estimate: Estimate
+    observation: Observation,
+    data: Compressed,
+    beta: np.ndarray,
+    sigma: np.ndarray | None = None,
 ) -> tuple[JointFit, ...]:
-    """What an estimate leaves of each joint."""
-    residual, torque = data.residual_norms(estimate.beta), data.torque_norms()
+    """What is left of each joint; without a `sigma` (n,) of its rows, that is it."""
+    residual, torque = data.residual_norms(beta), data.torque_norms()
+    if sigma is None:
+        sigma = np.maximum(residual / np.sqrt(np.maximum(data.rows, 1)), least_sigma(data))
     return tuple(
         JointFit(
             name=joint.name,
@@ -271,7 +273,7 @@ def joints_of(
             rows=int(data.rows[j]),
             relative_error=float(residual[j] / torque[j]) if torque[j] > 0.0 else None,
             rms=float(residual[j] / np.sqrt(max(1, data.rows[j]))),
-            sigma=float(estimate.sigma[j]),
+            sigma=float(sigma[j]),
         )
         for j, joint in enumerate(observation.joints)
     )

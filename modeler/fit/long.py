@@ -63,7 +63,7 @@ def identify_long(
     white = np.sqrt(np.diag(estimate.covariance))
     differ = halves(  # windows tell a difference by so much less surely than all rows
         observation, lambda own: compressed(observation, own), problem.counted, estimate,
-        colour.factors * white / streamed.share**0.5, colour.lasting,
+        colour.factors * white / streamed.share**0.5, np.zeros(len(observation.joints)),
     )  # fmt: skip
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / streamed.share)
     factors = colour.factors * raised
@@ -73,7 +73,7 @@ def identify_long(
         samples=streamed.samples, rows=int(data.rows.sum()),
         condition_number=estimate.condition_number, condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before, essential_error=essential.error_after,
-        joints=joints_of(observation, data, estimate),
+        joints=joints_of(observation, data, estimate.beta, estimate.sigma),
         parameters=parameters_of(estimate, essential, base_equations(observation),
                                  np.sqrt(np.diag(covariance))),
         covariance=covariance, loads=(),
@@ -81,7 +81,8 @@ def identify_long(
                    *sentences_of(estimate, essential), *colour.sentences(),
                    *differ.sentences(observation.names, [j.name for j in observation.joints])),
         processing=observation.report.processing, own=estimate.sentences,
-        essential=_reduced(problem, rows, essential, streamed.share, raised), reading=streamed.reading,
+        essential=_reduced(problem, rows, essential, streamed.share, raised),
+        reading=streamed.reading,
     )  # fmt: skip
 
 

@@ -92,7 +92,7 @@ def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch)
         told = capsys.readouterr()
         assert status in (0, 1), words
         lines = [line for line in told.err.splitlines() if line.startswith("modeler: ")]
-        if status == 1 and not (words.split()[1] == "own.json"):
+        if status == 1 and words.split()[1] != "own.json":
             assert len(lines) == 1 and len(lines[0]) > 40, f"{words}: {told.err}"
         else:
             assert told.out.strip() or status, words
