@@ -36,8 +36,8 @@ class Halves:
         why = (
             "by more than noise: an effect is missing, and `modeler diagnose` names it"
             if apart > _FAR
-            else "and most of the residual lasts from row to row: noise that remembers, or an effect "
-            "that is missing; `modeler diagnose` tells which"
+            else "and most of the residual lasts from row to row: noise that remembers, or an "
+            "effect that is missing; `modeler diagnose` tells which"
         )
         return [
             f"joint {joints[joint]}: rows of little and of much {signal} tell different "

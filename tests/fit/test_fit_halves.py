@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, load, observe
+from modeler.cli import main
 from modeler.fit import identify, with_verdict
 from modeler.simulate import SimulationSettings, hidden_from_text, simulate
 
@@ -62,3 +63,34 @@ def test_clean_logs_raise_no_alarm():
             assert fit.verdict.usable_for == "physics", fit.verdict.line
             z += errors.values()
     assert 0.6 < np.sqrt(np.mean(np.square(z))) < 1.3
+
+
+def last(capsys, *words):
+    assert main([str(word) for word in words]) == 0
+    return capsys.readouterr().out.splitlines()
+
+
+def test_the_terminal_ends_with_the_verdict_and_the_command_to_go_on_with(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    for name, words in (("good", ()), ("poor", ("--hide", "stribeck"))):
+        last(capsys, "simulate", "emps", "--duration", 10, "--rate", 250, "--seed", 3,
+             "--out", f"{name}.parquet", *words)  # fmt: skip
+    *_, verdict, following = last(capsys, "fit", "emps", "good.parquet", "--out", "m.json",
+                                  "--report", "m.html")  # fmt: skip
+    assert verdict.startswith("usable: ")
+    assert following == "next: modeler compare m.json HELD_OUT_LOG --report compare.html"
+    assert following.removeprefix("next: ") in (tmp_path / "m.html").read_text()
+    *told, verdict, following = last(capsys, "fit", "emps", "poor.parquet", "--out", "p.json")
+    assert verdict.startswith("usable")
+    assert following == "next: modeler diagnose p.json poor.parquet --report diagnosis.html"
+    assert sum(line.startswith("parameter ") for line in told) == 1  # one table
+    commands = (
+        ("compare", "p.json", "poor.parquet"),
+        ("diagnose", "p.json", "poor.parquet"),
+        ("add", "p.json", "stribeck", "poor.parquet", "--out", "q.json"),
+    )
+    for words in commands:
+        following = last(capsys, *words)[-1]
+        assert following.startswith("next: modeler ") and words[0] not in following.split()[2]
