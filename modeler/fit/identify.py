@@ -11,7 +11,7 @@ from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.coloured import coloured
 from modeler.estimate.compressed import Compressed, compress
-from modeler.estimate.halves import halves
+from modeler.estimate.halves import Halves, halves
 from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimate.methods import method_of
 from modeler.estimate.passing import Neighbours, compressed, residual_of
@@ -112,8 +112,12 @@ def fit_equations(
     equations: Equations,
     method: Method,
     model: "CompiledModel | None" = None,
+    noise_only: bool = False,
 ) -> FitResult:
-    """The fit of y = W beta; equations row for row those of the observation, else as `identify`."""
+    """The fit of y = W beta; equations row for row those of the observation, else as `identify`.
+
+    Sigmas of noise only leave out what halves of the motion disagree about: for tests of it.
+    """
     estimator = method_of(method)
     dead = dead_joints(observation)
     alive = ~np.isin(observation.row_joint, dead)
@@ -125,9 +129,11 @@ def fit_equations(
     colour = coloured(observation, rows, equations.y, alive, estimate)
     sigma = colour.factors * np.sqrt(np.diag(estimate.covariance))
     loaded = equations.conditions(alive).get("loaded")
-    differ = halves(
-        observation, equations.compressed, alive, estimate, sigma, colour.lasting, loaded
-    )
+    differ = Halves(np.ones(len(sigma)))
+    if not noise_only:
+        differ = halves(
+            observation, equations.compressed, alive, estimate, sigma, colour.lasting, loaded
+        )
     factors = colour.factors * differ.factors
     covariance = estimate.covariance * np.outer(factors, factors)
     every = parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance)))

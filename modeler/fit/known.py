@@ -96,7 +96,7 @@ def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimat
         names=(*loaded.equations.names, "factor"),
         units=(*loaded.equations.units, "1"),
     )
-    return fit_equations(observation, equations, "weighted").loads[-1]
+    return fit_equations(observation, equations, "weighted", noise_only=True).loads[-1]
 
 
 def _contradicts(factor: float, sigma: float) -> bool:
