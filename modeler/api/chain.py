@@ -231,9 +231,7 @@ def fit(
     asked = Asked(method, energy, window, tuple(payloads), essential_below)
     way = estimated(asked, derivation.robot, compiled, observation)
     told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-    loaded = {name for payload in payloads for name in payload.logs}
-    bare = [name for name in observation.logs if name not in loaded]
-    result = with_verdict(compiled, observation, way.result, told, bare, way.refit)
+    result = with_verdict(compiled, observation, way.result, told, way.equations, way.refit)
     return identified(derivation, emitted, observation, result)
 
 

@@ -14,6 +14,7 @@ from modeler.fit.alike import not_alike
 from modeler.fit.doubts import Doubt, Told
 from modeler.fit.known import deviations
 from modeler.fit.mounting import mounted_differently, remounted
+from modeler.fit.payload import loaded_equations
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.apart import check_apart
 from modeler.observation.findings import findings_of_fit
@@ -107,9 +108,8 @@ def found_with_gains(
         apart = mounted_differently(again, observation, payloads)
         apart = apart or not_alike(again, observation, payloads)
         told += [Doubt(line, values=True) for line in apart]
-        loaded = {name for payload in payloads for name in payload.logs}
-        bare = [name for name in observation.logs if name not in loaded]
-        result = with_verdict(again, observation, result, told, bare)
+        equations = loaded_equations(again, observation, payloads).equations
+        result = with_verdict(again, observation, result, told, equations)
     said = _deviations(compiled.spec, found)
     result = dataclasses.replace(result, sentences=(*result.sentences, *said))
     report = dataclasses.replace(observation.report, choices=choices)

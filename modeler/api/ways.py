@@ -22,6 +22,8 @@ from modeler.fit import (
     two_step,
 )
 from modeler.fit.doubts import Told
+from modeler.fit.identify import Equations
+from modeler.fit.payload import loaded_equations
 from modeler.observation import Observation
 from modeler.robot import Robot
 from modeler.robot.motors import joint_directions
@@ -63,6 +65,7 @@ class Way:
         refit: how to fit again without some rows; None: least squares.
         lines: printed above the result.
         further: fields of the JSON.
+        equations: that were fitted; None: those of the bare robot.
     """
 
     result: FitResult
@@ -70,6 +73,7 @@ class Way:
     refit: Callable[[np.ndarray], np.ndarray] | None = None
     lines: Sequence[str] = ()
     further: Mapping[str, Any] = field(default_factory=dict)
+    equations: Equations | None = None
 
 
 def estimated(asked: Asked, robot: Robot, compiled: CompiledModel, observation: Observation) -> Way:
@@ -91,7 +95,9 @@ def estimated(asked: Asked, robot: Robot, compiled: CompiledModel, observation: 
     if asked.payloads:
         result = identify_with_payloads(compiled, observation, asked.payloads, method, asked.below)
         current = are_currents(observation.report.logs)
-        return Way(result, known_doubts(compiled, observation, asked.payloads, current))
+        told = known_doubts(compiled, observation, asked.payloads, current)
+        equations = loaded_equations(compiled, observation, asked.payloads).equations
+        return Way(result, told, equations=equations)
     return Way(identify(observation, method, compiled, asked.below))
 
 

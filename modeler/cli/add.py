@@ -6,7 +6,7 @@ from pathlib import Path
 
 from modeler.api.chain import read_logs, recompile
 from modeler.api.improving import auto_added
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_next, working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
@@ -41,6 +41,7 @@ def run_add(args: argparse.Namespace) -> Json:
         *(f"written: {place}" for place in written),
     ):
         say(line)
+    say_next(after_add(args.out, args.holdout))
     waterfall_ = [step.to_json() for step in better.history]
     return better.fit.to_json() | {"waterfall": waterfall_, "left_out": list(left_out)}
 

@@ -6,9 +6,10 @@ from pathlib import Path
 
 from modeler.api.chain import Mapped, recompile
 from modeler.api.judging import compared
-from modeler.cli.console import Json, note, progress, say, working
+from modeler.cli.console import Json, note, progress, say, say_next, working
 from modeler.cli.contest import models_of, run_contest
 from modeler.compare import Comparison, verdict, write_pictures
+from modeler.compare.verdict import looks_like_noise
 from modeler.compiled import CompiledModel
 from modeler.core.estimators import titled
 from modeler.fit import IdentifiedModel, load_model
@@ -43,25 +44,21 @@ def run_compare(args: argparse.Namespace) -> Json:
             say(line)
     for fault in found:
         say(fault.line)
+    held = not any(line.startswith(_TRAINING) for line in lines)
+    noise = all(looks_like_noise(item) for item in comparison.joints) and not model.warning
+    fitted = [log.name for log in model.logs]
+    following = after_compare(args.model, fitted, args.logs, held, noise)
     if args.report is not None:
         with working("drawing the page"):
-            place = _page(args, model, comparison, lines)
+            origin = Origin(args.model, comparison.prediction.logs, held)
+            place = write_report(Path(args.report), comparison, lines, origin, [following])
         say(f"written: {place}")
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
             written = write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
+    say_next([following])
     return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
-
-
-def _page(
-    args: argparse.Namespace, model: IdentifiedModel, comparison: Comparison, lines: list[str]
-) -> Path:
-    held = not any(line.startswith(_TRAINING) for line in lines)
-    fitted = [log.name for log in model.logs]
-    following = after_compare(args.model, fitted, args.logs, held)
-    origin = Origin(args.model, comparison.prediction.logs, held)
-    return write_report(Path(args.report), comparison, lines, origin, [following])
 
 
 def judged(

@@ -6,7 +6,7 @@ import io
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from contextvars import ContextVar
 from pathlib import Path
@@ -31,6 +31,12 @@ Json = Any
 def say(text: str = "") -> None:
     """One result, on stdout."""
     write_stdout(f"{text}\n")
+
+
+def say_next(commands: Sequence[str]) -> None:
+    """The command to go on with, as the last line."""
+    for command in commands[:1]:
+        say(f"next: {command}")
 
 
 def write_stdout(text: str) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api.chain import read_logs, recompile
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_next, working
 from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known, diagnose
 from modeler.diagnose.lines import lines
@@ -36,18 +36,21 @@ def run_diagnose(args: argparse.Namespace) -> Json:
             known=Known(robot.catalogue, robot.coupling),
         )  # fmt: skip
     written = []
+    following = after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
     if args.report is not None:
         with working("drawing"):
-            written = [_page(args, diagnosis, _provenance(model, args))]
+            written = [_page(args, diagnosis, _provenance(model, args), following)]
     wrote = (f"written: {place}" for place in written)
     for line in (*lines(diagnosis), *model.warning, *wrote):
         say(line)
+    say_next(following)
     return diagnosis.to_json()
 
 
-def _page(args: argparse.Namespace, diagnosis: Diagnosis, lines: Sequence[str]) -> Path:
+def _page(
+    args: argparse.Namespace, diagnosis: Diagnosis, lines: Sequence[str], following: Sequence[str]
+) -> Path:
     logs = [Path(place).name for place in (*args.logs, *args.holdout)]
-    following = after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
     origin = Origin(args.model, logs, bool(diagnosis.held_out))
     return write_diagnosis(Path(args.report), diagnosis, lines, origin, following)
 

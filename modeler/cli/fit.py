@@ -7,7 +7,7 @@ from pathlib import Path
 from modeler.api.chain import compile_model, derive, generate, identified, read_logs
 from modeler.api.given import check_logs, given
 from modeler.api.ways import estimated
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, say, say_next, working
 from modeler.cli.drive_gains import check_load, fit_with_gains
 from modeler.cli.long_logs import fit_if_long
 from modeler.cli.robots import robot_of
@@ -18,6 +18,7 @@ from modeler.core.files import write_atomically
 from modeler.fit import FitResult, IdentifiedModel, save_model, with_verdict
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.findings import findings_of_fit
+from modeler.pages.following import after_fit
 from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
 
@@ -61,8 +62,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         way = estimated(asked(args, loaded), robot, compiled, observation)
     with working("judging the fit"):
         told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-        bare = [log.name for log in logs]
-        result = with_verdict(compiled, observation, way.result, told, bare, way.refit)
+        result = with_verdict(compiled, observation, way.result, told, way.equations, way.refit)
     model = identified(derivation, emitted, observation, result)
     return _written(args, model, observation, way.lines) | way.further
 
@@ -75,19 +75,23 @@ def _written(
 ) -> Json:
     """Saves and prints the model."""
     save_model(args.out, model)
-    for line in (*observation.report.lines(), "", *lines, *model.fit.lines()):
+    *told, verdict = model.fit.lines()
+    for line in (*observation.report.lines(), "", *lines, *told):
         say(line)
     say(f"written: {args.out}")
     if args.report is not None:
         from modeler.pages.fitted import write_fit  # pages take long to load
 
-        place = write_fit(Path(args.report), model, observation.report.lines(), args.out)
+        following = after_fit(args.out, args.logs, args.robot, model.fit)
+        place = write_fit(Path(args.report), model, observation.report.lines(), args.out, following)
         say(f"written: {place}")
     if args.robot_out is not None:
         stated = _own(robot_from_text(model.robot_text, "robot of the model"), model.fit)
         text = with_parameters(model.robot_text, stated) if stated else model.robot_text
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
+    say(verdict)
+    say_next(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
     return model.fit.to_json()
 
 

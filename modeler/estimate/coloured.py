@@ -25,10 +25,12 @@ class Colour:
     Attributes:
         factors: (c,) on the standard deviations, 1 and more.
         memory: (joint, s) of the joints whose residuals are not white.
+        lasting: (n,) autocorrelation of their residuals over one row.
     """
 
     factors: np.ndarray
     memory: tuple[tuple[str, float], ...]
+    lasting: np.ndarray
 
     def sentences(self) -> list[str]:
         """One, if it matters."""
@@ -83,17 +85,19 @@ def _at_once(
     own_way = estimate.influence
     residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(estimate.beta)), []  # diagonal of C (B - C^-1) C
+    lasting = np.zeros(len(observation.joints))
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
         r = remembered(observation, residual[own], sample)
+        lasting[j] = r[1] if len(r) > 1 else 0.0
         pull = estimate.covariance / estimate.sigma[j]
         rows = W[own] @ pull if own_way is None else own_way.of(W)[own] * _rms(residual[own])
         extra += repeated(rows, r, sample, observation.segment)
         if told := int(np.sum(r > _TOLD)) - 1:
             memory.append((joint.name, told * _spacing(observation)))
-    return Colour(_factors(estimate.covariance, extra), tuple(memory))
+    return Colour(_factors(estimate.covariance, extra), tuple(memory), lasting)
 
 
 def _rms(values: np.ndarray) -> float:
@@ -115,12 +119,14 @@ def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -
     beta[places] = estimate.beta
     residual = observation.torque - explained(observation, beta)
     matrices, memories, memory = [], [], []
+    lasting = np.zeros(len(observation.joints))
     for j, joint in enumerate(observation.joints):
         r, A = np.ones(1), np.zeros((c, len(places)))
         sample = np.flatnonzero(keep[:, j])
         if sample.size:
             left = residual[sample, j]
             r = remembered(observation, left, sample)
+            lasting[j] = r[1] if len(r) > 1 else 0.0
             if own_way is None:
                 A[places] = estimate.covariance / estimate.sigma[j]
             else:
@@ -131,7 +137,7 @@ def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -
         matrices.append(A)
         memories.append(r)
     extra = beside.repeated(matrices, memories)
-    return Colour(_factors(estimate.covariance, extra), tuple(memory))
+    return Colour(_factors(estimate.covariance, extra), tuple(memory), lasting)
 
 
 def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:

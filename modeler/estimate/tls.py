@@ -19,7 +19,7 @@ from modeler.estimate.compressed import Compressed, triangle
 from modeler.estimate.least_squares import least_squares, solve_by_qr
 from modeler.estimate.rank import Rank, independent_columns
 
-MAX_ITERATIONS = 200
+MAX_ITERATIONS = 30  # a dozen is enough where the gains are told
 _SETTLED = 1e-9  # relative change of the gains
 _SMALLEST = 1e-12  # singular values below are rounding
 
@@ -29,10 +29,11 @@ class GainEstimate:
     """The solution; n joints, d of them driven, c columns.
 
     Attributes:
-        gains: (n,) torque per unit of V; 1 for joints without a motor.
+        gains: (n,) torque per unit of V; 1 for joints without a motor; NaN if nothing bounds them.
         beta: (c,) of all columns, with `known` at its place; 0 for those set aside.
         covariance: (d + c, d + c) of the gains of the driven joints and of beta, for white
-            residuals; 0 for columns set aside and for the known one.
+            residuals; 0 for columns set aside and for the known one; its diagonal infinite where
+            nothing bounds them.
         sigma: (n,) standard deviation of a row of each joint, N m or N.
         rank: columns kept and set aside.
         singular: (d,) singular values of what W leaves of V, descending, every column of V in
@@ -90,6 +91,9 @@ def mixed_tls(data: Compressed, known: int, value: float = 1.0) -> GainEstimate 
         beta, updated = step.beta, step.gains
         length = value / beta[known] if beta[known] else 1.0
         beta, updated = length * beta, np.where(data.free, 1.0, length * updated)
+        if not (np.isfinite(updated).all() and updated.all()):
+            gains = np.full(len(gains), np.nan)  # nothing holds them: they run to 0, or away
+            break
         settled = bool(np.all(np.abs(updated / gains - 1.0) < _SETTLED))
         gains, iterations = updated, iterations + 1
         sigma = _spread(data, gains, known, value)
@@ -171,7 +175,8 @@ def _covariance(
     R = triangle(np.vstack(blocks))
     places = np.concatenate([np.arange(d), d + kept])
     covariance = np.zeros((d + len(beta),) * 2)
-    if np.linalg.cond(R / np.linalg.norm(R, axis=0)) > 1e12:
+    lengths = np.linalg.norm(R, axis=0)  # 0 for the gain of a joint whose torque is noise
+    if not (np.isfinite(R).all() and lengths.all()) or np.linalg.cond(R / lengths) > 1e12:
         covariance[places, places] = np.inf
         return covariance
     _, root = solve_by_qr(R, np.zeros(len(R)))

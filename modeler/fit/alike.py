@@ -53,8 +53,8 @@ def not_alike(
     return [
         f"the logs {', '.join(observation.logs)} do not fit one robot: joint "
         f"{observation.joints[worst].name} has {apart:.2g} % of its torque left if each is "
-        f"described alone, and {all_of_them:.2g} % together; are all of the same robot, and is the "
-        "load on the link that is said to carry it?"
+        f"described alone, and {all_of_them:.2g} % together; are all of the same robot, is the "
+        "load on the link that is said to carry it, and does friction grow with the load?"
     ]
 
 

@@ -1,14 +1,12 @@
 """Does the fit predict motion like that of its logs? What was left out answers."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from modeler.estimate.compressed import triangle
-from modeler.estimate.passing import compressed, residual_of
+from modeler.fit.identify import Equations
 from modeler.observation import Observation
-from modeler.observation.passing import is_streamed
 
 FOLDS = 8
 
@@ -24,15 +22,24 @@ class Crossed:
             a joint without rows or torque.
         swing: s, half a period of the mean motion: the length of a stretch.
         stretches: that many.
+        residual: (rows,) y - W beta, each row predicted from other stretches; 0 for those left out.
     """
 
     errors: np.ndarray
     swing: float
     stretches: int
+    residual: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    def on(self, equations: Equations, rows: np.ndarray) -> np.ndarray:
+        """(n,) the errors on some of the rows."""
+        joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
+        left = np.bincount(joint, self.residual[rows] ** 2, count)
+        total = np.bincount(joint, equations.y[rows] ** 2, count)
+        return np.sqrt(np.where(total > 0.0, left / np.where(total > 0.0, total, 1.0), np.nan))
 
 
 def crossed(
-    observation: Observation,
+    equations: Equations,
     rows: np.ndarray,
     sigma: np.ndarray,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
@@ -44,41 +51,28 @@ def crossed(
     is held out together, so that the motions of a log stand in all parts.
 
     Args:
-        observation: of all logs.
+        equations: of all logs, with the columns of loads.
         rows: (rows,) True for those to use.
         sigma: (n,) standard deviation of a row of each joint.
-        refit: beta (c,) without the samples (s,) that are held out; None: least squares of the
+        refit: beta without the samples (s,) that are held out; None: least squares of the
             other rows.
     """
+    observation = equations.observation
     swing = _swing(observation)
     number = _stretches(observation, swing)
     seen = np.unique(number[observation.row_sample[rows]])
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
-    joint = observation.row_joint
     folds = [rows & (fold == k) for k in range(min(FOLDS, len(seen)))]
-    parts = _triangles(observation, folds, sigma)
-    left = np.zeros(len(sigma))
+    parts = [equations.compressed(own).whole(sigma) for own in folds]
+    residual = np.zeros(len(equations.y))
     for k, own in enumerate(folds):
         if refit is None:
             beta = solved(np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]]))
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
-        residual = residual_of(observation, beta, own)
-        left += np.bincount(joint[own], residual**2, len(sigma))
-    total = np.bincount(joint[rows], observation.y[rows] ** 2, len(sigma))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return Crossed(np.sqrt(np.where(total > 0.0, left / total, np.nan)), swing, len(seen))
-
-
-def _triangles(
-    observation: Observation, folds: Sequence[np.ndarray], sigma: np.ndarray
-) -> list[np.ndarray]:
-    """Of the rows of each fold, divided by the sigma of their joint."""
-    if is_streamed(observation):
-        return [compressed(observation, own).whole(sigma) for own in folds]
-    deviation = sigma[observation.row_joint][:, None]
-    weighed = np.column_stack([observation.W, observation.y]) / deviation
-    return [triangle(weighed[own]) for own in folds]
+        residual[own] = equations.residual(beta, own)
+    found = Crossed(np.full(len(sigma), np.nan), swing, len(seen), residual)
+    return replace(found, errors=found.on(equations, rows))
 
 
 def _swing(observation: Observation) -> float:

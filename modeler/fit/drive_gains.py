@@ -149,6 +149,11 @@ def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
             "parameters, or from the load's inertia, in these logs, so nothing sets the scale of "
             f"the gains; {_MORE}"
         )
+    if not np.isfinite(estimate.covariance).all():
+        raise DataError(
+            f"--method tls: the gain of joint {_blamed(observation, estimate)} has a sigma without "
+            f"bound, as where it rests; {_MORE}"
+        )
     return estimate
 
 

@@ -10,21 +10,20 @@ from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.compressed import compress
 from modeler.estimate.least_squares import Estimate
+from modeler.estimate.passing import compressed
 from modeler.estimate.unequal import Unequal, unequal_least_squares
 from modeler.fit.crossed import solved
 from modeler.fit.energy_report import SURE, EnergyReport, ModelFigures
 from modeler.fit.essential import Essential, essential_parameters
-from modeler.fit.identify import dead_joints, identify
+from modeler.fit.identify import dead_joints, identify, joints_of
 from modeler.fit.parameter import estimates
 from modeler.fit.reduced import Reduced, reduced_model
-from modeler.fit.result import FitResult, JointFit, ParameterEstimate
+from modeler.fit.result import FitResult, ParameterEstimate
 from modeler.observation import Observation
 from modeler.observation.energy import EnergyRows, energy_rows
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
-
-_FEW = 5e-7  # torque standard deviation of a joint that has none: a share of its torque
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +83,7 @@ def identify_energy(
     _check_enough(observation, rows)
     found = _estimate(observation, rows, method)
     essential = _essential(observation, rows, found, below)
+    every = np.ones(len(observation.y), dtype=bool)
     result = FitResult(
         robot=observation.robot,
         method=method,
@@ -92,7 +92,7 @@ def identify_energy(
         rows=len(rows.y),
         condition_number=found.condition_number, condition_scaled=found.condition_scaled,
         relative_error=essential.error_before, essential_error=essential.error_after,
-        joints=_joints(observation, found.beta),
+        joints=joints_of(observation, compressed(observation, every), found.beta),
         parameters=_parameters(observation, found, essential),
         covariance=found.covariance,
         loads=(),
@@ -170,30 +170,6 @@ def _reduced(observation: Observation, essential: Essential) -> Reduced | None:
 def _torque_error(observation: Observation, beta: np.ndarray) -> float:
     residual = observation.y - observation.W @ beta
     return float(np.linalg.norm(residual) / np.linalg.norm(observation.y))
-
-
-def _joints(observation: Observation, beta: np.ndarray) -> tuple[JointFit, ...]:
-    """Torques predicted with the energy model's beta, joint by joint."""
-    residual, found = observation.y - observation.W @ beta, []
-    for j, joint in enumerate(observation.joints):
-        own = observation.row_joint == j
-        rows = int(own.sum())
-        size, total = (
-            float(np.linalg.norm(residual[own])),
-            float(np.linalg.norm(observation.y[own])),
-        )
-        rms = size / max(1, rows) ** 0.5
-        found.append(
-            JointFit(
-                name=joint.name,
-                unit=joint.effort_unit,
-                rows=rows,
-                relative_error=size / total if total > 0.0 else None,
-                rms=rms,
-                sigma=max(rms, _FEW * total / max(1, rows) ** 0.5, 1e-300),
-            )
-        )
-    return tuple(found)
 
 
 def _parameters(

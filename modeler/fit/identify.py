@@ -1,6 +1,5 @@
 """From an observation to a fitted model."""
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,9 +11,10 @@ from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.coloured import coloured
 from modeler.estimate.compressed import Compressed, compress
-from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate
+from modeler.estimate.halves import Halves, halves
+from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimate.methods import method_of
-from modeler.estimate.passing import Neighbours, compressed
+from modeler.estimate.passing import Neighbours, compressed, residual_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.parameter import estimates
@@ -38,6 +38,7 @@ class Equations:
         names: (c + loads,) of the columns.
         units: (c + loads,) of the parameters.
         sentences: what a reader of the fit must know of them.
+        carried: names of the logs with a load.
     """
 
     observation: Observation
@@ -46,6 +47,7 @@ class Equations:
     names: tuple[str, ...]
     units: tuple[str, ...]
     sentences: tuple[str, ...] = ()
+    carried: tuple[str, ...] = ()
 
     @cached_property
     def W(self) -> np.ndarray:
@@ -56,8 +58,28 @@ class Equations:
     @property
     def kept(self) -> np.ndarray | None:
         """W; None where it is large and the base parameters' alone: then rows are to pass by."""
-        alone = not self.extra.shape[1] and is_streamed(self.observation)
-        return None if alone else self.W
+        return None if not self.carried and is_streamed(self.observation) else self.W
+
+    def conditions(self, counted: np.ndarray) -> dict[str, np.ndarray]:
+        """(rows,) True for the counted ones, "bare" and "loaded"; empty if no log has a load."""
+        if not self.carried:
+            return {}
+        logs = np.array(self.observation.logs)
+        loaded = np.isin(logs, self.carried)[self.observation.row_run]
+        return {"bare": counted & ~loaded, "loaded": counted & loaded}
+
+    def compressed(self, counted: np.ndarray, free: Sequence[int] = ()) -> Compressed:
+        """Some rows, compressed; `free` are the joints without a motor."""
+        if (W := self.kept) is None:
+            return compressed(self.observation, counted, free)
+        own, joints = self.observation.row_joint[counted], len(self.observation.joints)
+        return compress(W[counted], self.y[counted], own, joints, self.names, free)
+
+    def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
+        """y - W beta of some rows."""
+        if (W := self.kept) is None:
+            return residual_of(self.observation, beta, counted)
+        return np.asarray(self.y[counted] - W[counted] @ beta)
 
 
 def identify(
@@ -95,8 +117,12 @@ def fit_equations(
     method: Method,
     model: "CompiledModel | None" = None,
     below: float | None = None,
+    noise_only: bool = False,
 ) -> FitResult:
-    """The fit of y = W beta; equations row for row those of the observation, else as `identify`."""
+    """The fit of y = W beta; equations row for row those of the observation, else as `identify`.
+
+    Sigmas of noise only leave out what halves of the motion disagree about: for tests of it.
+    """
     estimator = method_of(method)
     dead = dead_joints(observation)
     alive = ~np.isin(observation.row_joint, dead)
@@ -106,7 +132,15 @@ def fit_equations(
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
     essential = essential_parameters(problem.data, estimate, method, below)
     colour = coloured(observation, rows, equations.y, alive, estimate)
-    covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
+    sigma = colour.factors * np.sqrt(np.diag(estimate.covariance))
+    loaded = equations.conditions(alive).get("loaded")
+    differ = Halves(np.ones(len(sigma)))
+    if not noise_only:
+        differ = halves(
+            observation, equations.compressed, alive, estimate, sigma, colour.lasting, loaded
+        )
+    factors = colour.factors * differ.factors
+    covariance = estimate.covariance * np.outer(factors, factors)
     every = parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance)))
     return FitResult(
         robot=observation.robot,
@@ -118,28 +152,37 @@ def fit_equations(
         condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before,
         essential_error=essential.error_after,
-        joints=joints_of(observation, problem.data, estimate),
+        joints=joints_of(observation, problem.data, estimate.beta, estimate.sigma),
         parameters=every[:count],
         covariance=covariance[:count, :count],
         loads=every[count:],
         sentences=(*equations.sentences, *dead_sentences(observation, dead), *estimate.sentences,
-                   *sentences_of(estimate, essential), *colour.sentences()),
+                   *sentences_of(estimate, essential), *colour.sentences(),
+                   *differ.sentences(equations.names, [j.name for j in observation.joints])),
         processing=observation.report.processing,
         standard=estimate.standard,
         own=estimate.sentences,
-        essential=_reduced(equations, rows, alive, essential),
+        essential=_reduced(equations, rows, alive, essential, differ.factors),
+        by_load={
+            name: joints_of(observation, equations.compressed(own), estimate.beta, estimate.sigma)
+            for name, own in equations.conditions(alive).items()
+        },
     )  # fmt: skip
 
 
 def _reduced(
-    equations: Equations, rows: np.ndarray | Neighbours, alive: np.ndarray, essential: Essential
+    equations: Equations,
+    rows: np.ndarray | Neighbours,
+    alive: np.ndarray,
+    essential: Essential,
+    raised: np.ndarray,
 ) -> Reduced | None:
     """The essential parameters alone, as sure as their own residuals let them be."""
     at = [equations.names.index(name) for name in essential.names]
     reduced = essential.reduced
     W = rows if isinstance(rows, Neighbours) else rows[:, at]
     factors = coloured(equations.observation, W, equations.y, alive, reduced, at).factors
-    sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    sigma = raised[at] * factors * np.sqrt(np.diag(reduced.covariance))
     units = dict(zip(equations.names, equations.units, strict=True))
     return reduced_model(essential, reduced, sigma, units)
 
@@ -151,13 +194,10 @@ def _problem(
     model: "CompiledModel | None",
 ) -> Problem:
     free = [j for j, joint in enumerate(observation.joints) if not joint.actuated]
-    W, y, joint = equations.kept, equations.y, observation.row_joint
-    if W is None:
-        data = compressed(observation, alive, free)
-    else:
-        joints = len(observation.joints)
-        data = compress(W[alive], y[alive], joint[alive], joints, equations.names, free)
-    return Problem(observation, W, y, alive, equations.names, equations.units, data, model)
+    data, y = equations.compressed(alive, free), equations.y
+    return Problem(
+        observation, equations.kept, y, alive, equations.names, equations.units, data, model
+    )
 
 
 def parts_of(
@@ -170,12 +210,10 @@ def parts_of(
     alive = ~np.isin(observation.row_joint, dead_joints(observation))
     equations = base_equations(observation)
     data = _problem(observation, equations, alive, None).data
-    rms = data.residual_norms(estimate.beta) / np.sqrt(np.maximum(data.rows, 1))
-    seen = dataclasses.replace(estimate, sigma=rms)
     sigma = np.sqrt(np.diag(estimate.covariance))
     return (
         parameters_of(estimate, essential, equations, sigma),
-        joints_of(observation, data, seen),
+        joints_of(observation, data, estimate.beta),
         data,
     )
 
@@ -230,10 +268,15 @@ def parameters_of(
 
 
 def joints_of(
-    observation: Observation, data: Compressed, estimate: Estimate
+    observation: Observation,
+    data: Compressed,
+    beta: np.ndarray,
+    sigma: np.ndarray | None = None,
 ) -> tuple[JointFit, ...]:
-    """What an estimate leaves of each joint."""
-    residual, torque = data.residual_norms(estimate.beta), data.torque_norms()
+    """What is left of each joint; without a `sigma` (n,) of its rows, that is it."""
+    residual, torque = data.residual_norms(beta), data.torque_norms()
+    if sigma is None:
+        sigma = np.maximum(residual / np.sqrt(np.maximum(data.rows, 1)), least_sigma(data))
     return tuple(
         JointFit(
             name=joint.name,
@@ -241,7 +284,7 @@ def joints_of(
             rows=int(data.rows[j]),
             relative_error=float(residual[j] / torque[j]) if torque[j] > 0.0 else None,
             rms=float(residual[j] / np.sqrt(max(1, data.rows[j]))),
-            sigma=float(estimate.sigma[j]),
+            sigma=float(sigma[j]),
         )
         for j, joint in enumerate(observation.joints)
     )

@@ -96,7 +96,7 @@ def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimat
         names=(*loaded.equations.names, "factor"),
         units=(*loaded.equations.units, "1"),
     )
-    return fit_equations(observation, equations, "weighted").loads[-1]
+    return fit_equations(observation, equations, "weighted", noise_only=True).loads[-1]
 
 
 def _contradicts(factor: float, sigma: float) -> bool:
@@ -127,23 +127,25 @@ def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) ->
     return [
         _deviation(joint, found.gains[joint.name], found.sigmas[joint.name])
         for joint in spec.joints
-        if joint.name in found.gains
-        and joint.drive_gain is not None
-        and (
-            not only_doubtful
-            or _contradicts(
-                found.gains[joint.name] / joint.drive_gain,
-                found.sigmas[joint.name] / abs(joint.drive_gain),
-            )
-        )
+        if joint.name in found.gains and _told(joint, found, only_doubtful)
     ]
 
 
+def _told(joint: JointSpec, found: GainFit, only_doubtful: bool) -> bool:
+    gain, stated = found.gains[joint.name], joint.drive_gain
+    if stated is None:
+        return gain < 0.0
+    apart = _contradicts(gain / stated, found.sigmas[joint.name] / abs(stated))
+    return apart or not only_doubtful
+
+
 def _deviation(joint: JointSpec, gain: float, sigma: float) -> str:
-    assert joint.drive_gain is not None
-    percent = 100.0 * (gain / joint.drive_gain - 1.0)
-    side = "above" if percent > 0.0 else "below"
-    return (
-        f"joint {joint.name} {gain:.4g} +- {sigma:.1g}, {abs(percent):.2g} % {side} "
-        f"{joint.drive_gain:.4g}"
-    )
+    told, stated = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}", joint.drive_gain
+    if stated is None or gain * stated < 0.0:
+        beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
+        return (
+            f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
+            "round; if that is a mistake of the log, give the one that is wrong sign = -1 in [log]"
+        )
+    percent = 100.0 * (gain / stated - 1.0)
+    return f"{told}, {abs(percent):.2g} % {'above' if percent > 0.0 else 'below'} {stated:.4g}"

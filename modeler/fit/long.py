@@ -9,9 +9,10 @@ from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.coloured import Colour, coloured
 from modeler.estimate.compressed import Compressed
+from modeler.estimate.halves import halves
 from modeler.estimate.least_squares import Estimate
 from modeler.estimate.methods import method_of
-from modeler.estimate.passing import Neighbours, rows_of
+from modeler.estimate.passing import Neighbours, compressed, rows_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.identify import (
@@ -59,20 +60,29 @@ def identify_long(
     essential = essential_parameters(data, estimate, method)
     rows, every = rows_of(observation, problem.counted), np.arange(len(data.names))
     colour = _coloured(problem, rows, every, estimate, streamed.share)
-    covariance = estimate.covariance * np.outer(colour.factors, colour.factors)
+    white = np.sqrt(np.diag(estimate.covariance))
+    differ = halves(  # windows tell a difference by so much less surely than all rows
+        observation, lambda own: compressed(observation, own), problem.counted, estimate,
+        colour.factors * white / streamed.share**0.5, np.zeros(len(observation.joints)),
+    )  # fmt: skip
+    raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / streamed.share)
+    factors = colour.factors * raised
+    covariance = estimate.covariance * np.outer(factors, factors)
     return FitResult(
         robot=observation.robot, method=method, status=status_of(estimate),
         samples=streamed.samples, rows=int(data.rows.sum()),
         condition_number=estimate.condition_number, condition_scaled=estimate.condition_scaled,
         relative_error=essential.error_before, essential_error=essential.error_after,
-        joints=joints_of(observation, data, estimate),
+        joints=joints_of(observation, data, estimate.beta, estimate.sigma),
         parameters=parameters_of(estimate, essential, base_equations(observation),
                                  np.sqrt(np.diag(covariance))),
         covariance=covariance, loads=(),
         sentences=(*dead_sentences(observation, dead), *estimate.sentences,
-                   *sentences_of(estimate, essential), *colour.sentences()),
+                   *sentences_of(estimate, essential), *colour.sentences(),
+                   *differ.sentences(observation.names, [j.name for j in observation.joints])),
         processing=observation.report.processing, own=estimate.sentences,
-        essential=_reduced(problem, rows, essential, streamed.share), reading=streamed.reading,
+        essential=_reduced(problem, rows, essential, streamed.share, raised),
+        reading=streamed.reading,
     )  # fmt: skip
 
 
@@ -127,12 +137,16 @@ def _coloured(
 
 
 def _reduced(
-    problem: Problem, rows: np.ndarray | Neighbours, essential: Essential, share: float
+    problem: Problem,
+    rows: np.ndarray | Neighbours,
+    essential: Essential,
+    share: float,
+    raised: np.ndarray,
 ) -> Reduced | None:
     """The essential parameters alone, as sure as their own residuals let them be."""
     at = np.array([problem.names.index(name) for name in essential.names], dtype=int)
     reduced = essential.reduced
     factors = _coloured(problem, rows, at, reduced, share).factors
-    sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    sigma = raised[at] * factors * np.sqrt(np.diag(reduced.covariance))
     units = dict(zip(problem.names, problem.units, strict=True))
     return reduced_model(essential, reduced, sigma, units)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.fit.payload import Payload, identify_with_payloads
+from modeler.fit.identify import fit_equations
+from modeler.fit.payload import Payload, loaded_equations
 from modeler.fit.result import ParameterEstimate
 from modeler.observation import Observation
 
@@ -46,7 +47,8 @@ def mounted_differently(
 
 def _disagreement(model: "CompiledModel", observation: Observation, payload: Payload) -> list[str]:
     parts = remounted(payload)
-    fit = identify_with_payloads(model, observation, parts)
+    equations = loaded_equations(model, observation, parts).equations
+    fit = fit_equations(observation, equations, "weighted", noise_only=True)
     found = [_moments(fit.loads, part.name) for part in parts]
     largest = max((abs(p.value) for moments in found for p in moments.values()), default=0.0)
     worst, line = max(_FAR, 0.0), ""

@@ -90,10 +90,14 @@ def read_parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
     return ParameterEstimate(**fields, interval=interval)
 
 
-def parameter_lines(parameters: Sequence[ParameterEstimate]) -> list[str]:
-    """A table: name, value, sigma, %sigma, unit."""
+def parameter_lines(
+    parameters: Sequence[ParameterEstimate], reduced: Sequence[ParameterEstimate] = ()
+) -> list[str]:
+    """A table: name, value, sigma, %sigma, the value of a reduced model if there is one, unit."""
+    alone = {parameter.name: f"{parameter.value:.6g}" for parameter in reduced}
     width = max([9, *(len(parameter.name) for parameter in parameters)])
-    lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}  unit"]
+    head = f"{'reduced':>13}" if alone else ""
+    lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}{head}  unit"]
     for parameter in parameters:
         if parameter.sigma is None:
             lines.append(f"{parameter.name:<{width}} {'set aside':>13}")
@@ -101,8 +105,9 @@ def parameter_lines(parameters: Sequence[ParameterEstimate]) -> list[str]:
         share = parameter.relative_sigma_percent
         percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
         mark = "" if parameter.essential else "  (not essential)"
+        column = f"{alone.get(parameter.name, '-'):>13}" if alone else ""
         lines.append(
             f"{parameter.name:<{width}} {parameter.value:>13.6g} {parameter.sigma:>10.3g} "
-            f"{percent:>8}  {parameter.unit}{mark}"
+            f"{percent:>8}{column}  {parameter.unit}{mark}"
         )
     return lines

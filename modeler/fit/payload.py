@@ -141,6 +141,7 @@ def _with_load(
         names=(*equations.names, *own),
         units=(*equations.units, *(units[i] for i in kept)),
         sentences=(*equations.sentences, *remarks),
+        carried=(*equations.carried, *payload.logs),
     )
 
 

@@ -11,7 +11,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.estimate.least_squares import Estimate
 from modeler.fit.essential import Essential
-from modeler.fit.parameter import ParameterEstimate, parameter_lines, read_parameter
+from modeler.fit.parameter import ParameterEstimate, read_parameter
 
 if TYPE_CHECKING:
     from modeler.fit.model_file import IdentifiedModel
@@ -41,18 +41,15 @@ class Reduced(Brief):
     limit: float | None
 
     def lines(self) -> list[str]:
-        """Lines of text; none if nothing was left out."""
+        """Lines of text; none if nothing was left out. Its values stand beside those of all."""
         if not self.dropped:
             return []
         count = len(self.parameters)
         return [
-            "",
             f"reduced model: {count} essential of {count + len(self.dropped)} parameters, "
-            "estimated anew; sigmas hold if the others are 0",
-            *parameter_lines(self.parameters),
-            f"condition number {self.condition_number:.4g} ({self.condition_scaled:.4g} with "
-            f"columns of length one), relative error {100.0 * self.relative_error:.3f} %",
-            "",
+            f"estimated anew; condition number {self.condition_number:.4g} "
+            f"({self.condition_scaled:.4g} with columns of length one), relative error "
+            f"{100.0 * self.relative_error:.3f} %"
         ]
 
     def to_json(self) -> dict[str, Any]:

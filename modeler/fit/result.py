@@ -1,6 +1,6 @@
 """What a fit hands back: values, how sure they are, and how much they leave unexplained."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -92,6 +92,7 @@ class FitResult(Presented):
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
+        by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
     """
 
     robot: str
@@ -118,6 +119,7 @@ class FitResult(Presented):
     gains: tuple[ParameterEstimate, ...] = ()
     singular_values: tuple[float, ...] = ()
     reading: Mapping[str, int] = field(default_factory=dict)
+    by_load: Mapping[str, tuple[JointFit, ...]] = field(default_factory=dict)
 
     @property
     def beta(self) -> np.ndarray:
@@ -140,18 +142,25 @@ class FitResult(Presented):
         return form.format(100.0 * self.relative_error)
 
     def lines(self) -> list[str]:
-        """Lines of text: parameters, joints, remarks."""
-        lines = parameter_lines((*self.gains, *self.parameters, *self.loads))
+        """Lines of text: parameters, joints, remarks, the verdict last."""
+
+        def share(joint: JointFit) -> str:
+            error = joint.relative_error
+            return "-" if error is None else f"{100.0 * error:.2f} %"
+
+        alone = self.essential.parameters if self.essential and self.essential.dropped else ()
+        lines = parameter_lines((*self.gains, *self.parameters, *self.loads), alone)
         lines += direction_lines(self.directions)
         lines += [
             f"{self.rows} rows of {self.samples} samples, condition number "
             f"{self.condition_number:.4g} ({self.condition_scaled:.4g} with columns of length one)",
             f"relative error {self.error_told()}",
         ]
-        for joint in self.joints:
-            error = joint.relative_error
-            share_text = "-" if error is None else f"{100.0 * error:.2f} %"
-            lines.append(f"  joint {joint.name}: {share_text}, rms {joint.rms:.4g} {joint.unit}")
+        for k, joint in enumerate(self.joints):
+            apart = "".join(f", {name} {share(own[k])}" for name, own in self.by_load.items())
+            lines.append(
+                f"  joint {joint.name}: {share(joint)}{apart}, rms {joint.rms:.4g} {joint.unit}"
+            )
         lines += [*bodies_told(self.standard), *self.sentences]
         lines += self.essential.lines() if self.essential is not None else []
         lines += self.energy.lines() if self.energy is not None else []
@@ -174,15 +183,10 @@ class FitResult(Presented):
             "relative_error_pools": POOLED,
             "by_unit": self.by_unit,
             "essential_error": self.essential_error,
-            "joints": {
-                joint.name: {
-                    "relative_error": joint.relative_error,
-                    "rms": joint.rms,
-                    "sigma": joint.sigma,
-                    "rows": joint.rows,
-                    "unit": joint.unit,
-                }
-                for joint in self.joints
+            "joints": _joints_to_json(self.joints),
+            "by_load": {
+                name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
+                for name, own in self.by_load.items()
             },
             "parameters": [parameter.to_json() for parameter in self.parameters],
             "loads": [parameter.to_json() for parameter in self.loads],
@@ -217,7 +221,7 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             condition_scaled=_number(raw["condition_scaled"]),
             relative_error=_number(raw["relative_error"], float("nan")),
             essential_error=_number(raw["essential_error"], float("nan")),
-            joints=tuple(JointFit(name=name, **entry) for name, entry in raw["joints"].items()),
+            joints=_joints_from_json(raw["joints"]),
             parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
             covariance=covariance,
             loads=tuple(read_parameter(entry) for entry in raw["loads"]),
@@ -231,9 +235,38 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
             gains=tuple(read_parameter(entry) for entry in raw.get("gains", [])),
             singular_values=tuple(map(float, raw.get("singular_values", []))),
             reading={str(k): int(v) for k, v in raw.get("reading", {}).items()},
+            by_load={
+                str(name): _joints_from_json(own["joints"])
+                for name, own in raw.get("by_load", {}).items()
+            },
         )
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
+
+
+def pooled(joints: Sequence[JointFit]) -> float:
+    """||y - W beta|| / ||y|| over joints; NaN without torque."""
+    seen = [joint for joint in joints if joint.relative_error]
+    left = sum(joint.rows * joint.rms**2 for joint in seen)
+    total = sum(j.rows * (j.rms / j.relative_error) ** 2 for j in seen if j.relative_error)
+    return float(np.sqrt(left / total)) if total else float("nan")
+
+
+def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
+    return {
+        joint.name: {
+            "relative_error": joint.relative_error,
+            "rms": joint.rms,
+            "sigma": joint.sigma,
+            "rows": joint.rows,
+            "unit": joint.unit,
+        }
+        for joint in joints
+    }
+
+
+def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:
+    return tuple(JointFit(name=name, **entry) for name, entry in raw.items())
 
 
 def _verdict_to_json(verdict: Verdict | None) -> dict[str, Any]:

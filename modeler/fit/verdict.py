@@ -10,10 +10,11 @@ from scipy.special import chdtri
 
 from modeler.core.contract import ModuleSpec
 from modeler.estimate.coloured import autocorrelation
-from modeler.estimate.compressed import Compressed
+from modeler.estimate.compressed import Compressed, triangle
 from modeler.estimate.least_squares import solve_by_qr
-from modeler.estimate.passing import compressed, residual_of
+from modeler.estimate.passing import compressed
 from modeler.estimate.possible import Nearest, carried_by, machine_of, nearest_possible
+from modeler.estimate.rank import independent_columns
 from modeler.fit.clock import time_doubts
 from modeler.fit.crossed import Crossed, crossed
 from modeler.fit.directions import friction_by_direction
@@ -29,8 +30,8 @@ from modeler.fit.doubts import (
     undetermined,
     unshown,
 )
-from modeler.fit.identify import dead_joints
-from modeler.fit.result import FitResult, Verdict
+from modeler.fit.identify import Equations, base_equations, dead_joints
+from modeler.fit.result import FitResult, JointFit, Verdict
 from modeler.observation import Observation
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def with_verdict(
     observation: Observation,
     result: FitResult,
     told: Sequence[Told] = (),
-    bare: Sequence[str] | None = None,
+    equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     data: Compressed | None = None,
 ) -> FitResult:
@@ -64,30 +65,44 @@ def with_verdict(
         observation: that was fitted.
         result: of the fit.
         told: findings of other stages about the logs; one that is certain makes the fit unusable.
-        bare: names of the logs without a load; None: all.
+        equations: that were fitted; None: those of the bare robot.
         refit: how the fit is made without some samples; None: by least squares of the torques.
         data: all rows that were fitted, where the observation has a part of them only.
     """
-    rows = _rows(observation, bare)
-    part, data = data is not None, data or compressed(observation, rows)
-    seen = crossed(observation, rows, np.array([joint.sigma for joint in result.joints]), refit)
+    equations = equations or base_equations(observation)
+    rows = ~np.isin(observation.row_joint, dead_joints(observation))
+    part, data = data is not None, data or equations.compressed(rows)
+    seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
     found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
     if part:
         found += unshown(result, seen, _scale(data, observation, rows))
-        seen = _no_better(seen, result)
-    found += systematic(result, _lasting(observation, rows, result))
+    found += systematic(result, _lasting(equations, rows, result))
     found += undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
-    verdict, directions = _verdict(found, result, seen), friction_by_direction(model.spec, result)
+    verdict = _verdict(found, _predicts(equations, rows, result, seen))
+    directions = friction_by_direction(model.spec, result)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 
-def _no_better(seen: Crossed, result: FitResult) -> Crossed:
-    """What windows promise, but no better than the errors on all rows of the fit."""
-    errors = [np.nan if j.relative_error is None else j.relative_error for j in result.joints]
-    return dataclasses.replace(seen, errors=np.fmax(seen.errors, errors))
+def _predicts(equations: Equations, rows: np.ndarray, result: FitResult, seen: Crossed) -> str:
+    """What for a usable fit is good for; no better than it does where it was fitted."""
+
+    def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
+        own = [np.nan if j.relative_error is None else j.relative_error for j in joints]
+        return f"{100.0 * float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()):.2g} %"
+
+    told = {
+        name: largest(seen.on(equations, own), result.by_load[name])
+        for name, own in equations.conditions(rows).items()
+        if name in result.by_load
+    }
+    errors = " and ".join(f"{error} {name}" for name, error in told.items())
+    return (
+        f"predicts torques of motion like that of its logs to "
+        f"{errors or largest(seen.errors, result.joints)} on every joint (stretches left out)"
+    )
 
 
 def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.ndarray:
@@ -119,7 +134,8 @@ def contradictions(
         data: all rows that were fitted; None: those of the observation.
     """
     if data is None:
-        data = compressed(observation, _rows(observation, None))
+        rows = ~np.isin(observation.row_joint, dead_joints(observation))
+        data = compressed(observation, rows)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found = _with_poor([*found, *time_doubts(model, observation, result)], undescribed(result))
     found += _impossible(model.spec, result, data)
@@ -137,18 +153,10 @@ def _with_poor(found: list[Doubt], poor: list[Doubt]) -> list[Doubt]:
     ]
 
 
-def _rows(observation: Observation, bare: Sequence[str] | None) -> np.ndarray:
-    """(rows,) True for rows of the bare robot with a connected torque."""
-    rows = ~np.isin(observation.row_joint, dead_joints(observation))
-    if bare is not None:
-        runs = [i for i, name in enumerate(observation.logs) if name in set(bare)]
-        rows &= np.isin(observation.row_run, runs)
-    return np.asarray(rows)
-
-
-def _lasting(observation: Observation, rows: np.ndarray, result: FitResult) -> np.ndarray:
+def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.ndarray:
     """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
-    residual = residual_of(observation, result.beta)
+    observation, every = equations.observation, np.ones(len(rows), dtype=bool)
+    residual = equations.residual(_values(result), every)
     found = np.zeros(len(result.joints))
     for j, joint in enumerate(result.joints):
         own = rows & (observation.row_joint == j)
@@ -159,10 +167,15 @@ def _lasting(observation: Observation, rows: np.ndarray, result: FitResult) -> n
     return found
 
 
+def _values(result: FitResult) -> np.ndarray:
+    """(c + loads,) of all columns that were fitted."""
+    return np.append(result.beta, [load.value for load in result.loads])
+
+
 def _spread(data: Compressed, result: FitResult) -> np.ndarray:
     """(c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
     sigma = np.sqrt(np.diag(result.covariance))
-    column = np.linalg.norm(data.triangles[:, :, :-1], axis=1)
+    column = np.linalg.norm(data.triangles[:, :, : len(sigma)], axis=1)
     torque = data.torque_norms()
     driven = torque > 0.0
     share = column[driven] * sigma / torque[driven, None]
@@ -172,7 +185,7 @@ def _spread(data: Compressed, result: FitResult) -> np.ndarray:
 def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[Doubt]:
     """Values that no completion makes those of a machine that could be built."""
     machine = machine_of(spec)
-    white = data.whole(np.array([joint.sigma for joint in result.joints]))[:, :-1]
+    white = _told_of_robot(data, result)
     root = white / _colour(white, result)
     nearest = nearest_possible(machine, result.beta, root)
     limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
@@ -193,13 +206,21 @@ def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[D
     ]
 
 
+def _told_of_robot(data: Compressed, result: FitResult) -> np.ndarray:
+    """(., c) root of what the rows tell of the robot's parameters, whatever those of loads are."""
+    whole, c = data.whole(np.array([joint.sigma for joint in result.joints])), len(result.beta)
+    loads = whole.shape[1] - 1 - c
+    return triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
+
+
 def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
     """(c,) factors of the standard deviations over those of white residuals, 1 and more.
 
     All are the largest if columns were set aside: others carry their effect, and must go on to.
     """
     raised = np.sqrt(np.diag(result.covariance))
-    kept = np.flatnonzero(raised > 0.0)
+    names = [parameter.name for parameter in result.parameters]
+    kept = np.intersect1d(np.flatnonzero(raised), independent_columns(white, names).kept)
     factors = np.ones(len(raised))
     if kept.size:
         _, root = solve_by_qr(white[:, kept], np.zeros(len(white)))
@@ -228,23 +249,19 @@ class _Cost:
 def _cost(result: FitResult, data: Compressed, nearest: Nearest) -> _Cost:
     torque = data.torque_norms()
     driven = np.flatnonzero(torque > 0.0)
-    after = data.residual_norms(nearest.beta)[driven] / torque[driven]
-    before = data.residual_norms(result.beta)[driven] / torque[driven]
+    values = _values(result)
+    moved = np.append(nearest.beta, values[len(nearest.beta) :])
+    after = data.residual_norms(moved)[driven] / torque[driven]
+    before = data.residual_norms(values)[driven] / torque[driven]
     worst = int(np.argmax(after - before))
     return _Cost(result.joints[driven[worst]].name, float(before[worst]), float(after[worst]))
 
 
-def _verdict(found: Sequence[Doubt], result: FitResult, seen: Crossed) -> Verdict:
+def _verdict(found: Sequence[Doubt], good: str) -> Verdict:
     lines = tuple(dict.fromkeys(doubt.line for doubt in found))
     fatal = [doubt for doubt in found if doubt.certain]
     if fatal:
         return Verdict(False, "nothing", f"not usable: {fatal[0].line}", lines)
-    errors = seen.errors[np.isfinite(seen.errors)]
-    largest = 100.0 * float(errors.max(initial=0.0))
-    good = (
-        f"predicts torques of motion like that of its logs to {largest:.2g} % on every joint "
-        "(stretches left out)"
-    )
     values = [doubt for doubt in found if doubt.values]
     if values:
         line = (

@@ -27,7 +27,11 @@ _MOST = 12  # pairs that are told
 
 
 def write_fit(
-    path: Path, model: IdentifiedModel, provenance: Sequence[str] = (), place: str = "MODEL"
+    path: Path,
+    model: IdentifiedModel,
+    provenance: Sequence[str] = (),
+    place: str = "MODEL",
+    following: Sequence[str] = (),
 ) -> Path:
     """Write the page; returns the path of the file written.
 
@@ -35,7 +39,8 @@ def write_fit(
         path: an `.html` file, or a folder, which then gets `fit.html`.
         model: fitted.
         provenance: lines on how the data came about.
-        place: of the model file, for the next command.
+        place: of the model file.
+        following: commands to go on with; none: those for any logs.
 
     Raises:
         ModelerError: the place cannot be written.
@@ -47,7 +52,7 @@ def write_fit(
         sections=_sections(model),
         origin=Origin(place, [log.name for log in model.logs], False),
         facts=_facts(fit),
-        next=after_fit(place),
+        next=following or after_fit(place, ["LOG"], fit.robot, fit),
         provenance=provenance,
         command="fit",
     )

@@ -12,6 +12,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.estimate.compressed import compress
 from modeler.estimate.tls import mixed_tls
 from modeler.fit import Payload, check_currents, identify_gains, known_doubts
+from modeler.fit.known import deviations
 from modeler.fit.mounting import mounted_differently, remounted
 from modeler.observation import observe
 from modeler.robot import builtin_text, robot_from_text
@@ -267,3 +268,17 @@ def test_gains_in_a_robot_file_are_replaced_or_refused(text):
     robot = robot_from_text(with_drive_gains(source, {"1": 2.5, "2": -0.1}), "changed")
     assert robot.drive_gains == {"1": 2.5, "2": -0.1}
     assert robot.parameters == robot_from_text(source, "as it was").parameters
+
+
+@pytest.mark.parametrize("stated", [True, False])
+def test_a_negative_gain_is_called_negative(arm, stated):
+    """The current of joint 2 is logged with the other sign."""
+    found = identify_gains(arm.compiled, arm.seen(TRUE * [1.0, -1.0, 1.0]), [arm.payload()])
+    spec = arm.compiled.spec
+    if not stated:
+        joints = tuple(replace(joint, drive_gain=None) for joint in spec.joints)
+        spec = replace(spec, joints=joints)
+    (line,) = (line for line in deviations(spec, found) if line.startswith("joint 2 "))
+    assert ("of the other sign than 1" if stated else "negative") in line
+    assert "current2 or q2 is counted the other way round" in line and "sign = -1" in line
+    assert "below" not in line and "%" not in line

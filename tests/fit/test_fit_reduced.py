@@ -81,9 +81,14 @@ def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
 def test_it_is_told_and_saved(fitted):
     _, fit = fitted
     lines = fit.lines()
-    start = next(i for i, line in enumerate(lines) if line.startswith("reduced model: "))
-    assert f"{len(fit.essential.parameters)} essential of 13 parameters" in lines[start]
-    assert lines[start + 1].split() == ["parameter", "value", "sigma", "%sigma", "unit"]
+    (told,) = (line for line in lines if line.startswith("reduced model: "))
+    assert f"{len(fit.essential.parameters)} essential of 13 parameters" in told
+    (head,) = (line for line in lines if line.startswith("parameter "))  # one table
+    assert head.split() == ["parameter", "value", "sigma", "%sigma", "reduced", "unit"]
+    rows = {line.split()[0]: line.split() for line in lines[1:14]}
+    for parameter in fit.essential.parameters:
+        assert rows[parameter.name][4] == f"{parameter.value:.6g}"
+    assert all(rows[name][4] == "-" for name in fit.essential.dropped)
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
     assert {"parameters", "dropped", "condition_number", "relative_error"} <= set(raw["essential"])
     assert fit_from_json(raw, fit.covariance).essential == fit.essential
