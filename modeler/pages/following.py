@@ -3,12 +3,14 @@
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from modeler.diagnose import Diagnosis
-from modeler.fit import FitResult
+if TYPE_CHECKING:  # the sentence after a fit needs no diagnosis loaded
+    from modeler.diagnose import Diagnosis
+    from modeler.fit import FitResult
 
 
-def after_fit(model: str, logs: Sequence[str], robot: str, fit: FitResult) -> list[str]:
+def after_fit(model: str, logs: Sequence[str], robot: str, fit: "FitResult") -> list[str]:
     """Judge the model on other data, and look for what it lacks; first what the fit asks for.
 
     Args:
@@ -48,7 +50,7 @@ def after_compare(
 
 
 def after_diagnosis(
-    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: Diagnosis
+    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis"
 ) -> list[str]:
     """Add the first effect that has columns; without any, see what is left, or take the model."""
     first = next((f for f in diagnosis.effects if f.pick is not None), None)

@@ -79,7 +79,7 @@ def test_memory_runs_out_in_any_words(error: Exception, monkeypatch, capsys) -> 
 
 def test_interrupted(tmp_path: Path) -> None:
     """In the midst of the work, which `--verbose` tells."""
-    words = ("-v", "simulate", "panda", "--duration", "60", "--out", str(tmp_path / "x.parquet"))
+    words = ("-v", "simulate", "panda", "--duration", "600", "--out", str(tmp_path / "x.parquet"))
     running = subprocess.Popen(
         [sys.executable, "-m", "modeler.cli", *words], stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONUNBUFFERED": "1"},
