@@ -11,7 +11,7 @@ import pytest
 
 from modeler.api import derive, generate
 from modeler.cli import main
-from modeler.codegen import emit
+from modeler.codegen import emit, write_emitted
 from modeler.codegen.single import of_precision, single_text
 from modeler.compiled import CompiledModel, load, load_folder
 from modeler.core.contract import Emitted, module_from_json
@@ -115,8 +115,7 @@ def test_sine_and_cosine(flags, tmp_path):
 def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_path):
     """The fitted unit and all programs included; of <math.h> only functions of floats."""
     made = emitted(name)
-    for file, text in made.files.items():
-        (tmp_path / file).write_text(text)
+    write_emitted(made, tmp_path)
     flags = " ".join([*STRICT[1:], *FLOATS])
     make = ["make", "-s", "-C", str(tmp_path), f"CC={compiler(cc)}", f"CFLAGS={flags} -O1"]
     said = subprocess.run([*make, "check", "examples"], capture_output=True, text=True, check=False)
@@ -229,9 +228,7 @@ def test_robots_of_both_precisions_live_in_one_program(tmp_path):
     libraries = []
     for made in (wrist, arm):
         folder = tmp_path / made.spec.prefix
-        folder.mkdir()
-        for name, text in made.files.items():
-            (folder / name).write_text(text)
+        write_emitted(made, folder)
         subprocess.run(["make", "-s", "-C", folder, f"CC={compiler('gcc')}"], check=True)
         libraries += [folder / f"lib{made.spec.prefix}_model.a", f"-I{folder}"]
     (tmp_path / "main.c").write_text(main_c)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from modeler.base import base_parameters
-from modeler.codegen import emit
+from modeler.codegen import emit, write_emitted
 from modeler.compiled import load
 from modeler.core.contract import Emitted
 from modeler.robot import EffectUse, read_robot
@@ -107,8 +107,7 @@ def test_instructions_of_a_call_are_counted(precision, tmp_path):
     """Straight-line code: as many as the listing has."""
     tool("qemu-system-arm")
     made = emitted("puma560", precision)
-    for name, text in made.files.items():
-        (tmp_path / name).write_text(text)
+    write_emitted(made, tmp_path)
     library(made, tmp_path, "cortex-m7")
     subprocess.run(["make", "-s", "-C", tmp_path, "count"], check=True, stdout=subprocess.DEVNULL)
     told = (tmp_path / "puma560_instructions.h").read_text()

@@ -53,6 +53,12 @@ def other() -> dict[str, str]:
     }
 
 
+def write(files: dict[str, str], folder: Path) -> None:
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+
+
 def signature() -> str:
     return module("emps").emitted.spec.signature()
 
@@ -166,9 +172,7 @@ def test_the_library_beside_is_found_where_the_first_has_another_signature(folde
     """By the number that stands for the signature; by the interface alone any will do."""
     compiler("cmake")
     another, prefix, place = tmp_path / "other", tmp_path / "prefix", tmp_path / "consumer"
-    another.mkdir()
-    for name, text in other().items():
-        (another / name).write_text(text)
+    write(other(), another)
     install_by_make(another, tmp_path / "first")
     install_by_make(folder, prefix)
     version = package_version(signature())
@@ -186,8 +190,7 @@ def test_a_program_never_gets_the_library_of_another_signature(folder, tmp_path)
     lib = prefix / "lib"
     link = ["-I", prefix / "include" / "emps", "-L", lib, f"-Wl,-rpath,{lib}", "-lemps_model"]
     run("g++", "consumer.cpp", *link, "-o", "old", where=place)
-    for name, text in other().items():
-        (folder / name).write_text(text)
+    write(other(), folder)
     run("make", "clean", where=folder)
     install_by_make(folder, prefix)
     run("g++", "consumer.cpp", *link, "-o", "new", where=place)
@@ -203,8 +206,7 @@ def test_a_kind_that_was_left_by_another_signature_is_not_taken(folder, tmp_path
     compiler("cmake")
     prefix, place = tmp_path / "prefix", tmp_path / "consumer"
     install_by_cmake(folder, prefix, shared=False)
-    for name, text in other().items():
-        (folder / name).write_text(text)
+    write(other(), folder)
     install_by_cmake(folder, prefix, shared=True)
     assert "that is static" in not_found(place, prefix, "REQUIRED COMPONENTS static")
 
