@@ -9,8 +9,7 @@ from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
 from modeler.derivation import Derivation
 from modeler.fit import FitResult, IdentifiedModel, Method, with_verdict
-from modeler.fit.long import OF_TRIANGLES, identify_long
-from modeler.fit.streamed import Reducer, Streamed, stream
+from modeler.fit.streamed import OF_TRIANGLES, Reducer, Streamed, identify_long, stream
 from modeler.logs.blocks import blocks_of
 from modeler.observation import Log, Observation, Processing
 from modeler.observation.findings import findings_of_fit

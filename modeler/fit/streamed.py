@@ -12,9 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler.core.choices import Method
 from modeler.core.errors import DataError, LoopError
 from modeler.estimate.compressed import Compressed, merged
+from modeler.fit.identify import base_equations, dead_joints, fit_equations
 from modeler.fit.partial import reduce_chunk
+from modeler.fit.result import FitResult
 from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER
@@ -30,6 +33,9 @@ if TYPE_CHECKING:
 
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
+
+OF_TRIANGLES: tuple[Method, ...] = ("weighted", "ordinary")
+"""Methods that need no row again once the triangles are there."""
 
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
@@ -86,6 +92,39 @@ def stream(
     """
     passes, every = all_rows(model, sources, processing, progress, rows, reducer or by_threads)
     return _streamed(model, sources, passes, [partial.data for partial in every])
+
+
+def identify_long(
+    streamed: Streamed, method: Method = "weighted", model: "CompiledModel | None" = None
+) -> FitResult:
+    """The fit of the base parameters to long logs.
+
+    Values, sigmas, errors and the essential parameters come from all rows; how far residuals
+    remember, and by what factor that raises the sigmas, from the windows.
+
+    Args:
+        streamed: the logs.
+        method: "weighted" or "ordinary".
+        model: the compiled robot.
+
+    Raises:
+        DataError: another method, fewer rows than parameters, or no torque at all.
+    """
+    if method not in OF_TRIANGLES:
+        raise DataError(
+            f"fit: method {method} reads every row again and again, and long logs are not kept in "
+            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
+        )
+    observation, data = streamed.observation, streamed.data
+    gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
+    data = dataclasses.replace(
+        data,
+        triangles=np.where(gone[:, None, None], 0.0, data.triangles),
+        rows=np.where(gone, 0, data.rows),
+    )
+    equations = base_equations(observation)
+    fit = fit_equations(observation, equations, method, model, data=data, share=streamed.share)
+    return dataclasses.replace(fit, samples=streamed.samples, reading=streamed.reading)
 
 
 def all_rows(
