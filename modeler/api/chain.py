@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
-from modeler.api.ways import Asked, estimated
+from modeler.api.ways import Asked, estimated, judged
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.choices import Method, Precision
@@ -25,14 +25,12 @@ from modeler.fit import (
     fitted_spec,
     in_drive_units,
     provenance,
-    with_verdict,
 )
 from modeler.fit.reduced import with_essential_only
 from modeler.logs import LogMap, map_from_table, map_from_words
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart
-from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import LONG
 from modeler.observation.part import read_part
 from modeler.observation.source import source_of
@@ -230,9 +228,7 @@ def fit(
     compiled = compile_model(emitted)
     asked = Asked(method, energy, window, tuple(payloads), essential_below)
     way = estimated(asked, derivation.robot, compiled, observation)
-    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-    result = with_verdict(compiled, observation, way.result, told, way.equations, way.refit)
-    return identified(derivation, emitted, observation, result)
+    return identified(derivation, emitted, observation, judged(compiled, observation, way))
 
 
 def _check_of_one_robot(derivation: Derivation, emitted: Emitted, observation: Observation) -> None:

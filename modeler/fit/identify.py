@@ -69,12 +69,24 @@ class Equations:
         loaded = np.isin(logs, self.carried)[self.observation.row_run]
         return {"bare": counted & ~loaded, "loaded": counted & loaded}
 
-    def compressed(self, counted: np.ndarray, free: Sequence[int] = ()) -> Compressed:
-        """Some rows, compressed; `free` are the joints without a motor."""
+    def with_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
+        """The same with further columns (rows, k), and the torques as they were measured."""
+        return dataclasses.replace(
+            self,
+            extra=np.column_stack([self.extra, columns]),
+            y=self.observation.y,
+            names=(*self.names, *names),
+            units=(*self.units, *("1" for _ in names)),
+        )
+
+    def compressed(self, counted: np.ndarray) -> Compressed:
+        """Some rows, compressed."""
+        joints = self.observation.joints
+        free = [j for j, joint in enumerate(joints) if not joint.actuated]
         if (W := self.kept) is None:
             return compressed(self.observation, counted, free)
-        own, joints = self.observation.row_joint[counted], len(self.observation.joints)
-        return compress(W[counted], self.y[counted], own, joints, self.names, free)
+        own = self.observation.row_joint[counted]
+        return compress(W[counted], self.y[counted], own, len(joints), self.names, free)
 
     def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
         """y - W beta of some rows."""
@@ -132,8 +144,7 @@ def fit_equations(
     """
     estimator, windows = method_of(method), data is not None
     dead, alive = dead_joints(observation), alive_rows(observation)
-    if data is None:
-        data = _compressed(equations, alive)
+    data = data or equations.compressed(alive)
     check_enough_rows(observation, len(equations.names), int(data.rows.sum()))
     problem = Problem(
         observation, equations.kept, equations.y, alive, equations.names, equations.units, data,
@@ -172,11 +183,6 @@ def fit_equations(
             for name, own in equations.conditions(alive).items()
         },
     )  # fmt: skip
-
-
-def _compressed(equations: Equations, counted: np.ndarray) -> Compressed:
-    joints = equations.observation.joints
-    return equations.compressed(counted, [j for j, own in enumerate(joints) if not own.actuated])
 
 
 def _coloured(
@@ -249,7 +255,7 @@ def result_of(
 
 def all_rows(observation: Observation) -> Compressed:
     """The equations of the bare robot on all joints whose torque is connected."""
-    return _compressed(base_equations(observation), alive_rows(observation))
+    return base_equations(observation).compressed(alive_rows(observation))
 
 
 def alive_rows(observation: Observation) -> np.ndarray:
