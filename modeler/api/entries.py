@@ -20,13 +20,11 @@ from modeler.api.chain import read_currents as read_currents
 from modeler.api.chain import read_logs as read_logs
 from modeler.api.chain import recompile as recompile
 from modeler.api.chain import reduced as reduced
-from modeler.api.contests import contest as contest
 from modeler.api.exciting import excite as excite
 from modeler.api.exciting import tell_apart as tell_apart
 from modeler.api.files import open_model as open_model
 from modeler.api.files import save as save
 from modeler.api.fleets import fleet as fleet
-from modeler.api.freeruns import free_run as free_run
 from modeler.api.gains import Load as Load
 from modeler.api.gains import fit_gains as fit_gains
 from modeler.api.graphics import on_gpu as on_gpu
@@ -34,7 +32,9 @@ from modeler.api.improving import add as add
 from modeler.api.improving import auto as auto
 from modeler.api.improving import undo as undo
 from modeler.api.judging import compare as compare
+from modeler.api.judging import contest as contest
 from modeler.api.judging import diagnose as diagnose
+from modeler.api.judging import free_run as free_run
 from modeler.api.letters import physical as physical
 from modeler.api.looking import look_at as look_at
 from modeler.api.postures import at_home as at_home
