@@ -17,6 +17,15 @@ MENDED = 0.25
 """Share of a joint's squared residual: with less of it left, its torque has the scale it should."""
 
 
+LATE_SHARE = 0.2
+"""Least share of the error variance left that the shift of one position explains."""
+
+AHEAD = 1.5
+"""Least ratio of what it explains to what the best effect of the catalogue would."""
+
+_SURE = 4.5  # falls over their standard error
+
+
 def doubts(
     model: IdentifiedModel, found: Search, other: Data | None, faults: Sequence[Fault]
 ) -> tuple[str, ...]:
@@ -92,17 +101,10 @@ def _fitted_before(model: IdentifiedModel, other: Data) -> list[str]:
     ]  # fmt: skip
 
 
-SHARE = 0.2
-"""Least share of the error variance left that the shift of one position explains."""
-
-AHEAD = 1.5
-"""Least ratio of what it explains to what the best effect of the catalogue would."""
-
-_SURE = 4.5  # falls over their standard error
-
-
 def late_lines(found: Search) -> list[str]:
     """A sentence on the joint whose position comes late, or early, beside all other channels.
+
+    Nothing in the catalogue shifts one joint in time.
 
     With q measured T too late, the torque is that of q + T qd; its derivative with respect to T is
     a column like any other. It is believed if it explains more of what the named effects leave
@@ -124,7 +126,7 @@ def late_lines(found: Search) -> list[str]:
     step = float(np.median([signals.segment.step for signals in state.rows.signals]))
     late = float(ranking.value[best])
     if (
-        drop[best] < SHARE * float(ranking.before.sum())
+        drop[best] < LATE_SHARE * float(ranking.before.sum())
         or drop[best] < AHEAD * max(rivals, default=0.0)
         or ranking.sure[best] < _SURE
         or abs(late) < CONVENTION * step

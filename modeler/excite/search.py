@@ -1,4 +1,7 @@
-"""The search for an exciting motion: many random starts, descent from the best of them."""
+"""The search for an exciting motion: many random starts, descent from the best of them.
+
+The random motions are also what the result is compared with.
+"""
 
 import dataclasses
 import math
@@ -31,6 +34,8 @@ _DENSE_LOOPS = 16  # samples per period of the highest harmonic, where loops are
 _FINER = 10  # times as many samples for the last check
 _NEARLY = 0.999  # of the limits, at these samples
 _INWARD = 20  # steps of a tenth towards rest, where smooth dry friction breaks a limit of torque
+
+_FULL = 0.95  # of the limits, of random motions
 
 Item = TypeVar("Item")
 
@@ -280,9 +285,6 @@ def used(task: Task, x: np.ndarray) -> Used:
         float(np.abs(posture).max()) if posture.size else None,
         float(posture[:, : len(fine.posture.kinds)].max()) if fine.posture.kinds else None,
     )  # fmt: skip
-
-
-_FULL = 0.95  # of the limits
 
 
 def random_motion(task: Task, rng: np.random.Generator) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.compressed import compress
-from modeler.estimate.least_squares import Estimate
+from modeler.estimate.least_squares import Estimate, condition_numbers
 from modeler.estimate.passing import compressed
 from modeler.estimate.unequal import Unequal, unequal_least_squares
 from modeler.fit.crossed import solved
@@ -136,12 +136,10 @@ def _essential(
     data = compress(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
     essential = essential_parameters(data, full, "ordinary", below)
     at = [names.index(name) for name in essential.names]
-    W = rows.W[:, at]
+    raw, scaled = condition_numbers(rows.W[:, at])
+    covariance = essential.reduced.covariance * found.memory**2
     reduced = dataclasses.replace(
-        essential.reduced,
-        covariance=essential.reduced.covariance * found.memory**2,
-        condition_number=float(np.linalg.cond(W)),
-        condition_scaled=float(np.linalg.cond(W / np.linalg.norm(W, axis=0))),
+        essential.reduced, covariance=covariance, condition_number=raw, condition_scaled=scaled
     )
     return dataclasses.replace(essential, reduced=reduced)
 

@@ -53,15 +53,8 @@ class Reduced(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {
-            "parameters": [parameter.to_json() for parameter in self.parameters],
-            "dropped": list(self.dropped),
-            "condition_number": self.condition_number,
-            "condition_scaled": self.condition_scaled,
-            "relative_error": self.relative_error,
-            "ratio": self.ratio,
-            "limit": self.limit,
-        }
+        parameters = [parameter.to_json() for parameter in self.parameters]
+        return vars(self) | {"parameters": parameters, "dropped": list(self.dropped)}
 
 
 def reduced_from_json(raw: Mapping[str, Any] | None) -> Reduced | None:

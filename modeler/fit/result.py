@@ -18,6 +18,8 @@ from modeler.fit.parameter import parameter_lines, read_parameter
 from modeler.fit.reduced import Reduced, reduced_from_json
 from modeler.observation import Processing, processing_from_json
 
+_ROUND = "{:.4g}".format
+
 
 @dataclass(frozen=True)
 class JointFit:
@@ -291,9 +293,6 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
 
 def _number(value: float | None, unknown: float = float("inf")) -> float:
     return unknown if value is None else float(value)
-
-
-_ROUND = "{:.4g}".format
 
 
 def bodies_told(standard: Mapping[str, float]) -> list[str]:

@@ -1,4 +1,7 @@
-"""Long logs: a look at windows, then every row once, in chunks, in flat memory."""
+"""Long logs: a look at windows, then every row once, in chunks, in flat memory; their fit.
+
+A chunk is reduced to what a fit needs of it by pure functions, for any worker.
+"""
 
 import dataclasses
 from collections import deque
