@@ -12,6 +12,7 @@ from modeler.compiled import load as load_compiled
 from modeler.core.choices import Method, Precision
 from modeler.core.contract import Emitted, ModuleSpec
 from modeler.core.errors import DataError, ManifestError
+from modeler.core.files import write_atomically
 from modeler.core.window import file_and_window
 from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
@@ -24,7 +25,9 @@ from modeler.fit import (
     check_currents,
     fitted_spec,
     in_drive_units,
+    load_model,
     provenance,
+    save_model,
 )
 from modeler.fit.reduced import with_essential_only
 from modeler.logs import LogMap, map_from_table, map_from_words
@@ -297,3 +300,26 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
         DataError: the model was saved by a version that kept none.
     """
     return with_essential_only(model, f"model of {model.spec.robot}")
+
+
+def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
+    """Write a model file, or the file of a robot; an interrupted write leaves the old file.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    if isinstance(thing, Robot):
+        write_atomically(Path(path), thing.text)
+    else:
+        save_model(path, thing)
+    return Path(path)
+
+
+def open_model(path: str | Path) -> IdentifiedModel:
+    """Read a model file. Robot files are read by `load`.
+
+    Raises:
+        ManifestError: missing, not a model file, of another format, damaged, or changed since it
+            was saved.
+    """
+    return load_model(path)

@@ -15,15 +15,15 @@ from modeler.api.chain import identified as identified
 from modeler.api.chain import load as load
 from modeler.api.chain import log_map as log_map
 from modeler.api.chain import observe as observe
+from modeler.api.chain import open_model as open_model
 from modeler.api.chain import own_effect as own_effect
 from modeler.api.chain import read_currents as read_currents
 from modeler.api.chain import read_logs as read_logs
 from modeler.api.chain import recompile as recompile
 from modeler.api.chain import reduced as reduced
+from modeler.api.chain import save as save
 from modeler.api.exciting import excite as excite
 from modeler.api.exciting import tell_apart as tell_apart
-from modeler.api.files import open_model as open_model
-from modeler.api.files import save as save
 from modeler.api.fleets import fleet as fleet
 from modeler.api.gains import Load as Load
 from modeler.api.gains import fit_gains as fit_gains
