@@ -17,8 +17,7 @@ from scipy.optimize import differential_evolution, minimize
 from modeler.api import compile_model, derive, generate
 from modeler.cli.excite import bounds_of
 from modeler.excite.criterion import condition
-from modeler.excite.search import Wish, excite, task_of, usual_harmonics
-from modeler.excite.starts import random_motion
+from modeler.excite.search import Wish, excite, random_motion, task_of, usual_harmonics
 from modeler.excite.task import Task
 from modeler.robot import Robot, read_robot, robot_from_text
 from modeler.robot.edit import with_effects

@@ -6,12 +6,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
-from modeler.api.ways import Asked, estimated
+from modeler.api.ways import Asked, estimated, judged
 from modeler.compiled import CompiledModel
 from modeler.compiled import load as load_compiled
 from modeler.core.choices import Method, Precision
 from modeler.core.contract import Emitted, ModuleSpec
 from modeler.core.errors import DataError, ManifestError
+from modeler.core.files import write_atomically
 from modeler.core.window import file_and_window
 from modeler.derivation import Derivation as Derivation
 from modeler.derivation import derive as derive
@@ -24,15 +25,15 @@ from modeler.fit import (
     check_currents,
     fitted_spec,
     in_drive_units,
+    load_model,
     provenance,
-    with_verdict,
+    save_model,
 )
 from modeler.fit.reduced import with_essential_only
 from modeler.logs import LogMap, map_from_table, map_from_words
 from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart
-from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import LONG
 from modeler.observation.part import read_part
 from modeler.observation.source import source_of
@@ -230,9 +231,7 @@ def fit(
     compiled = compile_model(emitted)
     asked = Asked(method, energy, window, tuple(payloads), essential_below)
     way = estimated(asked, derivation.robot, compiled, observation)
-    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-    result = with_verdict(compiled, observation, way.result, told, way.equations, way.refit)
-    return identified(derivation, emitted, observation, result)
+    return identified(derivation, emitted, observation, judged(compiled, observation, way))
 
 
 def _check_of_one_robot(derivation: Derivation, emitted: Emitted, observation: Observation) -> None:
@@ -301,3 +300,26 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
         DataError: the model was saved by a version that kept none.
     """
     return with_essential_only(model, f"model of {model.spec.robot}")
+
+
+def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
+    """Write a model file, or the file of a robot; an interrupted write leaves the old file.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    if isinstance(thing, Robot):
+        write_atomically(Path(path), thing.text)
+    else:
+        save_model(path, thing)
+    return Path(path)
+
+
+def open_model(path: str | Path) -> IdentifiedModel:
+    """Read a model file. Robot files are read by `load`.
+
+    Raises:
+        ManifestError: missing, not a model file, of another format, damaged, or changed since it
+            was saved.
+    """
+    return load_model(path)

@@ -6,18 +6,17 @@ from collections.abc import Callable, Sequence
 from modeler.api.chain import AnyLog, Mapped, compile_model, generate, identified, read_currents
 from modeler.api.door import fitting
 from modeler.api.steps import Steps, silent
+from modeler.api.ways import Way, judged
 from modeler.compiled import CompiledModel
 from modeler.core.contract import ModuleSpec
 from modeler.derivation import Derivation
-from modeler.fit import GainFit, IdentifiedModel, Payload, identify_gains, with_verdict
-from modeler.fit.alike import not_alike
-from modeler.fit.doubts import Doubt, Told
+from modeler.fit import GainFit, IdentifiedModel, Payload, identify_gains
+from modeler.fit.alike import not_together, remounted
+from modeler.fit.doubts import Doubt
 from modeler.fit.known import deviations
-from modeler.fit.mounting import mounted_differently, remounted
 from modeler.fit.payload import loaded_equations
 from modeler.observation import Log, Observation, Processing, observe
 from modeler.observation.apart import check_apart
-from modeler.observation.findings import findings_of_fit
 from modeler.robot import robot_from_text
 from modeler.robot.edit import with_drive_gains
 
@@ -104,12 +103,10 @@ def found_with_gains(
         )
         result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
-        told: list[Told] = [*findings_of_fit(again, observation, result.beta)]
-        apart = mounted_differently(again, observation, payloads)
-        apart = apart or not_alike(again, observation, payloads)
-        told += [Doubt(line, values=True) for line in apart]
+        apart = not_together(again, observation, payloads)
+        told = [Doubt(line, values=True) for line in apart]
         equations = loaded_equations(again, observation, payloads).equations
-        result = with_verdict(again, observation, result, told, equations)
+        result = judged(again, observation, Way(result, told, equations=equations))
     said = _deviations(compiled.spec, found)
     result = dataclasses.replace(result, sentences=(*result.sentences, *said))
     report = dataclasses.replace(observation.report, choices=choices)

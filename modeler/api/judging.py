@@ -1,6 +1,7 @@
 """What a model predicts against what was measured, and what it lacks."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from string import ascii_uppercase
 
 from modeler.api.chain import AnyLog, Mapped, read_logs, recompile
 from modeler.api.given import check_logs, given
@@ -9,14 +10,20 @@ from modeler.compare import Comparison
 from modeler.compare import compare as compare_prediction
 from modeler.compare.long import compare_long
 from modeler.compare.predict import predict
+from modeler.compare.together import predict_together
 from modeler.compiled import CompiledModel
+from modeler.core.errors import DataError
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing
 from modeler.fit import IdentifiedModel
+from modeler.freerun import Asked, FreeRun
+from modeler.freerun import free_run as run_freely
 from modeler.observation import Observation
 from modeler.observation.apart import check_apart
 from modeler.observation.survey import WholeNeeded
 from modeler.robot import robot_from_text
+from modeler.scoring.contest import Contest
+from modeler.scoring.contest import contest as judged
 
 
 def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
@@ -73,3 +80,59 @@ def diagnose(
     given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
     check_apart(given, kept)
     return find_missing(model, compiled, given, kept, without, progress=progress, known=known)
+
+
+def contest(
+    models: Mapping[str, IdentifiedModel] | Sequence[IdentifiedModel],
+    logs: Sequence[AnyLog],
+    mapping: Mapped = (),
+) -> Contest:
+    """Models side by side: the error of each by joint, and which is better beyond doubt.
+
+    Args:
+        models: by the name that they are to have; of a list they are called A, B, C ...
+        logs: of motion that none was fitted on.
+        mapping: as of `read_logs`.
+
+    Raises:
+        DataError: fewer than two models, or of different robots.
+    """
+    if len(models) < 2:
+        raise DataError(f"contest: got {len(models)} models; expected two at least")
+    named = models if isinstance(models, Mapping) else _lettered(models)
+    compiled = [recompile(model) for model in named.values()]
+    read = [read_logs(own, logs, mapping) for own in compiled]
+    check_apart(read[0])
+    names = list(named)
+    predictions, _ = predict_together(list(named.values()), compiled, read, names)
+    return judged(names, predictions)
+
+
+def _lettered(models: Sequence[IdentifiedModel]) -> dict[str, IdentifiedModel]:
+    if len(models) > len(ascii_uppercase):
+        raise DataError(
+            f"contest: got a list of {len(models)} models, more than there are letters; expected a "
+            "mapping of names, each to a model"
+        )
+    return dict(zip(ascii_uppercase, models, strict=False))
+
+
+def free_run(
+    model: IdentifiedModel,
+    logs: Sequence[AnyLog],
+    asked: Asked | None = None,
+    mapping: Mapped = (),
+) -> FreeRun:
+    """Positions of the fitted robot under the logged torques, beside the logged ones.
+
+    Args:
+        model: fitted.
+        logs: of motion that it was not fitted on.
+        asked: window in s, bound as a share of the range of motion, controller gains.
+        mapping: as of `read_logs`.
+
+    Raises:
+        DataError: a log cannot be run; says why.
+    """
+    compiled = recompile(model)
+    return run_freely(model, read_logs(compiled, logs, mapping), compiled, asked or Asked())

@@ -4,16 +4,15 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.api.chain import AnyLog, Mapped, file_and_span, identified, log_map, read_logs
+from modeler.api.ways import Way, judged
 from modeler.compiled import CompiledModel
 from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
 from modeler.derivation import Derivation
-from modeler.fit import FitResult, IdentifiedModel, Method, with_verdict
-from modeler.fit.long import OF_TRIANGLES, identify_long
-from modeler.fit.streamed import Reducer, Streamed, stream
+from modeler.fit import FitResult, IdentifiedModel, Method
+from modeler.fit.streamed import OF_TRIANGLES, Reducer, Streamed, identify_long, stream
 from modeler.logs.blocks import blocks_of
 from modeler.observation import Log, Observation, Processing
-from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import LONG, MOST_WHOLE
 from modeler.observation.source import MemorySource, Source, source_of
 
@@ -112,9 +111,8 @@ def fit_long(
 
 def judged_long(compiled: CompiledModel, streamed: Streamed, method: Method) -> FitResult:
     """The fit of long logs with its verdict."""
-    result = identify_long(streamed, method, compiled)
-    told = findings_of_fit(compiled, streamed.observation, result.beta)
-    return with_verdict(compiled, streamed.observation, result, told, data=streamed.data)
+    way = Way(identify_long(streamed, method, compiled))
+    return judged(compiled, streamed.observation, way, streamed.data)
 
 
 def check_rows_apart(observation: Observation) -> None:

@@ -11,6 +11,7 @@ from modeler.core.choices import GAIN_METHOD, TWO_STEPS
 from modeler.core.errors import DataError
 from modeler.core.estimators import ABOUT
 from modeler.estimate.alone import Directions
+from modeler.estimate.compressed import Compressed
 from modeler.fit import (
     FitResult,
     Payload,
@@ -20,11 +21,13 @@ from modeler.fit import (
     identify_with_payloads,
     known_doubts,
     two_step,
+    with_verdict,
 )
 from modeler.fit.doubts import Told
 from modeler.fit.identify import Equations
 from modeler.fit.payload import loaded_equations
 from modeler.observation import Observation
+from modeler.observation.findings import findings_of_fit
 from modeler.robot import Robot
 from modeler.robot.motors import joint_directions
 from modeler.robot.place import near
@@ -99,6 +102,21 @@ def estimated(asked: Asked, robot: Robot, compiled: CompiledModel, observation: 
         equations = loaded_equations(compiled, observation, asked.payloads).equations
         return Way(result, told, equations=equations)
     return Way(identify(observation, method, compiled, asked.below))
+
+
+def judged(
+    compiled: CompiledModel, observation: Observation, way: Way, data: Compressed | None = None
+) -> FitResult:
+    """Its result with the verdict, to which all that is found in the logs counts.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+        way: how.
+        data: all rows that were fitted, where the observation has a part of them only.
+    """
+    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
+    return with_verdict(compiled, observation, way.result, told, way.equations, way.refit, data)
 
 
 def _check(asked: Asked) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from modeler.api.chain import compile_model, derive, generate, identified, read_logs
 from modeler.api.given import check_logs, given
-from modeler.api.ways import estimated
+from modeler.api.ways import estimated, judged
 from modeler.cli.console import Json, say, say_next, working
 from modeler.cli.drive_gains import check_load, fit_with_gains
 from modeler.cli.long_logs import fit_if_long
@@ -15,9 +15,8 @@ from modeler.cli.ways import asked, check_way
 from modeler.core.choices import GAIN_METHOD
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.fit import FitResult, IdentifiedModel, save_model, with_verdict
+from modeler.fit import FitResult, IdentifiedModel, save_model
 from modeler.observation import Log, Observation, Processing, observe
-from modeler.observation.findings import findings_of_fit
 from modeler.pages.following import after_fit
 from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
@@ -61,8 +60,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     with working("estimating"):
         way = estimated(asked(args, loaded), robot, compiled, observation)
     with working("judging the fit"):
-        told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-        result = with_verdict(compiled, observation, way.result, told, way.equations, way.refit)
+        result = judged(compiled, observation, way)
     model = identified(derivation, emitted, observation, result)
     return _written(args, model, observation, way.lines) | way.further
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 from modeler.api.chain import file_and_span, observe, read_mapped
 from modeler.api.long_logs import are_long, judged_long, too_long
+from modeler.api.ways import Way, judged
 from modeler.cli.console import working
 from modeler.compiled import CompiledModel
 from modeler.core.errors import ModelerError
-from modeler.fit import FitResult, identify, with_verdict
+from modeler.fit import FitResult, identify
 from modeler.fit.streamed import stream
 from modeler.logs import LogMap, map_from_table
 from modeler.logs.look import Look
@@ -86,6 +87,5 @@ def _fitted(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Obser
             if too_long([place]):
                 raise
     observation = observe(compiled, [read_mapped(place, compiled.spec, mapping)])
-    result = identify(observation, "weighted", compiled)
-    found = findings_of_fit(compiled, observation, result.beta)
-    return observation, with_verdict(compiled, observation, result, found)
+    way = Way(identify(observation, "weighted", compiled))
+    return observation, judged(compiled, observation, way)

@@ -12,8 +12,7 @@ from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
 from modeler.derivation import Derivation
 from modeler.fit import IdentifiedModel
-from modeler.fit.long import OF_TRIANGLES
-from modeler.fit.streamed import Reducer
+from modeler.fit.streamed import OF_TRIANGLES, Reducer
 from modeler.jobs import open_workers
 from modeler.observation import Observation, Processing
 from modeler.observation.source import Source

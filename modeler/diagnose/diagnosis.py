@@ -15,7 +15,6 @@ from modeler.diagnose.channel_faults import channel_faults
 from modeler.diagnose.contact import MARGIN, Window, contact_window, explained
 from modeler.diagnose.errors import vetoing
 from modeler.diagnose.looks import looked_again, other_looks
-from modeler.diagnose.meter import Meter
 from modeler.diagnose.result import Diagnosis
 from modeler.diagnose.search import MOST, Search, search
 from modeler.effects import Acts, Effect, effect_named
@@ -35,6 +34,38 @@ CHANGED = 1.3
 has changed since the fit."""
 
 _READ, _SEARCHED, _LOOKED = 0.05, 0.7, 0.9  # shares of the work when these are done
+
+
+_STRIDE = 0.04  # of what is left of a stage
+
+
+class Meter:
+    """A share between 0 and 1 that only grows.
+
+    Args:
+        tell: called with the share.
+        end: of the first stage.
+    """
+
+    def __init__(self, tell: Callable[[float], None] | None, end: float) -> None:
+        self._tell = tell or (lambda share: None)
+        self._share, self._end = 0.0, end
+        self._tell(0.0)
+
+    def stage(self, end: float) -> None:
+        """What comes next ends at that share; nothing changes if it is the same stage again."""
+        if end > self._end:
+            self._share, self._end = self._end, end
+        self._tell(self._share)
+
+    def tick(self) -> None:
+        """A piece of work is done: nearer to the end of the stage, never there."""
+        self._share += _STRIDE * (self._end - self._share)
+        self._tell(self._share)
+
+    def done(self) -> None:
+        """All is done."""
+        self._tell(1.0)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits

@@ -1,4 +1,7 @@
-"""The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
+"""The search: name the best effect, refine it, put it in, look again; drop what is not needed.
+
+And which spring hangs on a lever: a helical one, or one of constant force?
+"""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -15,15 +18,15 @@ from modeler.diagnose.judge import (
     alternatives,
     judge,
 )
-from modeler.diagnose.levers import constant_force
 from modeler.diagnose.plausible import objection
 from modeler.diagnose.survey import Survey, among, surveyed
 from modeler.diagnose.values import values_of
-from modeler.effects import effect_named
-from modeler.hypotheses.candidates import Candidate
+from modeler.effects import Effect, effect_named
+from modeler.hypotheses.candidates import Candidate, over_grid
 from modeler.scoring.gains import all_columns_about, is_gain, likeliest, settled
+from modeler.scoring.polish import polished
 from modeler.scoring.propose import proposals, ruled_out
-from modeler.scoring.state import Data, State, state_of
+from modeler.scoring.state import Data, State, all_columns_of, columns_of, state_of
 
 MOST = 8
 """Effects named in one diagnosis."""
@@ -34,6 +37,16 @@ MUCH = 0.15
 ASKED = 20
 """Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
 many, it is other motion, or the logs hold nothing that returns."""
+
+
+Veto = Callable[[State, State, Judged], bool]
+"""True if an effect does not lower the error on held-out logs: state without it, with it, the
+effect as it was judged."""
+
+CLEAR = 1.01
+"""Ratio of two falls that decides, and of what they leave of the squared residuals."""
+
+_STARTS = 4  # shapes of a sign that are refined
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,11 +90,6 @@ class Search(Brief):
     last: Judgement
     vetoed: tuple[Judged, ...] = ()
     without: tuple[str, ...] = ()
-
-
-Veto = Callable[[State, State, Judged], bool]
-"""True if an effect does not lower the error on held-out logs: state without it, with it, the
-effect as it was judged."""
 
 
 def search(
@@ -253,3 +261,55 @@ def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
     others = [s.pick for s in kept if s is not step]
     less = state_of(state.data, others, state.beta, state.cache)
     return _judged_again(less, step.pick)
+
+
+def constant_force(state: State, helical: Candidate, other: Effect) -> Candidate | None:
+    """The spring of constant force that explains more than any helical one; None if none does.
+
+    With l the length of the spring, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq for a
+    constant pull: in sin(q - q0) / l the first has the coefficient -k l0 b, the second +F b. The
+    rest of the first, k b sin(q - q0), is mostly that of the link's first moment.
+
+    Args:
+        state: without either.
+        helical: its candidate.
+        other: the effect of constant force.
+    """
+    pull = _best(state, helical, other, 1.0)
+    if pull is None:
+        return None
+    _, ranking = state.ranked([columns_of(state.rows, helical, state.cache)])
+    total = float(ranking.before[helical.index])
+    if _better(float(ranking.drop.sum()), pull[1], total):
+        return None
+    spring = _best(state, helical, helical.effect, -1.0)
+    return pull[0] if spring is None or _better(pull[1], spring[1], total) else None
+
+
+def _better(fall: float, other: float, total: float) -> bool:
+    """True if a fall of the joint's squared residuals is clearly larger than another."""
+    left, others = (max(total - f, 1e-3 * total) for f in (fall, other))
+    return fall > CLEAR * other or CLEAR * left < others
+
+
+def _best(
+    state: State, like: Candidate, effect: Effect, sign: float
+) -> tuple[Candidate, float] | None:
+    """The best shapes with which the part sin / l has that sign, and the fall they give."""
+    scale = state.scales[like.index]
+    grid = list(over_grid(effect, effect.forms[0], str(like.joint), like.index, scale))
+    tried = _signed(state, grid, sign)[:_STARTS]
+    refined = [polished(state, candidate) for candidate, _ in tried]
+    return next(iter(_signed(state, [*refined, *(c for c, _ in tried)], sign)), None)
+
+
+def _signed(
+    state: State, candidates: Sequence[Candidate], sign: float
+) -> list[tuple[Candidate, float]]:
+    """Those whose last parameter has that sign, and the fall of each, best first."""
+    if not candidates:
+        return []
+    seen = state.sifted(all_columns_of(state.rows, candidates, state.cache))
+    last, fall = [value[-1] for value in seen.value], seen.total
+    order = [k for k in np.argsort(-fall) if sign * last[k] > 0.0 and fall[k] > 0.0]
+    return [(candidates[k], float(fall[k])) for k in order]

@@ -116,7 +116,7 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
             updated = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
             settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
             sigma, iterations = updated, iterations + 1
-    raw, scaled = _conditions(data, kept)
+    raw, scaled = condition_numbers(data.whole(np.ones(len(data.rows)))[:, kept])
     return Estimate(beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees)
 
 
@@ -182,9 +182,8 @@ def _spread(
     return np.where(degrees > 0.5, spread, np.maximum(_rms(data), 1e-300))
 
 
-def _conditions(data: Compressed, kept: np.ndarray) -> tuple[float, float]:
-    if not kept.size:
+def condition_numbers(W: np.ndarray) -> tuple[float, float]:
+    """Of W (rows, c), and of W with columns of length one; infinite without columns."""
+    if not W.size:
         return float("inf"), float("inf")
-    whole = data.whole(np.ones(len(data.rows)))[:, kept]
-    scaled = whole / np.linalg.norm(whole, axis=0)
-    return float(np.linalg.cond(whole)), float(np.linalg.cond(scaled))
+    return float(np.linalg.cond(W)), float(np.linalg.cond(W / np.linalg.norm(W, axis=0)))

@@ -83,11 +83,6 @@ class Neighbours:
         return self._products[1]
 
 
-def rows_of(observation: Observation, counted: np.ndarray) -> np.ndarray | Neighbours:
-    """W of the base parameters (rows, c), or where it would be large its rows while they pass."""
-    return Neighbours(observation, counted) if is_streamed(observation) else observation.W
-
-
 def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
     """(s, n) True for the rows that are counted (rows,)."""
     keep = np.zeros(observation.used.shape, dtype=bool)

@@ -7,6 +7,7 @@ import numpy as np
 from modeler.core.choices import Method
 from modeler.estimate.coloured import autocorrelation, repeated
 from modeler.estimate.compressed import triangle
+from modeler.estimate.least_squares import condition_numbers
 from modeler.estimate.rank import Rank, independent_columns
 
 _ROUNDS = 30
@@ -76,7 +77,7 @@ def unequal_least_squares(
     C = (A * deviation**2) @ A.T
     factors = _memory(A * deviation, (y - W @ beta) / deviation, C, stretch)
     covariance[np.ix_(kept, kept)] = C * np.outer(factors, factors)
-    raw, scaled = _conditions(X)
+    raw, scaled = condition_numbers(X)
     largest = float(factors.max(initial=1.0))
     return Unequal(beta, covariance, deviation, rank, settled, raw, scaled, largest)
 
@@ -131,9 +132,3 @@ def _memory(rows: np.ndarray, white: np.ndarray, C: np.ndarray, stretch: np.ndar
     sample = np.arange(len(white))
     extra = repeated(rows.T, autocorrelation(white, sample, stretch), sample, stretch)
     return np.sqrt(np.maximum(1.0 + extra / np.diag(C), 1.0))
-
-
-def _conditions(X: np.ndarray) -> tuple[float, float]:
-    if not X.size:
-        return float("inf"), float("inf")
-    return float(np.linalg.cond(X)), float(np.linalg.cond(X / np.linalg.norm(X, axis=0)))

@@ -11,7 +11,7 @@ from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.effects import Acts, Effect
 from modeler.excite.bounds import Bounds
-from modeler.excite.evolution import evolve
+from modeler.excite.descent import evolve
 from modeler.excite.result import Exciting
 from modeler.excite.search import Deadline, Wish, drawn_motions, finished, task_of
 from modeler.excite.task import Task

@@ -1,4 +1,7 @@
-"""The search for an exciting motion: many random starts, descent from the best of them."""
+"""The search for an exciting motion: many random starts, descent from the best of them.
+
+The random motions are also what the result is compared with.
+"""
 
 import dataclasses
 import math
@@ -18,7 +21,6 @@ from modeler.excite.descent import Landscape, descend
 from modeler.excite.posture import posture_of
 from modeler.excite.result import Exciting, Quality, Used
 from modeler.excite.series import DENSE, Series, series
-from modeler.excite.starts import random_motion
 from modeler.excite.task import Task, Walled
 
 RANDOM = 50
@@ -32,6 +34,8 @@ _DENSE_LOOPS = 16  # samples per period of the highest harmonic, where loops are
 _FINER = 10  # times as many samples for the last check
 _NEARLY = 0.999  # of the limits, at these samples
 _INWARD = 20  # steps of a tenth towards rest, where smooth dry friction breaks a limit of torque
+
+_FULL = 0.95  # of the limits, of random motions
 
 Item = TypeVar("Item")
 
@@ -281,3 +285,28 @@ def used(task: Task, x: np.ndarray) -> Used:
         float(np.abs(posture).max()) if posture.size else None,
         float(posture[:, : len(fine.posture.kinds)].max()) if fine.posture.kinds else None,
     )  # fmt: skip
+
+
+def random_motion(task: Task, rng: np.random.Generator) -> np.ndarray:
+    """(J, 2 K - 1) a series with random coefficients, as large as the limits let it be.
+
+    Each joint by itself is made as large as its range, speed and acceleration allow, around a
+    random place; where a torque, a box or a loop is in the way, all shrink towards rest.
+
+    Raises:
+        DataError: no motion keeps to the limits, however small.
+    """
+    joints, wide = len(task.bounds.joints), task.series.values.shape[1]
+    x = np.zeros((joints, wide))
+    x[:, 1:] = rng.normal(size=(joints, wide - 1))
+    b, s = task.bounds, task.series
+    for j in range(joints):
+        q = s.values[:, 1:] @ x[j, 1:]
+        extent = 0.5 * np.ptp(q)
+        shares = (extent / b.half[j], np.abs(s.slopes @ x[j]).max() / b.speed[j],
+                  np.abs(s.bends @ x[j]).max() / b.acceleration[j])  # fmt: skip
+        x[j] *= _FULL * s.room / max(shares)
+        q = s.values[:, 1:] @ x[j, 1:]
+        least, most = _FULL * s.room * b.half[j] * np.array([-1, 1]) + b.middle[j]
+        x[j, 0] = rng.uniform(least - q.min(), max(most - q.max(), least - q.min()))
+    return task.drawn_in(x)

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError, LoopError
 from modeler.excite.bounds import Bounds
 from modeler.excite.columns import NEAR_REST, Columns
 from modeler.excite.criterion import Criterion
-from modeler.excite.evolution import evolve
+from modeler.excite.descent import evolve
 from modeler.excite.posture import Posture
 from modeler.excite.series import Series
 

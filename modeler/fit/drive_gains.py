@@ -10,12 +10,10 @@ import numpy as np
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.core.errors import DataError
 from modeler.estimate.coloured import Colour, coloured
-from modeler.estimate.compressed import compress
 from modeler.estimate.least_squares import Estimate
 from modeler.estimate.tls import MAX_ITERATIONS, GainEstimate, mixed_tls
-from modeler.fit.alike import not_alike
+from modeler.fit.alike import not_together
 from modeler.fit.identify import Equations, dead_joints, fit_equations
-from modeler.fit.mounting import mounted_differently
 from modeler.fit.payload import Loaded, Payload, loaded_equations
 from modeler.fit.result import FitResult, ParameterEstimate
 from modeler.observation import Log, Observation
@@ -109,8 +107,7 @@ def identify_gains(
     try:
         _check_told(observation, estimate, colour)
     except DataError as error:
-        why = mounted_differently(model, observation, payloads)
-        why = why or not_alike(model, observation, payloads)
+        why = not_together(model, observation, payloads)
         raise DataError("; ".join([str(error), *why])) from None
     return _result(model.spec, fit, estimate, colour, loaded)
 
@@ -131,18 +128,15 @@ def _check_known(observation: Observation, loaded: Loaded) -> None:
 
 
 def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
-    W = np.column_stack([loaded.equations.W, loaded.torques.sum(axis=1)])
-    if len(observation.y) < W.shape[1] + len(observation.joints):
+    equations = loaded.equations.with_columns(loaded.torques.sum(axis=1), [_KNOWN])
+    rows, columns = len(observation.y), len(equations.names)
+    if rows < columns + len(observation.joints):
         raise DataError(
-            f"{', '.join(observation.logs)}: {len(observation.y)} rows for {W.shape[1]} parameters "
+            f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters "
             f"and {len(observation.joints)} gains; record more motion"
         )
-    data = compress(
-        W, observation.y, observation.row_joint, len(observation.joints),
-        [*loaded.equations.names, _KNOWN],
-        [j for j, joint in enumerate(observation.joints) if not joint.actuated],
-    )  # fmt: skip
-    estimate = mixed_tls(data, known=W.shape[1] - 1)
+    data = equations.compressed(np.ones(rows, dtype=bool))
+    estimate = mixed_tls(data, known=columns - 1)
     if estimate is None:
         raise DataError(
             "--method tls: the weight of the known load cannot be told from the robot's own "

@@ -9,16 +9,14 @@ import numpy as np
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
 from modeler.estimate.compressed import compress
-from modeler.estimate.least_squares import Estimate
+from modeler.estimate.least_squares import Estimate, condition_numbers
 from modeler.estimate.passing import compressed
 from modeler.estimate.unequal import Unequal, unequal_least_squares
 from modeler.fit.crossed import solved
 from modeler.fit.energy_report import SURE, EnergyReport, ModelFigures
 from modeler.fit.essential import Essential, essential_parameters
-from modeler.fit.identify import dead_joints, identify, joints_of
-from modeler.fit.parameter import estimates
-from modeler.fit.reduced import Reduced, reduced_model
-from modeler.fit.result import FitResult, ParameterEstimate
+from modeler.fit.identify import base_equations, dead_joints, identify, joints_of, result_of
+from modeler.fit.result import FitResult
 from modeler.observation import Observation
 from modeler.observation.energy import EnergyRows, energy_rows
 
@@ -82,22 +80,20 @@ def identify_energy(
     rows = energy_rows(model, observation, window)
     _check_enough(observation, rows)
     found = _estimate(observation, rows, method)
-    essential = _essential(observation, rows, found, below)
-    every = np.ones(len(observation.y), dtype=bool)
-    result = FitResult(
-        robot=observation.robot,
-        method=method,
-        status=_status(found),
-        samples=len(observation.time),
+    full = Estimate(
+        found.beta, found.covariance, np.ones(1), found.rank, 0, found.settled,
+        found.condition_number, found.condition_scaled,
+        max(1, len(rows.y) - len(found.rank.kept)),
+    )  # fmt: skip
+    torques = compressed(observation, np.ones(len(observation.y), dtype=bool))
+    essential = _essential(rows, observation.names, found, full, below)
+    essential = essential.judged_on(torques, found.beta)
+    result = result_of(
+        base_equations(observation), method, full, essential,
         rows=len(rows.y),
-        condition_number=found.condition_number, condition_scaled=found.condition_scaled,
-        relative_error=essential.error_before, essential_error=essential.error_after,
-        joints=joints_of(observation, compressed(observation, every), found.beta),
-        parameters=_parameters(observation, found, essential),
-        covariance=found.covariance,
-        loads=(),
-        sentences=_sentences(found, essential), processing=observation.report.processing,
-        essential=_reduced(observation, essential),
+        joints=joints_of(observation, torques, found.beta),
+        sentences=_sentences(found, essential),
+        reduced=np.ones(len(essential.names)),
         energy=_report(model, observation, rows, found, window, method),
     )  # fmt: skip
     return EnergyFit(result, rows, found.deviation, observation)
@@ -133,57 +129,24 @@ def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Une
 
 
 def _essential(
-    observation: Observation, rows: EnergyRows, found: Unequal, below: float | None
+    rows: EnergyRows, names: tuple[str, ...], found: Unequal, full: Estimate, below: float | None
 ) -> Essential:
-    """By the F-test of the windows; the two errors are of the torques."""
-    names, weight = observation.names, 1.0 / found.deviation
-    zeros = np.zeros(len(rows.y), dtype=int)
+    """By the F-test of the windows."""
+    weight, zeros = 1.0 / found.deviation, np.zeros(len(rows.y), dtype=int)
     data = compress(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
-    degrees = max(1, len(rows.y) - len(found.rank.kept))
-    full = Estimate(
-        found.beta, found.covariance, np.ones(1), found.rank, 0, True,
-        found.condition_number, found.condition_scaled, degrees,
-    )  # fmt: skip
     essential = essential_parameters(data, full, "ordinary", below)
     at = [names.index(name) for name in essential.names]
-    W = rows.W[:, at]
+    raw, scaled = condition_numbers(rows.W[:, at])
+    covariance = essential.reduced.covariance * found.memory**2
     reduced = dataclasses.replace(
-        essential.reduced,
-        covariance=essential.reduced.covariance * found.memory**2,
-        condition_number=float(np.linalg.cond(W)),
-        condition_scaled=float(np.linalg.cond(W / np.linalg.norm(W, axis=0))),
+        essential.reduced, covariance=covariance, condition_number=raw, condition_scaled=scaled
     )
-    return dataclasses.replace(
-        essential,
-        error_before=_torque_error(observation, found.beta),
-        error_after=_torque_error(observation, essential.beta),
-        reduced=reduced,
-    )
-
-
-def _reduced(observation: Observation, essential: Essential) -> Reduced | None:
-    sigma = np.sqrt(np.diag(essential.reduced.covariance))
-    units = dict(zip(observation.names, observation.units, strict=True))
-    return reduced_model(essential, essential.reduced, sigma, units)
+    return dataclasses.replace(essential, reduced=reduced)
 
 
 def _torque_error(observation: Observation, beta: np.ndarray) -> float:
     residual = observation.y - observation.W @ beta
     return float(np.linalg.norm(residual) / np.linalg.norm(observation.y))
-
-
-def _parameters(
-    observation: Observation, found: Unequal, essential: Essential
-) -> tuple[ParameterEstimate, ...]:
-    labels = list(zip(observation.names, observation.units, strict=True))
-    deviations = np.sqrt(np.diag(found.covariance))
-    return estimates(labels, found.beta, deviations, found.rank.kept, essential.names)
-
-
-def _status(found: Unequal) -> str:
-    if found.rank.aside:
-        return "rank deficient"
-    return "ok" if found.settled else "not settled"
 
 
 def _sentences(found: Unequal, essential: Essential) -> tuple[str, ...]:

@@ -48,6 +48,14 @@ class Essential:
             f"{100.0 * self.error_before:.4g} % to {100.0 * self.error_after:.4g} %"
         )
 
+    def judged_on(self, data: Compressed, full: np.ndarray) -> "Essential":
+        """The same, with the errors that these and all parameters (c,) leave of other rows."""
+        return dataclasses.replace(
+            self,
+            error_before=relative_error(data, full),
+            error_after=relative_error(data, self.beta),
+        )
+
 
 def essential_parameters(
     data: Compressed, full: Estimate, method: Method, below: float | None = None

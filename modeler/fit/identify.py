@@ -1,15 +1,16 @@
 """From an observation to a fitted model."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
-from modeler.estimate.coloured import coloured
+from modeler.estimate.coloured import Colour, coloured
 from modeler.estimate.compressed import Compressed, compress
 from modeler.estimate.halves import Halves, halves
 from modeler.estimate.least_squares import MAX_ITERATIONS, Estimate, least_sigma
@@ -18,8 +19,8 @@ from modeler.estimate.passing import Neighbours, compressed, residual_of
 from modeler.estimate.problem import Problem
 from modeler.fit.essential import Essential, essential_parameters
 from modeler.fit.parameter import estimates
-from modeler.fit.reduced import Reduced, reduced_model
-from modeler.fit.result import FitResult, JointFit, ParameterEstimate
+from modeler.fit.reduced import reduced_model
+from modeler.fit.result import FitResult, JointFit
 from modeler.observation import Observation
 from modeler.observation.passing import is_streamed
 
@@ -68,12 +69,24 @@ class Equations:
         loaded = np.isin(logs, self.carried)[self.observation.row_run]
         return {"bare": counted & ~loaded, "loaded": counted & loaded}
 
-    def compressed(self, counted: np.ndarray, free: Sequence[int] = ()) -> Compressed:
-        """Some rows, compressed; `free` are the joints without a motor."""
+    def with_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
+        """The same with further columns (rows, k), and the torques as they were measured."""
+        return dataclasses.replace(
+            self,
+            extra=np.column_stack([self.extra, columns]),
+            y=self.observation.y,
+            names=(*self.names, *names),
+            units=(*self.units, *("1" for _ in names)),
+        )
+
+    def compressed(self, counted: np.ndarray) -> Compressed:
+        """Some rows, compressed."""
+        joints = self.observation.joints
+        free = [j for j, joint in enumerate(joints) if not joint.actuated]
         if (W := self.kept) is None:
             return compressed(self.observation, counted, free)
-        own, joints = self.observation.row_joint[counted], len(self.observation.joints)
-        return compress(W[counted], self.y[counted], own, joints, self.names, free)
+        own = self.observation.row_joint[counted]
+        return compress(W[counted], self.y[counted], own, len(joints), self.names, free)
 
     def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
         """y - W beta of some rows."""
@@ -118,51 +131,53 @@ def fit_equations(
     model: "CompiledModel | None" = None,
     below: float | None = None,
     noise_only: bool = False,
+    data: Compressed | None = None,
+    share: float = 1.0,
 ) -> FitResult:
     """The fit of y = W beta; equations row for row those of the observation, else as `identify`.
 
     Sigmas of noise only leave out what halves of the motion disagree about: for tests of it.
+
+    Of long logs the data are all rows, and the observation's are windows, that share of them: how
+    far residuals remember, what halves disagree about, and by what factors that raises the sigmas,
+    comes from the windows.
     """
-    estimator = method_of(method)
-    dead = dead_joints(observation)
-    alive = ~np.isin(observation.row_joint, dead)
-    check_enough_rows(observation, len(equations.names), int(alive.sum()))
-    problem, count = _problem(observation, equations, alive, model), len(observation.names)
+    estimator, windows = method_of(method), data is not None
+    dead, alive = dead_joints(observation), alive_rows(observation)
+    data = data or equations.compressed(alive)
+    check_enough_rows(observation, len(equations.names), int(data.rows.sum()))
+    problem = Problem(
+        observation, equations.kept, equations.y, alive, equations.names, equations.units, data,
+        model,
+    )  # fmt: skip
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
-    essential = essential_parameters(problem.data, estimate, method, below)
-    colour = coloured(observation, rows, equations.y, alive, estimate)
-    sigma = colour.factors * np.sqrt(np.diag(estimate.covariance))
-    loaded = equations.conditions(alive).get("loaded")
-    differ = Halves(np.ones(len(sigma)))
+    essential = essential_parameters(data, estimate, method, below)
+    colour = _coloured(problem, rows, estimate, share)
+    white = np.sqrt(np.diag(estimate.covariance))
+    differ = Halves(np.ones(len(white)))
     if not noise_only:
-        differ = halves(
-            observation, equations.compressed, alive, estimate, sigma, colour.lasting, loaded
-        )
-    factors = colour.factors * differ.factors
-    covariance = estimate.covariance * np.outer(factors, factors)
-    every = parameters_of(estimate, essential, equations, np.sqrt(np.diag(covariance)))
-    return FitResult(
-        robot=observation.robot,
-        method=method,
-        status=status_of(estimate),
-        samples=len(observation.time),
-        rows=int(alive.sum()),
-        condition_number=estimate.condition_number,
-        condition_scaled=estimate.condition_scaled,
-        relative_error=essential.error_before,
-        essential_error=essential.error_after,
-        joints=joints_of(observation, problem.data, estimate.beta, estimate.sigma),
-        parameters=every[:count],
-        covariance=covariance[:count, :count],
-        loads=every[count:],
+        lasting = np.zeros(len(observation.joints)) if windows else colour.lasting
+        differ = halves(  # windows tell a difference by so much less surely than all rows
+            observation, equations.compressed, alive, estimate,
+            colour.factors * white / share**0.5, lasting, equations.conditions(alive).get("loaded"),
+        )  # fmt: skip
+    raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
+    factors = colour.factors * raised
+    at = [equations.names.index(name) for name in essential.names]
+    alone = _coloured(problem, rows, essential.reduced, share, at).factors
+    return result_of(
+        equations, method,
+        dataclasses.replace(estimate, covariance=estimate.covariance * np.outer(factors, factors)),
+        essential,
+        rows=int(data.rows.sum()),
+        joints=joints_of(observation, data, estimate.beta, estimate.sigma),
         sentences=(*equations.sentences, *dead_sentences(observation, dead), *estimate.sentences,
                    *sentences_of(estimate, essential), *colour.sentences(),
                    *differ.sentences(equations.names, [j.name for j in observation.joints])),
-        processing=observation.report.processing,
+        reduced=raised[at] * alone,
         standard=estimate.standard,
         own=estimate.sentences,
-        essential=_reduced(equations, rows, alive, essential, differ.factors),
         by_load={
             name: joints_of(observation, equations.compressed(own), estimate.beta, estimate.sigma)
             for name, own in equations.conditions(alive).items()
@@ -170,52 +185,82 @@ def fit_equations(
     )  # fmt: skip
 
 
-def _reduced(
-    equations: Equations,
+def _coloured(
+    problem: Problem,
     rows: np.ndarray | Neighbours,
-    alive: np.ndarray,
-    essential: Essential,
-    raised: np.ndarray,
-) -> Reduced | None:
-    """The essential parameters alone, as sure as their own residuals let them be."""
-    at = [equations.names.index(name) for name in essential.names]
-    reduced = essential.reduced
-    W = rows if isinstance(rows, Neighbours) else rows[:, at]
-    factors = coloured(equations.observation, W, equations.y, alive, reduced, at).factors
-    sigma = raised[at] * factors * np.sqrt(np.diag(reduced.covariance))
-    units = dict(zip(equations.names, equations.units, strict=True))
-    return reduced_model(essential, reduced, sigma, units)
+    estimate: Estimate,
+    share: float,
+    at: Sequence[int] | None = None,
+) -> Colour:
+    """The colour that a share of the rows shows; the estimate, of columns `at`, is of all of them.
 
-
-def _problem(
-    observation: Observation,
-    equations: Equations,
-    alive: np.ndarray,
-    model: "CompiledModel | None",
-) -> Problem:
-    free = [j for j, joint in enumerate(observation.joints) if not joint.actuated]
-    data, y = equations.compressed(alive, free), equations.y
-    return Problem(
-        observation, equations.kept, y, alive, equations.names, equations.units, data, model
-    )
-
-
-def parts_of(
-    observation: Observation, estimate: Estimate, essential: Essential
-) -> tuple[tuple[ParameterEstimate, ...], tuple[JointFit, ...], Compressed]:
-    """Parameters and joints of an estimate that was made in another way, and all rows.
-
-    The standard deviations of its joints are those of their residuals.
+    The covariance of that share alone is larger by its inverse, and so is the pull of its rows.
     """
-    alive = ~np.isin(observation.row_joint, dead_joints(observation))
-    equations = base_equations(observation)
-    data = _problem(observation, equations, alive, None).data
+    if share < 1.0:
+        pull = None if estimate.influence is None else estimate.influence.times(1.0 / share)
+        covariance = estimate.covariance / share
+        estimate = dataclasses.replace(estimate, covariance=covariance, influence=pull)
+    W = rows if at is None or isinstance(rows, Neighbours) else rows[:, at]
+    return coloured(problem.observation, W, problem.y, problem.counted, estimate, at)
+
+
+def result_of(
+    equations: Equations,
+    method: str,
+    estimate: Estimate,
+    essential: Essential,
+    rows: int,
+    joints: tuple[JointFit, ...],
+    sentences: tuple[str, ...],
+    reduced: np.ndarray | None = None,
+    **further: Any,
+) -> FitResult:
+    """The result that an estimate makes.
+
+    Args:
+        equations: that were fitted.
+        method: id.
+        estimate: its solution, the covariance raised where residuals repeat each other.
+        essential: of its parameters.
+        rows: that were fitted.
+        joints: what is left of each.
+        sentences: what a reader must know.
+        reduced: (essential,) factors on the sigmas of the reduced model; None: it has none.
+        **further: fields of the result.
+    """
+    observation, count = equations.observation, len(equations.observation.names)
+    labels = list(zip(equations.names, equations.units, strict=True))
     sigma = np.sqrt(np.diag(estimate.covariance))
-    return (
-        parameters_of(estimate, essential, equations, sigma),
-        joints_of(observation, data, estimate.beta),
-        data,
+    every = estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
+    return FitResult(
+        robot=observation.robot,
+        method=method,
+        status=status_of(estimate),
+        samples=len(observation.time),
+        rows=rows,
+        condition_number=estimate.condition_number,
+        condition_scaled=estimate.condition_scaled,
+        relative_error=essential.error_before,
+        essential_error=essential.error_after,
+        joints=joints,
+        parameters=every[:count],
+        covariance=estimate.covariance[:count, :count],
+        loads=every[count:],
+        sentences=sentences,
+        processing=observation.report.processing,
+        essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
+        **further,
     )
+
+
+def all_rows(observation: Observation) -> Compressed:
+    """The equations of the bare robot on all joints whose torque is connected."""
+    return base_equations(observation).compressed(alive_rows(observation))
+
+
+def alive_rows(observation: Observation) -> np.ndarray:
+    """(rows,) True for those of joints whose torque is connected, see `dead_joints`."""
+    return ~np.isin(observation.row_joint, dead_joints(observation))
 
 
 def dead_joints(observation: Observation) -> list[int]:
@@ -257,14 +302,6 @@ def check_enough_rows(observation: Observation, columns: int, rows: int) -> None
             f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
             "more motion, or filter less (a higher parallel_cutoff gives more rows)"
         )
-
-
-def parameters_of(
-    estimate: Estimate, essential: Essential, equations: Equations, sigma: np.ndarray
-) -> tuple[ParameterEstimate, ...]:
-    """The values of an estimate, by name."""
-    labels = list(zip(equations.names, equations.units, strict=True))
-    return estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
 
 
 def joints_of(

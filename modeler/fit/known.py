@@ -4,15 +4,12 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from modeler.core.contract import JointSpec, ModuleSpec
 from modeler.core.errors import DataError
-from modeler.fit.alike import not_alike
+from modeler.fit.alike import not_together
 from modeler.fit.doubts import Doubt
 from modeler.fit.drive_gains import GainFit, identify_gains
 from modeler.fit.identify import fit_equations
-from modeler.fit.mounting import mounted_differently
 from modeler.fit.payload import Loaded, Payload, loaded_equations
 from modeler.fit.result import ParameterEstimate
 from modeler.observation import Observation
@@ -48,8 +45,7 @@ def known_doubts(
         payloads: of which those of known mass are tested.
         currents: True if the torques are logged currents times the gains of the robot file.
     """
-    apart = mounted_differently(model, observation, payloads)
-    apart = apart or not_alike(model, observation, payloads)
+    apart = not_together(model, observation, payloads)
     if apart or not any(payload.mass is not None for payload in payloads):
         return [Doubt(line, values=True) for line in apart]
     found = _weights(observation, loaded_equations(model, observation, payloads), currents)
@@ -88,14 +84,9 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
 
 def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimate:
     """The factor on the torques of a weighed load that the logs ask for; 1 if its mass is right."""
-    known = loaded.torques[:, i]
-    equations = dataclasses.replace(
-        loaded.equations,
-        extra=np.column_stack([loaded.equations.extra, known]),
-        y=loaded.equations.y + known,
-        names=(*loaded.equations.names, "factor"),
-        units=(*loaded.equations.units, "1"),
-    )
+    known, y = loaded.torques[:, i], loaded.equations.y
+    equations = loaded.equations.with_columns(known, ["factor"])
+    equations = dataclasses.replace(equations, y=y + known)
     return fit_equations(observation, equations, "weighted", noise_only=True).loads[-1]
 
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
-from modeler.estimate.least_squares import Estimate
 from modeler.fit.essential import Essential
 from modeler.fit.parameter import ParameterEstimate, read_parameter
 
@@ -54,15 +53,8 @@ class Reduced(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {
-            "parameters": [parameter.to_json() for parameter in self.parameters],
-            "dropped": list(self.dropped),
-            "condition_number": self.condition_number,
-            "condition_scaled": self.condition_scaled,
-            "relative_error": self.relative_error,
-            "ratio": self.ratio,
-            "limit": self.limit,
-        }
+        parameters = [parameter.to_json() for parameter in self.parameters]
+        return vars(self) | {"parameters": parameters, "dropped": list(self.dropped)}
 
 
 def reduced_from_json(raw: Mapping[str, Any] | None) -> Reduced | None:
@@ -81,18 +73,19 @@ def reduced_from_json(raw: Mapping[str, Any] | None) -> Reduced | None:
 
 
 def reduced_model(
-    essential: Essential, reduced: Estimate, sigma: np.ndarray, units: Mapping[str, str]
+    essential: Essential, factors: np.ndarray, units: Mapping[str, str]
 ) -> Reduced | None:
     """The reduced model of a fit; None if no parameter is left.
 
     Args:
-        essential: which are, and what leaving out the others costs.
-        reduced: the estimate of them alone, columns in the order of `essential.names`.
-        sigma: (essential,) standard deviations, raised where residuals repeat each other.
+        essential: which are, what leaving out the others costs, and the estimate of them alone.
+        factors: (essential,) on its standard deviations, where residuals repeat each other.
         units: by name.
     """
+    reduced = essential.reduced
     if not np.isfinite(reduced.condition_number):
         return None
+    sigma = factors * np.sqrt(np.diag(reduced.covariance))
     return Reduced(
         parameters=tuple(
             ParameterEstimate(name, units[name], float(value), float(deviation), True, "estimated")

@@ -1,28 +1,38 @@
-"""Long logs: a look at windows, then every row once, in chunks, in flat memory."""
+"""Long logs: a look at windows, then every row once, in chunks, in flat memory; their fit.
+
+A chunk is reduced to what a fit needs of it by pure functions, for any worker.
+"""
 
 import dataclasses
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler.compiled.fused import no_rows
+from modeler.core.choices import Method
 from modeler.core.errors import DataError, LoopError
-from modeler.estimate.compressed import Compressed, merged
-from modeler.fit.partial import reduce_chunk
+from modeler.estimate.compressed import Compressed, compress, merged
+from modeler.fit.identify import base_equations, dead_joints, fit_equations
+from modeler.fit.result import FitResult
 from modeler.observation.chunk import Chunk, chunks
+from modeler.observation.evaluated import Evaluated
 from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER
+from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
+from modeler.observation.passing import with_stretch
 from modeler.observation.processing import Processing
-from modeler.observation.seen import Chosen
+from modeler.observation.seen import Chosen, seen
 from modeler.observation.source import Source
 from modeler.observation.streamed_report import Passes, streamed_report
+from modeler.observation.stretch import Stretch
 from modeler.observation.survey import Known, Survey, WholeNeeded, survey
 
 if TYPE_CHECKING:
@@ -31,11 +41,79 @@ if TYPE_CHECKING:
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
 
+OF_TRIANGLES: tuple[Method, ...] = ("weighted", "ordinary")
+"""Methods that need no row again once the triangles are there."""
+
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
 Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
 """Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Partial:
+    """What a fit needs of some rows of a log; it can be pickled.
+
+    Attributes:
+        data: their triangles.
+        facts: what the rows say of the log.
+    """
+
+    data: Compressed
+    facts: Facts
+
+    def over(self, later: "Partial") -> "Partial":
+        """Of these rows, and of those that follow them."""
+        return Partial(merged(self.data, later.data), self.facts.over(later.facts))
+
+
+def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partial:
+    """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
+
+    Args:
+        model: the compiled robot.
+        chunk: of a log.
+        chosen: for that log.
+
+    Raises:
+        DataError: a value that cannot be.
+    """
+    stretches, facts = seen(model, chunk, chosen)
+    return Partial(_compressed(model, stretches), facts)
+
+
+def merge(first: Partial, later: Partial) -> Partial:
+    """Of rows of a log, and of those that follow them."""
+    return first.over(later)
+
+
+def merge_all(parts: Iterable[Partial]) -> Partial:
+    """Of all chunks of a log, one after the other."""
+    return reduce(merge, parts)
+
+
+def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
+    """Triangles of some stretches; W is never there as a whole."""
+    parts = [part for part in stretches if part.used.any()]
+    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    for part in parts:
+        torque = part.filtered(partial(_torque, part.segment))
+        state = with_stretch(regressor, part, torque, part.used, state)
+    like = none_of(model)
+    return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
+
+
+def _torque(segment: Segment, window: slice) -> np.ndarray:
+    return segment.tau[window]
+
+
+def none_of(model: "CompiledModel") -> Compressed:
+    """The triangles of no rows."""
+    names, joints = [base.name for base in model.spec.base], model.spec.joints
+    free = [j for j, joint in enumerate(joints) if not joint.actuated]
+    nothing = np.empty((0, len(names)))
+    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +163,40 @@ def stream(
             choice of the windows fits; no usable row.
     """
     passes, every = all_rows(model, sources, processing, progress, rows, reducer or by_threads)
-    return _streamed(model, sources, passes, [partial.data for partial in every])
+    return _streamed(model, sources, passes, [part.data for part in every])
+
+
+def identify_long(
+    streamed: Streamed, method: Method = "weighted", model: "CompiledModel | None" = None
+) -> FitResult:
+    """The fit of the base parameters to long logs.
+
+    Values, sigmas, errors and the essential parameters come from all rows; how far residuals
+    remember, and by what factor that raises the sigmas, from the windows.
+
+    Args:
+        streamed: the logs.
+        method: "weighted" or "ordinary".
+        model: the compiled robot.
+
+    Raises:
+        DataError: another method, fewer rows than parameters, or no torque at all.
+    """
+    if method not in OF_TRIANGLES:
+        raise DataError(
+            f"fit: method {method} reads every row again and again, and long logs are not kept in "
+            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
+        )
+    observation, data = streamed.observation, streamed.data
+    gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
+    data = dataclasses.replace(
+        data,
+        triangles=np.where(gone[:, None, None], 0.0, data.triangles),
+        rows=np.where(gone, 0, data.rows),
+    )
+    equations = base_equations(observation)
+    fit = fit_equations(observation, equations, method, model, data=data, share=streamed.share)
+    return dataclasses.replace(fit, samples=streamed.samples, reading=streamed.reading)
 
 
 def all_rows(
@@ -151,10 +262,10 @@ def _all_logs(
     """All chunks of each log in one."""
     total, done = max(1, sum(source.rows for source in sources)), 0
     begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
-    for source, partials in zip(sources, begun, strict=True):
+    for source, parts in zip(sources, begun, strict=True):
         whole: Any = None
-        for partial in partials:
-            whole = partial if whole is None else whole.over(partial)
+        for part in parts:
+            whole = part if whole is None else whole.over(part)
             rows = whole.facts.tally.count("rows")
             progress(min(1.0, (done + rows) / total))
         if whole is None:

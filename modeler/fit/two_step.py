@@ -9,8 +9,8 @@ from modeler.estimate.alone import Directions
 from modeler.estimate.excited import Excitation, excitations
 from modeler.estimate.two_step import Configuration, TwoStep, two_steps
 from modeler.fit.doubts import LITTLE, Doubt
-from modeler.fit.essential import essential_parameters, relative_error
-from modeler.fit.identify import identify, parts_of
+from modeler.fit.essential import essential_parameters
+from modeler.fit.identify import all_rows, base_equations, identify, joints_of, result_of
 from modeler.fit.result import FitResult
 from modeler.observation import Observation
 
@@ -148,26 +148,17 @@ def identify_in_two_steps(
     steps = two_steps(model, observation, directions)
     excitation = excitations(model, observation, directions, steps.configurations)
     estimate = steps.estimate
-    essential = essential_parameters(steps.data, estimate, "ordinary", below)
-    parameters, joints, rows = parts_of(observation, estimate, essential)
-    result = FitResult(
-        robot=observation.robot,
-        method=TWO_STEPS,
-        status="rank deficient" if estimate.rank.aside else "ok",
-        samples=len(observation.time),
+    every = all_rows(observation)
+    essential = essential_parameters(steps.data, estimate, "ordinary", below).judged_on(
+        every, estimate.beta
+    )
+    result = result_of(
+        base_equations(observation), TWO_STEPS, estimate, essential,
         rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
-        condition_number=estimate.condition_number,
-        condition_scaled=estimate.condition_scaled,
-        relative_error=relative_error(rows, estimate.beta),
-        essential_error=relative_error(rows, essential.beta),
-        joints=joints,
-        parameters=parameters,
-        covariance=estimate.covariance,
-        loads=(),
+        joints=joints_of(observation, every, estimate.beta),
         sentences=(
             *(e.sentence() for e in excitation if not e.persistent),
             *(tangle.sentence() for tangle in estimate.rank.aside),
         ),
-        processing=observation.report.processing,
-    )
+    )  # fmt: skip
     return TwoStepFit(result, steps, excitation, one)

@@ -12,7 +12,6 @@ from modeler.core.contract import ModuleSpec
 from modeler.estimate.coloured import autocorrelation
 from modeler.estimate.compressed import Compressed, triangle
 from modeler.estimate.least_squares import solve_by_qr
-from modeler.estimate.passing import compressed
 from modeler.estimate.possible import Nearest, carried_by, machine_of, nearest_possible
 from modeler.estimate.rank import independent_columns
 from modeler.fit.clock import time_doubts
@@ -30,7 +29,7 @@ from modeler.fit.doubts import (
     undetermined,
     unshown,
 )
-from modeler.fit.identify import Equations, base_equations, dead_joints
+from modeler.fit.identify import Equations, alive_rows, all_rows, base_equations
 from modeler.fit.result import FitResult, JointFit, Verdict
 from modeler.observation import Observation
 
@@ -70,7 +69,7 @@ def with_verdict(
         data: all rows that were fitted, where the observation has a part of them only.
     """
     equations = equations or base_equations(observation)
-    rows = ~np.isin(observation.row_joint, dead_joints(observation))
+    rows = alive_rows(observation)
     part, data = data is not None, data or equations.compressed(rows)
     seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
@@ -133,9 +132,7 @@ def contradictions(
         told: findings of other stages about the logs.
         data: all rows that were fitted; None: those of the observation.
     """
-    if data is None:
-        rows = ~np.isin(observation.row_joint, dead_joints(observation))
-        data = compressed(observation, rows)
+    data = data or all_rows(observation)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found = _with_poor([*found, *time_doubts(model, observation, result)], undescribed(result))
     found += _impossible(model.spec, result, data)

@@ -25,9 +25,8 @@ from modeler.hypotheses.columns import body_parameters
 from modeler.improve.ask import asked
 from modeler.improve.describe import described
 from modeler.improve.passive import on_passive
-from modeler.improve.rows import Logs, Rows, rows_of
+from modeler.improve.rows import Logs, Rows, left_of, left_out, rows_of
 from modeler.improve.sure import with_shapes
-from modeler.improve.unseen import left_of, left_out
 from modeler.robot import robot_from_text
 from modeler.scoring.gains import gain_visible, is_gain
 from modeler.scoring.score import Score, Unseen, errors_of, printed, rms_error, scored, told

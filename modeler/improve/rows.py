@@ -1,14 +1,21 @@
-"""The rows of logs for a robot, and for the same robot with other effects."""
+"""The rows of logs for a robot, also with other effects, and what a model leaves of them."""
 
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from modeler.compiled import CompiledModel
+from modeler.fit import IdentifiedModel
+from modeler.hypotheses.blocks import blocks_of
 from modeler.observation import Log, Observation, Processing
 from modeler.observation.dry_friction import shafts
 from modeler.observation.prepare import Prepared, prepare
 from modeler.observation.stack import observed, observed_alike
+from modeler.observation.torque import model_torque
+from modeler.scoring.gram import base_of
+from modeler.scoring.score import Unseen
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,3 +80,43 @@ def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -
     given = (logs.fitted, logs.held_out)[: len(prepared)]
     pairs = zip(given, prepared, strict=True)
     return Rows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
+
+
+def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:
+    """What it leaves of logs."""
+    left = observation.torque - model_torque(observation, compiled, model.beta)
+    return _unseen_of(observation, [left[own, j] for j, own in enumerate(observation.used.T)])
+
+
+def left_out(
+    model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
+) -> Unseen:
+    """What it leaves of its own logs, each eighth predicted from a fit to the others.
+
+    Args:
+        model: fitted.
+        observation: of its logs.
+        free: (c, k) the directions of beta that are fitted, beside the model; None: all of it.
+    """
+    used = observation.used.T
+    W = [observation.columns[own, j] for j, own in enumerate(used)]
+    y = [observation.torque[own, j] for j, own in enumerate(used)]
+    if free is not None:
+        y = [tau - w @ model.beta for w, tau in zip(W, y, strict=True)]
+        W = [w @ free for w in W]
+    blocks = blocks_of(observation)
+    number = [blocks.number[own] for own in used]
+    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
+    base = base_of(W, y, sigma, number, blocks.fold)
+    return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
+
+
+def _unseen_of(observation: Observation, left: list[np.ndarray]) -> Unseen:
+    used = observation.used.T
+    return Unseen(
+        tuple(joint.name for joint in observation.joints),
+        tuple(left),
+        tuple(observation.torque[own, j] for j, own in enumerate(used)),
+        tuple(observation.time[own] for own in used),
+        tuple(observation.run[own] for own in used),
+    )

@@ -12,8 +12,8 @@ from modeler.core.errors import DataError, RobotError
 from modeler.estimate.compressed import compress
 from modeler.estimate.tls import mixed_tls
 from modeler.fit import Payload, check_currents, identify_gains, known_doubts
+from modeler.fit.alike import mounted_differently, remounted
 from modeler.fit.known import deviations
-from modeler.fit.mounting import mounted_differently, remounted
 from modeler.observation import observe
 from modeler.robot import builtin_text, robot_from_text
 from modeler.robot.edit import with_drive_gains

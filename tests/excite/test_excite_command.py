@@ -9,9 +9,8 @@ import pytest
 
 from modeler.cli import main
 from modeler.excite.result import csv_text
-from modeler.excite.search import Wish, task_of
+from modeler.excite.search import Wish, random_motion, task_of
 from modeler.excite.series import series
-from modeler.excite.starts import random_motion
 from modeler.simulate import at_rate, read_motion
 from tests.excite.robots_to_excite import limits_of
 

@@ -11,9 +11,8 @@ from modeler.excite.bounds import Bounds
 from modeler.excite.columns import Columns
 from modeler.excite.criterion import condition
 from modeler.excite.result import Exciting
-from modeler.excite.search import Wish, excite, task_of
+from modeler.excite.search import Wish, excite, random_motion, task_of
 from modeler.excite.series import series
-from modeler.excite.starts import random_motion
 from modeler.robot import robot_from_text
 from modeler.simulate.closing import distances, followed, rates
 from modeler.simulate.constraints import constraints_of

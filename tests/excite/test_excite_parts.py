@@ -16,10 +16,9 @@ from modeler.excite.criterion import (
     log_det,
     lost_information,
 )
-from modeler.excite.descent import Landscape, descend
-from modeler.excite.evolution import evolve
+from modeler.excite.descent import Landscape, descend, evolve
+from modeler.excite.search import random_motion
 from modeler.excite.series import series
-from modeler.excite.starts import random_motion
 from modeler.excite.task import Walled
 from tests.excite.robots_to_excite import limits_of, small_task
 

@@ -19,7 +19,7 @@ from modeler.fit import (
     provenance,
     save_model,
 )
-from modeler.fit.integrity import checksums
+from modeler.fit.model_file import checksums
 from modeler.observation import observe
 
 

@@ -15,7 +15,7 @@ from modeler.codegen import emit
 from modeler.compiled import load
 from modeler.core.errors import ModelerError
 from modeler.fit import IdentifiedModel, identify, load_model, provenance, save_model
-from modeler.fit.integrity import checksums
+from modeler.fit.model_file import checksums
 from modeler.observation import observe
 from modeler.robot import read_robot
 from modeler.symbolic import derive_model

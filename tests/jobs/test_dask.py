@@ -16,9 +16,7 @@ from modeler.api.spread import by_workers, merged_in_time
 from modeler.cli import main
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
-from modeler.fit.long import identify_long
-from modeler.fit.partial import merge_all
-from modeler.fit.streamed import by_threads, stream
+from modeler.fit.streamed import by_threads, identify_long, merge_all, stream
 from modeler.jobs import cluster, open_workers
 from modeler.jobs.run import Here
 from modeler.observation import Log

@@ -15,8 +15,7 @@ from modeler.core.contract import Emitted
 from modeler.diagnose import Diagnosis, Known, diagnose
 from modeler.fit import IdentifiedModel
 from modeler.improve import Logs, add_findings
-from modeler.improve.rows import rows_of
-from modeler.improve.unseen import left_of
+from modeler.improve.rows import left_of, rows_of
 from modeler.observation import Log, Processing
 from modeler.observation.motion import HIGHEST
 from modeler.robot import robot_from_text

@@ -11,10 +11,9 @@ import pytest
 
 from modeler.cli import main
 from modeler.fit import IdentifiedModel, load_model
-from modeler.pages.additions import write_additions
+from modeler.pages.additions import joints_picture, waterfall_picture, write_additions
 from modeler.pages.fitted import tangled
 from modeler.pages.values import relation
-from modeler.pages.waterfall_picture import joints_picture, waterfall_picture
 from tests.captions import assert_all_named
 
 

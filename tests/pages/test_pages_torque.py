@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.pages.evidence import evidence_picture, rivals_of, rivals_table
-from modeler.pages.law_band import covariance_of
-from modeler.pages.shown import Shown, shown
+from modeler.pages.shown import Shown, covariance_of, shown
 from modeler.pages.torque_picture import torque_picture, worst_stretch
 from modeler.pictures.picture import Band, Curve
 from modeler.scoring.gram import base_of
