@@ -75,7 +75,6 @@ class _Written:
     closed: Closed | None
     inputs: tuple[ArgumentSpec, ...]
     output: ArgumentSpec
-    length: int
     symbols: frozenset[str]
     additions: int
     multiplications: int
@@ -113,7 +112,7 @@ def emit(
         functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
-    values |= {"vectors": stored_states(model, base, functions)}
+    values |= {"vectors": stored_states(model, functions)}
     files = {
         **code,
         **kernels,
@@ -276,7 +275,6 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
         closed=function.closed,
         inputs=function.inputs,
         output=function.output,
-        length=layout.output_size(function.output),
         symbols=block.symbols if block else frozenset(),
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,

@@ -7,6 +7,7 @@ refuses a library that answers differently. Everything the numeric stages know o
 import dataclasses
 import hashlib
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -47,6 +48,11 @@ class ArgumentSpec:
     shape: tuple[int, ...]  # (joints,)
     unit: str  # "rad/s, m/s"
     meaning: str  # "joint velocities"
+
+    @property
+    def size(self) -> int:
+        """How many numbers it holds."""
+        return math.prod(self.shape)
 
 
 @dataclass(frozen=True)
