@@ -1,8 +1,9 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -112,15 +113,38 @@ def emit(
         functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
-    values |= {"vectors": stored_states(model, functions)}
-    files = {
-        **code,
-        **kernels,
-        **package_files(spec, code, values),
-        "base_parameters.md": render("base_parameters.md", **values),
-        MANIFEST: spec.to_json(),
-    }
-    return Emitted(spec, files)
+
+    def others() -> dict[str, str]:
+        stored = {**values, "vectors": stored_states(model, functions)}
+        return {
+            **package_files(spec, code, stored),
+            "base_parameters.md": render("base_parameters.md", **values),
+            MANIFEST: spec.to_json(),
+        }
+
+    return Emitted(spec, _Files({**code, **kernels}, others))
+
+
+class _Files(Mapping[str, str]):
+    """Files of a module: its code, and others that are made when one of them is asked for.
+
+    Who compiles the code in memory does not wait for the numbers of the check.
+    """
+
+    def __init__(self, code: Mapping[str, str], others: Callable[[], Mapping[str, str]]) -> None:
+        self._code, self._others = code, cache(others)
+
+    def __getitem__(self, name: str) -> str:
+        return self._code[name] if name in self._code else self._others()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([*self._code, *self._others()])
+
+    def __len__(self) -> int:
+        return len(self._code) + len(self._others())
+
+    def __reduce__(self) -> tuple[type, tuple[dict[str, str]]]:
+        return dict, (dict(self),)
 
 
 @dataclass(frozen=True)
