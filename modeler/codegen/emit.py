@@ -20,7 +20,7 @@ from modeler.codegen.fitted import (
     fitted_texts,
     widths,
 )
-from modeler.codegen.functions import Closed, Function, tree_functions
+from modeler.codegen.functions import Function, tree_functions
 from modeler.codegen.manifest import function_specs, module_spec
 from modeler.codegen.names import (
     enumerators,
@@ -43,7 +43,6 @@ from modeler.core.contract import (
     MANIFEST,
     RUNTIME,
     TILE_RUNTIME,
-    ArgumentSpec,
     Emitted,
     FittedSpec,
     ModuleSpec,
@@ -60,22 +59,15 @@ _CLOSED = {"double": 1e-9, "single": 1e-5}
 _RESTRICT = "MODELER_RESTRICT "
 
 
-@dataclass(frozen=True)
-class _Written:
-    """One function as finished strings."""
+@dataclass(frozen=True, kw_only=True)
+class _Written(Function):
+    """One function with its finished strings."""
 
-    unit: str
-    internal: bool
     name: str
-    does: str
-    equation: str
     arguments: list[str]
     declaration: str
     definition: str
     lines: list[str]
-    closed: Closed | None
-    inputs: tuple[ArgumentSpec, ...]
-    output: ArgumentSpec
     symbols: frozenset[str]
     additions: int
     multiplications: int
@@ -142,6 +134,9 @@ class _Files(Mapping[str, str]):
 
     def __len__(self) -> int:
         return len(self._code) + len(self._others())
+
+    def __or__(self, more: Mapping[str, str]) -> dict[str, str]:
+        return {**self, **more}
 
     def __reduce__(self) -> tuple[type, tuple[dict[str, str]]]:
         return dict, (dict(self),)
@@ -287,18 +282,12 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     if function.internal and function.unit == UNIT:
         returns = "static void"
     return _Written(
-        unit=function.unit,
-        internal=function.internal,
+        **vars(function),
         name=name,
-        does=function.does,
-        equation=function.equation,
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        closed=function.closed,
-        inputs=function.inputs,
-        output=function.output,
         symbols=block.symbols if block else frozenset(),
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,

@@ -83,7 +83,8 @@ def package_files(
         **_counts(values["functions"], prefix),
     }
     texts = {name: render(template, **given) for name, template in _names(prefix).items()}
-    own = {SELF_CHECK: _checked(every, prefix), **{name: example_values(spec, name) for name in examples}}
+    own = {name: example_values(spec, name) for name in examples}
+    own |= {SELF_CHECK: _checked(every, prefix)}
     own |= {COUNT: count} if count is not None else {}
     for name, more in own.items():
         texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)

@@ -18,6 +18,7 @@ from modeler.core.errors import EmitError
 from modeler.symbolic import Closure, SymbolicModel
 from modeler.symbolic.balls import Ball, BallFunction, exact_ball, flint
 from modeler.symbolic.closed_states import closing_of
+from modeler.symbolic.closing import moved_postures
 from modeler.symbolic.enclosed import EnclosedState, Enclosures, NotEnclosed
 
 STATES = 2
@@ -34,14 +35,15 @@ _DIRECT = Closed("poses", "", "q")
 _BITS = 192
 _ZERO = 1e-25  # below: cancelled
 _FINE = 2.0**-14  # rad or m
-_REACH = 0.1  # rad, or share of the robot's size
+_REACHES = (0.1, 0.02, 0.004)  # rad, or share of the robot's size; near a singularity, the last
+_SEED = 5
 
 Table = list[list[float]]
 """Numbers by state."""
 
 
 def stored_states(model: SymbolicModel, functions: Sequence[Function]) -> dict[str, Any]:
-    """What the template of the check stores: tables `inputs` and `expected`, and their `states`.
+    """What the template of the check stores: `tables` by name, and how many `states` they hold.
 
     Args:
         model: as derived.
@@ -53,11 +55,9 @@ def stored_states(model: SymbolicModel, functions: Sequence[Function]) -> dict[s
     with flint().ctx.workprec(_BITS):
         inputs, expected = _tables(model, functions)
     read = {argument.name for f in functions if not f.internal for argument in f.inputs}
-    return {
-        "states": STATES,
-        "inputs": [(name, _lines(table)) for name, table in inputs.items() if name in read],
-        "expected": [(role, _lines(table)) for role, table in expected.items()],
-    }
+    tables = {name: table for name, table in inputs.items() if name in read}
+    tables |= {f"at_{role}": table for role, table in expected.items()}
+    return {"states": STATES, "tables": [(name, _lines(x)) for name, x in tables.items()]}
 
 
 def _lines(table: Table) -> list[str]:
@@ -115,7 +115,7 @@ def _tables(
     sets: dict[str, tuple[int, ...]] = {"q": ()}
     postures = [np.array(q) for q in inputs["q"]]
     if closure is not None:
-        postures = [_near_home(model, closure, symbols, k) for k in range(STATES)]
+        postures = _postures(model, closure, symbols)
         sets = {"q": closure.given} | ({"x": closure.platform} if closure.platform else {})
         for name, places in sets.items():
             inputs[name] = [[_fine(x) for x in u[list(places)]] for u in postures]
@@ -154,23 +154,18 @@ def _made(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:
     return list((rows * G if kind == "inertia_matrix" else rows).entries())
 
 
-def _near_home(
-    model: SymbolicModel, closure: Closure, symbols: Mapping[str, Ball], state: int
-) -> np.ndarray:
-    """A closed posture beside home, in its assembly mode."""
-    scale = np.where(closure.lengths, closure.size, 1.0)
+def _postures(
+    model: SymbolicModel, closure: Closure, symbols: Mapping[str, Ball]
+) -> list[np.ndarray]:
+    """Closed postures around home, their coordinates rounded."""
+    enclosures, closing = Enclosures(model, symbols), closing_of(model)
     home, given = np.array(closure.home), list(closure.given)
-    for share in (1.0, 0.25, 0.0625, 2.0**-6, 2.0**-8):
-        reach = share * _REACH * scale
-        q = [
-            _fine(home[k] + reach[k] * (0.5 + (5 * i + 2 * state) % 7 / 14)
-                  * (-1) ** (i + i // 3 + state))
-            for i, k in enumerate(given)
-        ]  # fmt: skip
-        u = _closed(model, home, given, q)
-        if np.all(np.abs(u - home) < 10 * reach):
-            with suppress(NotEnclosed):
-                return np.array([float(x) for x in Enclosures(model, symbols).posture(u)])
+    for reach in _REACHES:
+        random = np.random.default_rng(_SEED)
+        near = moved_postures(closing, home, random, STATES, reach)
+        with suppress(NotEnclosed):
+            found = [_closed(model, u, given, [_fine(x) for x in u[given]]) for u in near]
+            return [np.array([float(x) for x in enclosures.posture(u)]) for u in found]
     raise EmitError(f"{model.robot.name}: the loops do not close beside home; state another home")
 
 
