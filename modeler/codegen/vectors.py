@@ -33,7 +33,6 @@ _DIRECT = Closed("poses", "", "q")
 """Stands for what a tree's functions are: no loops are closed."""
 
 _BITS = 192
-_ZERO = 1e-25  # below: cancelled
 _FINE = 2.0**-14  # rad or m
 _REACHES = (0.1, 0.02, 0.004)  # rad, or share of the robot's size; near a singularity, the last
 _SEED = 5
@@ -57,12 +56,10 @@ def stored_states(model: SymbolicModel, functions: Sequence[Function]) -> dict[s
     read = {argument.name for f in functions if not f.internal for argument in f.inputs}
     tables = {name: table for name, table in inputs.items() if name in read}
     tables |= {f"at_{role}": table for role, table in expected.items()}
-    return {"states": STATES, "tables": [(name, _lines(x)) for name, x in tables.items()]}
-
-
-def _lines(table: Table) -> list[str]:
-    numbers = [x for row in table for x in row]
-    return name_lines([f"{x:.16g}" if "." in f"{x:.16g}" else repr(x) for x in numbers])
+    lines = {
+        key: name_lines([repr(x) for row in rows for x in row]) for key, rows in tables.items()
+    }
+    return {"states": STATES, "tables": lines}
 
 
 def _inputs(model: SymbolicModel) -> dict[str, Table]:
@@ -188,4 +185,4 @@ def _fine(x: float) -> float:
 
 
 def _numbers(balls: Sequence[Ball]) -> list[float]:
-    return [float(x) if abs(float(x)) > _ZERO else 0.0 for x in balls]
+    return [0.0 if x.contains(0) else float(x) for x in balls]
