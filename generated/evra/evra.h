@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "7bc9b406e1628724"
+#define EVRA_SIGNATURE "82bf655f05f1a68d"
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210

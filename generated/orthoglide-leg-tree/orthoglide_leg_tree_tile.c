@@ -53,7 +53,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "544fd65d8d702cb6";
+    return "df0b4ac0bb34c47f";
 }
 
 #else /* for one instruction set */

@@ -38,7 +38,7 @@
 /* -1, 0 or 1; NaN where x is not finite. */
 static inline double modeler_sign(double x)
 {
-    return (double)((x > 0.0) - (x < 0.0)) + (x - x);
+    return (x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0) + (x - x);
 }
 
 #ifdef __cplusplus

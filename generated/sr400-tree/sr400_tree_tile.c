@@ -69,7 +69,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "25805d71ddb57416";
+    return "6ba33e9f74d6095c";
 }
 
 #else /* for one instruction set */

@@ -66,7 +66,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "38361bdcc006782c";
+    return "3a9f6a2eaf59be21";
 }
 
 #else /* for one instruction set */

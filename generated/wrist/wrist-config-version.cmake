@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.35215.17432.47361) only what has the signature 898f4418b901ec38.
-set(PACKAGE_VERSION 1.35215.17432.47361)
+# find_package(wrist 1.42740.27464.42171) only what has the signature a6f46b48a4bbae65.
+set(PACKAGE_VERSION 1.42740.27464.42171)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -38,7 +38,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "898f4418b901ec38";
+    return "a6f46b48a4bbae65";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

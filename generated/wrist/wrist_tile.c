@@ -47,7 +47,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "898f4418b901ec38";
+    return "a6f46b48a4bbae65";
 }
 
 #else /* for one instruction set */

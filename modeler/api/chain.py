@@ -99,7 +99,7 @@ def generate(
 
 def compile_model(emitted: Emitted) -> CompiledModel:
     """The C module made callable; compiled once for the same content."""
-    return load_compiled(emitted.spec, emitted.files, emitted.log)
+    return load_compiled(emitted.spec, emitted.code, emitted.log)
 
 
 def read_logs(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> list[Log]:
@@ -256,7 +256,7 @@ def identified(
     return IdentifiedModel(
         robot_text=derivation.robot.text,
         spec=emitted.spec,
-        sources=emitted.files,
+        sources=emitted.code,
         fit=result,
         logs=provenance(observation.report),
     )

@@ -94,7 +94,8 @@ def reduce_logs(
             if progress is not None:
                 progress((done + share * len(rest)) / len(jobs))
 
-        found += workers.each(reduce_log, emitted, rest, tell)
+        code = dataclasses.replace(emitted, files=emitted.code)
+        found += workers.each(reduce_log, code, rest, tell)
     return found
 
 

@@ -1,7 +1,7 @@
 """The chunks of long logs, reduced by workers: other processes, or other machines."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 from typing import TypeGuard
@@ -48,7 +48,8 @@ def by_workers(workers: Workers, emitted: Emitted) -> Reducer:
         if not from_anywhere(source):
             return by_threads(model, source, chosen)
         path, mapping = source.place
-        shared = Shared(emitted, path.absolute(), mapping, chosen, source.rows)
+        code = replace(emitted, files=emitted.code)
+        shared = Shared(code, path.absolute(), mapping, chosen, source.rows)
         count = -(-source.rows // chosen.own)
         jobs = [range(k, min(k + _CHUNKS, count)) for k in range(0, count, _CHUNKS)]
         begun = [

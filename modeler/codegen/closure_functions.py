@@ -1,6 +1,5 @@
 """What the emitted code solves the loops with: functions of the opened tree, and tables."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -17,7 +16,6 @@ from modeler.codegen.elimination import (
 from modeler.codegen.functions import Function, entries_of
 from modeler.codegen.fused import Turns, base_columns, fused_regressor, turns_of
 from modeler.core.contract import ArgumentSpec
-from modeler.core.resources import resource_dir
 from modeler.symbolic import Closure, Expr, SymbolicModel
 
 PLATFORM = "platform_"
@@ -176,7 +174,6 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
     return {
         "home": ", ".join(repr(x) for x in closure.home),
         "scale": ", ".join(repr(x) for x in scales),
-        "evaluations": _evaluations(),
         "unknowns": len(closure.home),
         "solved": len(closure.solved),
         "given": len(closure.given),
@@ -196,14 +193,6 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
             for head, own in solving.eliminations.items()
         ],
     }
-
-
-def _evaluations() -> int:
-    """How often a call evaluates the equations at most, as the runtime has it."""
-    text = (resource_dir("csrc") / "include" / "modeler_closure.h").read_text("utf-8")
-    found = re.search(r"^#define MODELER_EVALUATIONS (\d+)$", text, re.MULTILINE)
-    assert found
-    return int(found[1])
 
 
 def _set_tables(head: str, given: Sequence[int], own: Elimination, unknowns: int) -> dict[str, Any]:

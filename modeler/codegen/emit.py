@@ -1,8 +1,9 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from modeler.codegen.fitted import (
     fitted_texts,
     widths,
 )
-from modeler.codegen.functions import Closed, Function, tree_functions
+from modeler.codegen.functions import Function, tree_functions
 from modeler.codegen.manifest import function_specs, module_spec
 from modeler.codegen.names import (
     enumerators,
@@ -42,7 +43,6 @@ from modeler.core.contract import (
     MANIFEST,
     RUNTIME,
     TILE_RUNTIME,
-    ArgumentSpec,
     Emitted,
     FittedSpec,
     ModuleSpec,
@@ -59,23 +59,15 @@ _CLOSED = {"double": 1e-9, "single": 1e-5}
 _RESTRICT = "MODELER_RESTRICT "
 
 
-@dataclass(frozen=True)
-class _Written:
-    """One function as finished strings."""
+@dataclass(frozen=True, kw_only=True)
+class _Written(Function):
+    """One function with its finished strings."""
 
-    unit: str
-    internal: bool
     name: str
-    does: str
-    equation: str
     arguments: list[str]
     declaration: str
     definition: str
     lines: list[str]
-    closed: Closed | None
-    inputs: tuple[ArgumentSpec, ...]
-    output: ArgumentSpec
-    length: int
     symbols: frozenset[str]
     additions: int
     multiplications: int
@@ -113,15 +105,41 @@ def emit(
         functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
-    values |= {"vectors": stored_states(model, base, functions)}
-    files = {
-        **code,
-        **kernels,
-        **package_files(spec, code, values),
-        "base_parameters.md": render("base_parameters.md", **values),
-        MANIFEST: spec.to_json(),
-    }
-    return Emitted(spec, files)
+
+    def others() -> dict[str, str]:
+        stored = {**values, "vectors": stored_states(model, functions)}
+        return {
+            **package_files(spec, code, stored),
+            "base_parameters.md": render("base_parameters.md", **values),
+            MANIFEST: spec.to_json(),
+        }
+
+    return Emitted(spec, _Files({**code, **kernels}, others))
+
+
+class _Files(Mapping[str, str]):
+    """Files of a module: its code, and others that are made when one of them is asked for.
+
+    Who compiles the code in memory does not wait for the numbers of the check.
+    """
+
+    def __init__(self, code: Mapping[str, str], others: Callable[[], Mapping[str, str]]) -> None:
+        self._code, self._others = code, cache(others)
+
+    def __getitem__(self, name: str) -> str:
+        return self._code[name] if name in self._code else self._others()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([*self._code, *self._others()])
+
+    def __len__(self) -> int:
+        return len(self._code) + len(self._others())
+
+    def __or__(self, more: Mapping[str, str]) -> dict[str, str]:
+        return {**self, **more}
+
+    def __reduce__(self) -> tuple[type, tuple[dict[str, str]]]:
+        return dict, (dict(self),)
 
 
 @dataclass(frozen=True)
@@ -264,19 +282,12 @@ def _written(prefix: str, function: Function, block: Block | None) -> _Written:
     if function.internal and function.unit == UNIT:
         returns = "static void"
     return _Written(
-        unit=function.unit,
-        internal=function.internal,
+        **vars(function),
         name=name,
-        does=function.does,
-        equation=function.equation,
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        closed=function.closed,
-        inputs=function.inputs,
-        output=function.output,
-        length=layout.output_size(function.output),
         symbols=block.symbols if block else frozenset(),
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,

@@ -1,6 +1,5 @@
 """The example programs of a fitted module: which there are, and their calls as finished strings."""
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -42,7 +41,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     ]
     return {
         "states": 16,
-        "largest": max(math.prod(f.outputs[0].shape) for f in functions),
+        "largest": max(f.outputs[0].size for f in functions),
         "counted": counted,
         "counts_of_inputs": sorted({len(function.inputs) for function in functions}),
     }

@@ -7,7 +7,7 @@ from modeler.base.relation_text import relation_text
 from modeler.base.result import BaseParameter
 from modeler.codegen.block import Block
 from modeler.codegen.functions import Function
-from modeler.core.contract import ArgumentSpec, ModuleSpec
+from modeler.core.contract import ModuleSpec
 
 _WIDTH = 100
 _FEW = 16  # outputs that are always 0, up to which each is written in its own line
@@ -121,7 +121,7 @@ def observation_prototype(
 
 def body_lines(function: Function, block: Block | None) -> list[str]:
     """All statements of a function."""
-    size = output_size(function.output)
+    size = function.output.size
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
     lines = [f"(void){name};" for name in unread(function, block)]
@@ -158,14 +158,6 @@ def _mixed(statements: Sequence[str], more: Sequence[str]) -> tuple[str, ...]:
         mixed += [*more[done:due], statement]
         done = due
     return (*mixed, *more[done:])
-
-
-def output_size(argument: ArgumentSpec) -> int:
-    """How many numbers it holds."""
-    size = 1
-    for length in argument.shape:
-        size *= length
-    return size
 
 
 def unread(function: Function, block: Block | None) -> Iterable[str]:

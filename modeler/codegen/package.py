@@ -16,6 +16,7 @@ from modeler.codegen.examples import (
 )
 from modeler.codegen.render import render
 from modeler.codegen.single import of_precision
+from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.contract import FunctionSpec, ModuleSpec
 
 C_INTERFACE = 1
@@ -67,6 +68,7 @@ def package_files(
     """
     prefix = spec.prefix
     examples, count = examples_of(spec), count_values(spec)
+    every = (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
     given = {
         **values,
         "package": _package(spec, code),
@@ -74,15 +76,15 @@ def package_files(
         "examples": examples,
         "programs": (SELF_CHECK, *examples),
         "counts": count is not None,
-        "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in _functions(spec)},
-        "every": _functions(spec),
-        "home": _home(spec),
+        "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in every},
+        "every": every,
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         **_counts(values["functions"], prefix),
     }
     texts = {name: render(template, **given) for name, template in _names(prefix).items()}
-    own = {SELF_CHECK: {}, **{name: example_values(spec, name) for name in examples}}
+    own = {name: example_values(spec, name) for name in examples}
+    own |= {SELF_CHECK: _checked(every, prefix)}
     own |= {COUNT: count} if count is not None else {}
     for name, more in own.items():
         texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
@@ -122,8 +124,12 @@ def _included(text: str) -> list[str]:
     return re.findall(r'^#include "([^"]+)"', text, flags=re.MULTILINE)
 
 
-def _functions(spec: ModuleSpec) -> tuple[FunctionSpec, ...]:
-    return (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+def _checked(every: Sequence[FunctionSpec], prefix: str) -> dict[str, Any]:
+    """The functions in the order of the check: what is compared with others comes after them."""
+    products = {f"{prefix}_{role}" for role in PRODUCTS}
+    order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
+    largest = max(f.outputs[0].size for f in every)
+    return {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
 
 
 def _counts(functions: Sequence[Any], prefix: str) -> dict[str, dict[str, int]]:
@@ -141,10 +147,3 @@ def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
         "additions": sum(f.additions for f in own),
         "multiplications": sum(f.multiplications for f in own),
     }
-
-
-def _home(spec: ModuleSpec) -> str:
-    """Coordinates of a posture in which the loops close, as a C initialiser."""
-    if spec.closure is None:
-        return "0.0"
-    return ", ".join(repr(spec.closure.home[place]) for place in spec.closure.given)

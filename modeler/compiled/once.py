@@ -14,5 +14,5 @@ def compiled_once(emitted: Emitted) -> CompiledModel:
     """
     signature = emitted.spec.signature()
     if signature not in _MODELS:
-        _MODELS[signature] = load(emitted.spec, emitted.files, emitted.log)
+        _MODELS[signature] = load(emitted.spec, emitted.code, emitted.log)
     return _MODELS[signature]

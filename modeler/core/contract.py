@@ -7,6 +7,7 @@ refuses a library that answers differently. Everything the numeric stages know o
 import dataclasses
 import hashlib
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -47,6 +48,11 @@ class ArgumentSpec:
     shape: tuple[int, ...]  # (joints,)
     unit: str  # "rad/s, m/s"
     meaning: str  # "joint velocities"
+
+    @property
+    def size(self) -> int:
+        """How many numbers it holds."""
+        return math.prod(self.shape)
 
 
 @dataclass(frozen=True)
@@ -267,13 +273,20 @@ class Emitted(Presented):
 
     Attributes:
         spec: its manifest.
-        files: {file name: text}; the C files of `spec.sources`, the manifest, build files, tables.
+        files: {file name: text}; `code`, the manifest, build files, programs, tables. What is not
+            `code` is made when it is first asked for.
         log: what the robot file says of the columns of logs; no part of the C.
     """
 
     spec: ModuleSpec
     files: Mapping[str, str]
     log: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def code(self) -> dict[str, str]:
+        """The files that the library and its tiles are compiled from."""
+        names = (*self.spec.sources, *self.spec.tile_sources)
+        return {name: self.files[name] for name in names if name in self.files}
 
 
 def module_from_json(text: bytes | str, where: str) -> ModuleSpec:

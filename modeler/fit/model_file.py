@@ -136,7 +136,7 @@ class IdentifiedModel(Presented):
     Attributes:
         robot_text: the robot file, TOML.
         spec: the manifest.
-        sources: C sources by file name.
+        sources: C by file name, as `Emitted.code`.
         fit: the estimate; `fit.processing` is how its data were processed.
         logs: what it was fitted on.
         history: the model as first fitted and every effect added since; empty before the first.

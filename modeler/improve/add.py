@@ -283,9 +283,9 @@ def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> _Fitted:
     """The robot of that file fitted to the logs."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
-    rows = seen(load(emitted.spec, emitted.files))
+    rows = seen(load(emitted.spec, emitted.code))
     fit, used = identify(rows.fitted), provenance(rows.fitted.report)
-    return _Fitted(IdentifiedModel(text, emitted.spec, emitted.files, fit, used), rows)
+    return _Fitted(IdentifiedModel(text, emitted.spec, emitted.code, fit, used), rows)
 
 
 def _loaded(model: IdentifiedModel, body: np.ndarray) -> IdentifiedModel:

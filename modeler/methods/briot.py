@@ -43,7 +43,7 @@ def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
     robot = _robot()
     derivation = derive(robot)
     emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.files)
+    compiled = load_compiled(emitted.spec, emitted.code)
     machine = _machine(robot, table, [c.name for c in derivation.base.columns])
     runs = []
     for seed, load in enumerate((0.0, mass, second), 1):

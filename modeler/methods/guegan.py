@@ -49,7 +49,7 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
     truth = {name: values[0] for name, values in table_3.items()}
     derivation = derive(load(ROBOT))
     emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.files)
+    compiled = load_compiled(emitted.spec, emitted.code)
     observation, exact = _simulated(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_chosen(observation, truth))
     return [

@@ -49,7 +49,7 @@ def hanssen_methods(paper: Paper, report: Callable[[float], None]) -> list[Metho
     robot = robot_from_text(builtin_text("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist")
     derivation = derive(robot)
     emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.files)
+    compiled = load_compiled(emitted.spec, emitted.code)
     settings = SimulationSettings(
         duration=SECONDS,
         rate=RATE,

@@ -68,7 +68,7 @@ def _text(both_ways: bool) -> str:
 
 def _model(both_ways: bool) -> CompiledModel:
     emitted = generate(derive(robot_from_text(_text(both_ways), "evra")))
-    return load_compiled(emitted.spec, emitted.files)
+    return load_compiled(emitted.spec, emitted.code)
 
 
 def _machine(truth: Mapping[str, float], friction: Mapping[str, tuple[float, ...]]) -> Robot:

@@ -11,7 +11,7 @@ by solving the linear equations of `modeler.symbolic.closure` in balls.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,17 +44,26 @@ class NotEnclosed(Exception):
 class Enclosures:
     """States of a model in balls, at the precision of the caller."""
 
-    def __init__(self, model: SymbolicModel, symbols: Mapping[str, Ball]) -> None:
+    def __init__(
+        self,
+        model: SymbolicModel,
+        symbols: Mapping[str, Ball],
+        given: tuple[int, ...] | None = None,
+    ) -> None:
         """For a model, with or without loops.
 
         Args:
             model: of the robot.
             symbols: balls of its symbols.
+            given: places in u of the variables that move the loops; None for the coordinates q.
         """
         self.model, self.closure = model, model.closure
         self.symbols = symbols
         self.bits = int(flint().ctx.prec)
         if self.closure is not None:
+            if given is not None:
+                solved = tuple(k for k in range(len(self.closure.home)) if k not in given)
+                self.closure = replace(self.closure, given=given, solved=solved)
             slopes = [entry for line in self.closure.jacobian for entry in line]
             closure = self.closure
             functions = (closure.equations, slopes, closure.drift, closure.alignments)

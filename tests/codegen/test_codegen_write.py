@@ -96,7 +96,7 @@ EXAMPLE = "programs/example_residual_observer.c"
 def test_what_is_no_longer_emitted_goes_unless_it_was_edited(emitted, tmp_path):
     """As the functions with fitted values do, where the robot without a model comes after it."""
     more = {"emps_fitted.c": "old", "emps_fitted.h": "old", EXAMPLE: "old"}
-    with_values = dataclasses.replace(emitted, files=emitted.files | more)
+    with_values = dataclasses.replace(emitted, files={**emitted.files, **more})
     (tmp_path / "controller.c").write_text("mine")
     write_emitted(with_values, tmp_path)
     (tmp_path / EXAMPLE).write_text("edited")
