@@ -8,7 +8,7 @@ from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
 from modeler.methods import MethodTable, Outcome, run_methods
 from modeler.papers import Derived, Line, Paper, Verdict, check_paper, derived_robot, read_paper
-from modeler.papers.check import SLIP_TEXTS
+from modeler.papers.paper import SLIPS
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:
@@ -64,7 +64,7 @@ def _say_robot(name: str, derived: Derived, lines: Sequence[Line]) -> None:
     say()
     say(f"{name}: {derived.robot.title}")
     for line in lines:
-        slip = f": {SLIP_TEXTS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
+        slip = f": {SLIPS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
         say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
         if line.verdict in (Verdict.MEASURED, Verdict.CONSISTENT):
             say(f"      must hold: {line.derived}")

@@ -10,7 +10,7 @@ import sympy
 from modeler.base import BaseParameters, base_parameters
 from modeler.core.expression import parse
 from modeler.papers.paper import Variant
-from modeler.papers.quotation import Amount, Monomial, Sum, read_sum
+from modeler.papers.quotation import Amount, Monomial, Sum, read_sum, sum_text, times
 from modeler.robot import Robot, read_robot
 from modeler.symbolic import SymbolicModel, derive_model
 from modeler.terms import CoefficientTable, coefficient_table
@@ -32,7 +32,14 @@ class Derived:
     @cached_property
     def relations(self) -> Mapping[str, Sum]:
         """Every base parameter as a sum of standard parameters."""
-        return {p.name: _sum_of(p.terms) for p in self.base.parameters}
+        return {
+            p.name: {
+                times(monomial, ((term.parameter, 1),)): value
+                for term in p.terms
+                for monomial, value in sum_of(term.coefficient).items()
+            }
+            for p in self.base.parameters
+        }
 
     @cached_property
     def standard(self) -> tuple[str, ...]:
@@ -79,13 +86,18 @@ def derived_robot(name: str, variant: Variant | None = None) -> Derived:
     return Derived(robot, model, base_parameters(model))
 
 
-def _sum_of(terms: tuple[object, ...]) -> Sum:
-    total: dict[Monomial, Amount] = {}
-    for term in terms:
-        for part in sympy.Add.make_args(sympy.expand(term.coefficient)):  # type: ignore[attr-defined]
-            number, rest = part.as_coeff_Mul()
-            powers = {str(b): int(e) for b, e in rest.as_powers_dict().items() if b != 1}
-            powers[term.parameter] = 1  # type: ignore[attr-defined]
+def sum_of(expression: sympy.Expr) -> Sum:
+    """An expression of symbols, sines and cosines as a sum."""
+    found: dict[Monomial, Amount] = {}
+    for term in sympy.Add.make_args(sympy.expand(expression)):
+        number, rest = term.as_coeff_Mul()
+        if number:
             value = sympy.Rational(number)
-            total[tuple(sorted(powers.items()))] = Amount(Fraction(int(value.p), int(value.q)))
-    return total
+            powers = sorted((str(b), int(e)) for b, e in rest.as_powers_dict().items() if b != 1)
+            found[tuple(powers)] = Amount(Fraction(int(value.p), int(value.q)))
+    return found
+
+
+def expression_of(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    """A sum as an expression, with these for its names where they are given."""
+    return sympy.sympify(sum_text(whole).replace("^", "**"), symbols)

@@ -16,9 +16,14 @@ from modeler.core.errors import RobotError
 
 _FOLDER = Path(__file__).parent / "library"
 
-SLIPS = ("misprint", "omission", "error", "scan", "count")
-"""Why a print differs: a slip of the pen, something left out, a wrong statement, perhaps only the
-scanned text that was read and not the paper, or another way to count, which is no error."""
+SLIPS = {
+    "misprint": "a misprint",
+    "omission": "an omission",
+    "error": "the statement is wrong",
+    "count": "counted otherwise, no error",
+    "scan": "the scanned text may be at fault, not the paper",
+}
+"""Why a print differs, as it is told."""
 
 
 @dataclass(frozen=True)

@@ -1,21 +1,13 @@
 """How the statements of a paper are read and compared: one function for each kind."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from modeler.papers.compared import Compared
+from modeler.papers.compared import Compared, Reading, Robots, difference_of, numbered, renamer
 from modeler.papers.derived import Derived
-from modeler.papers.motion import (
-    column_reading,
-    effort_reading,
-    element_reading,
-    energy_reading,
-    rotation_reading,
-    speed_reading,
-)
-from modeler.papers.naming import difference_of, renamer
+from modeler.papers.mechanics import MECHANICS_READINGS
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quantities import evaluate, quantities
 from modeler.papers.quotation import (
@@ -28,16 +20,8 @@ from modeler.papers.quotation import (
     replaced,
     sum_text,
 )
-from modeler.papers.tables import (
-    closure_reading,
-    matrix_reading,
-    platform_reading,
-    row_reading,
-    tied_reading,
-)
 from modeler.papers.wrist import WRIST_READINGS
 
-Robots = Mapping[str, Derived]
 _LEGS = "123456"
 _ONE = Amount(Fraction(1))
 
@@ -107,18 +91,9 @@ def numbers_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
         raise QuotationError(f"{len(numbers)} numbers are quoted, {len(line.gives)} are derived")
     known = quantities(robots[line.robot])
     values = [Fraction(evaluate(text, known)) for text in line.gives]
-    printed = {_place(i): number for i, number in enumerate(numbers)}
-    derived = {_place(i): Amount(value) for i, value in enumerate(values)}
     text = ", ".join(str(value) for value in values)
-    return Compared(_nonzero(printed), _nonzero(derived), text, difference_of(line))
-
-
-def _place(index: int) -> Monomial:
-    return ((f"n{index + 1}", 1),)
-
-
-def _nonzero(a: Sum) -> Sum:
-    return {monomial: value for monomial, value in a.items() if value.value}
+    derived = numbered(Amount(value) for value in values)
+    return Compared(numbered(numbers), derived, text, difference_of(line))
 
 
 def names_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -182,21 +157,11 @@ def _rounded(formula: str, numbers: Mapping[str, Amount], known: dict[str, Any])
     return Amount(value, half)
 
 
-READINGS: Mapping[str, Callable[[Paper, PrintedLine, Robots], Compared]] = {
+READINGS: Mapping[str, Reading] = {
     "relation": relation_reading,
     "numbers": numbers_reading,
     "names": names_reading,
     "arithmetic": arithmetic_reading,
-    "row": row_reading,
-    "tied": tied_reading,
-    "rows": matrix_reading,
-    "rotation": rotation_reading,
-    "element": element_reading,
-    "column": column_reading,
-    "energy": energy_reading,
-    "speed": speed_reading,
-    "effort": effort_reading,
-    "closure": closure_reading,
-    "platform": platform_reading,
+    **MECHANICS_READINGS,
     **WRIST_READINGS,
 }
