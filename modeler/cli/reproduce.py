@@ -1,6 +1,7 @@
 """`modeler reproduce PAPER`: a paper's results beside the derived ones, its methods run again."""
 
 import argparse
+import enum
 from collections.abc import Sequence
 from dataclasses import asdict
 
@@ -55,8 +56,7 @@ def _lines(paper: Paper) -> list[Line]:
         if line.verdict is Verdict.UNCHECKED:
             say(f"  [{line.verdict.value}] {line.place}: {line.why}")
     say()
-    counts = {v: sum(line.verdict is v for line in lines) for v in Verdict}
-    say(", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count))
+    say(_counted([line.verdict for line in lines]))
     return lines
 
 
@@ -90,11 +90,14 @@ def _methods(paper: Paper) -> list[MethodTable]:
             text = "  ".join(f"{part:<{w}}" for part, w in zip(cell, wide, strict=True))
             say(f"  {text}  [{row.outcome.value}]" + (f" {row.why}" if row.why else ""))
     say()
-    rows = [row for table in tables for row in table.rows]
-    counts = {o: sum(row.outcome is o for row in rows) for o in Outcome}
-    told = ", ".join(f"{count} {outcome.value}" for outcome, count in counts.items() if count)
+    told = _counted([row.outcome for table in tables for row in table.rows])
     say(f"methods: {told or 'none of this paper is run here'}")
     return tables
+
+
+def _counted(found: Sequence[enum.Enum]) -> str:
+    counts = {kind: found.count(kind) for kind in (type(found[0]) if found else ())}
+    return ", ".join(f"{count} {kind.value}" for kind, count in counts.items() if count)
 
 
 def _failed(tables: Sequence[MethodTable]) -> list[str]:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 
 import sympy
@@ -25,11 +26,12 @@ from modeler.papers.quotation import (
     added,
     read_sum,
     replaced,
+    sides,
     sum_text,
 )
 from modeler.robot import Joint
-from modeler.symbolic.angles import cos_sin
 from modeler.symbolic.geometry import Row
+from modeler.symbolic.kinematics import base_poses, pose, poses
 
 ELEMENTS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 """Parameters of a link in the order of its row of functions."""
@@ -88,21 +90,30 @@ def _elements(derived: Derived, rows: tuple[str, ...]) -> list[sympy.Expr]:
 def _rotation(derived: Derived, rows: tuple[str, ...]) -> list[sympy.Expr]:
     """w_j = R^T w_(j-1) + qd_j z_j from a base at rest; a slide adds nothing."""
     by_name = {row.joint.name: row for row in derived.model.geometry.rows}
-    w = sympy.zeros(3, 1)
+    w = [sympy.Integer(0)] * 3
     for index, name in enumerate(rows, 1):
         row = by_name[name]
-        moves = row.joint.angular
-        w = turned(row, sympy.Symbol(f"theta{index}") if moves else row.theta).T * w
-        w += sympy.Matrix([0, 0, sympy.Symbol(f"qd{index}") if moves else 0])
+        moved = {name: sympy.Symbol(f"theta{index}") - row.theta} if row.joint.angular else {}
+        w = pose(row, _Moved(moved)).to_link(w)
+        w[2] += sympy.Symbol(f"qd{index}") * len(moved)
     return [sympy.expand(part) for part in w]
 
 
-def _z(c: sympy.Expr, s: sympy.Expr) -> sympy.Matrix:
-    return sympy.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+@dataclass(frozen=True)
+class _Moved:
+    """Algebra of the recursions over sympy: rows at these values of rate * q, 0 without one."""
 
+    values: Mapping[str, sympy.Expr]
 
-def _x(c: sympy.Expr, s: sympy.Expr) -> sympy.Matrix:
-    return sympy.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]])
+    def static(self, value: sympy.Expr) -> sympy.Expr:
+        return value
+
+    def variable(self, row: Row) -> sympy.Expr:
+        return row.r + self.values.get(row.joint.name, 0)
+
+    def cos_sin(self, row: Row) -> tuple[sympy.Expr, sympy.Expr]:
+        angle = row.theta + int(row.joint.angular) * self.values.get(row.joint.name, 0)
+        return sympy.cos(angle), sympy.sin(angle)
 
 
 def without_squared_sines(expression: sympy.Expr) -> sympy.Expr:
@@ -112,12 +123,6 @@ def without_squared_sines(expression: sympy.Expr) -> sympy.Expr:
         s, square = sympy.Dummy(), 1 - sympy.cos(sine.args[0]) ** 2
         found = sympy.rem(found.subs(sine, s), s**2 - square, s).subs(s, sine)
     return sympy.expand(found)
-
-
-def turned(row: Row, angle: sympy.Expr) -> sympy.Matrix:
-    """Rotation Rz(gamma) Rx(alpha) Rz(angle) of a row, from its antecedent."""
-    c, s = cos_sin(row.gamma)
-    return _z(c, s) * _x(*cos_sin(row.alpha)) * _z(sympy.cos(angle), sympy.sin(angle))
 
 
 def _vector(name: str) -> sympy.Matrix:
@@ -168,7 +173,7 @@ def _speed_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     q = sympy.Symbol("q")
     found = []
     for theta, r in ((q, 0), (0, q)):
-        turn = _z(sympy.cos(theta), sympy.sin(theta))
+        turn = sympy.rot_axis3(-theta)
         spin = turn.T * turn.diff(q)
         slide = turn.T * sympy.Matrix([0, 0, r]).diff(q)
         found.append(sympy.simplify(spin[1, 0] if line.gives[0] == "angular" else slide[2]))
@@ -233,10 +238,8 @@ def _tied_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     printed: dict[str, Sum] = {}
     pairs = r"(\w+) (\w+) \+ (\w+) (\w+)"  # (a, b) + (c, d) = 0
     for equation in re.sub(pairs, r"\3 = -\1, \4 = -\2", line.text).split(","):
-        left, equal, right = equation.partition("=")
-        if not equal:
-            raise QuotationError(f'"{equation}" is no equation')
-        name = rename(left.strip())
+        left, right = sides(equation)
+        name = rename(left)
         if name in printed:
             raise QuotationError(f"{name} is given twice")
         printed[name] = read_sum(right, rename)
@@ -292,22 +295,15 @@ def _with_deltas(text: str, leg: int) -> str:
 def _placed(derived: Derived, name: str, first: str) -> tuple[sympy.Matrix, sympy.Matrix]:
     """(rotation of the row `first`, place of the origin of the row `name`), both in frame 0."""
     geometry = derived.model.geometry
-    names = [row.joint.name for row in geometry.rows]
     free = [sympy.Symbol(joint.variable) for joint in geometry.robot.free]
-    rotation, place, wanted = sympy.eye(3), sympy.zeros(3, 1), sympy.eye(3)
-    for k in reversed(geometry.ancestors(names.index(name))):
-        row = geometry.rows[k]
-        form = {} if row.index is None else geometry.forms[row.index]
-        moved = row.rate * sum(
-            sympy.Rational(v.numerator, v.denominator) * free[u] for u, v in form.items()
-        )
-        angle, slide = (moved, 0) if row.joint.angular else (0, moved)
-        turn = turned(row, row.theta + angle)
-        shift = sympy.Matrix([row.d * sympy.cos(row.gamma), row.d * sympy.sin(row.gamma), row.b])
-        place += rotation * (shift + turn * sympy.Matrix([0, 0, row.r + slide]))
-        rotation = rotation * turn
-        wanted = rotation if row.joint.name == first else wanted
-    return wanted, place
+    moving = [row for row in geometry.rows if row.index is not None]
+    moved = _Moved({
+        row.joint.name: row.rate * sum(sympy.Rational(v) * free[u] for u, v in form.items())
+        for row, form in zip(moving, geometry.forms, strict=True)
+    })  # fmt: skip
+    found = base_poses(geometry, poses(geometry, moved), moved)
+    places = {row.joint.name: place for row, place in zip(geometry.rows, found, strict=True)}
+    return sympy.Matrix(places[first][0]).T, sympy.Matrix(places[name][1])
 
 
 def _platform_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:

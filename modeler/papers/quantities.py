@@ -60,13 +60,11 @@ def _walk(node: ast.expr, values: Mapping[str, Any], text: str) -> Any:
     raise QuotationError(f'"{text}" asks for {ast.unparse(node)}, which is not known here')
 
 
-def arithmetic() -> dict[str, Any]:
-    """Functions for numbers."""
-    return {
-        "abs": abs, "pi": math.pi, "count": len,
-        "mean": lambda *x: sum(x) / len(x),
-        "falling": lambda *x: all(a >= b for a, b in itertools.pairwise(x)),
-    }  # fmt: skip
+_ARITHMETIC: Mapping[str, Any] = {
+    "abs": abs, "pi": math.pi, "count": len,
+    "mean": lambda *x: sum(x) / len(x),
+    "falling": lambda *x: all(a >= b for a, b in itertools.pairwise(x)),
+}  # fmt: skip
 
 
 def quantities(derived: Derived) -> dict[str, Any]:
@@ -92,16 +90,13 @@ def quantities(derived: Derived) -> dict[str, Any]:
             robot.joints[c.row].name for c in base.columns if c.kind == "inertial"
         ),
     }  # fmt: skip
-    found: dict[str, Any] = arithmetic()
-    for name, members in sets.items():
-        found[name] = _pattern(members)
+    found = {**_ARITHMETIC, **{name: _pattern(members) for name, members in sets.items()}}
     found["prefix"] = lambda names: frozenset(
         column.prefix for column in base.columns if column.name in names
     )
     found["efforts"] = lambda names: frozenset(f"Gamma{name}" for name in names)
     found["within"] = lambda own, others: _within(derived, own, others)
     found["terms"] = lambda name: len(derived.relations.get(name, ()))
-    found["symbol"] = lambda name: derived.values[name]
     return found | (_coefficients(derived) if robot.physical else {})
 
 

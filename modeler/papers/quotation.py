@@ -62,6 +62,14 @@ def numbers_of(text: str) -> list[Amount]:
     return [amount(found) for found in _NUMBER.findall(joined)]
 
 
+def sides(text: str) -> tuple[str, str]:
+    """The two sides of an equation."""
+    left, equal, right = text.partition("=")
+    if not equal:
+        raise QuotationError(f'"{text}" is no equation')
+    return left.strip(), right
+
+
 def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) -> Sum:
     """The sum, its names changed by `rename`.
 

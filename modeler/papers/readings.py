@@ -18,6 +18,7 @@ from modeler.papers.quotation import (
     numbers_of,
     read_sum,
     replaced,
+    sides,
     sum_text,
 )
 from modeler.papers.wrist import WRIST_READINGS
@@ -29,7 +30,7 @@ _ONE = Amount(Fraction(1))
 def relation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`ZZ2Ri = ZZ2i + ...`: a base parameter, or a combination of them, as a sum."""
     found, leg = robots[line.robot], line.legs[0]
-    left, right = _sides(line.text)
+    left, right = sides(line.text)
     rename = renamer(paper, line, leg)
     puts = _assumed(paper, line)
     printed = read_sum(right, rename, _LEGS[:3])
@@ -48,18 +49,11 @@ def relation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compare
     )  # fmt: skip
 
 
-def _sides(text: str) -> tuple[str, str]:
-    left, equal, right = text.partition("=")
-    if not equal:
-        raise QuotationError(f'"{text}" is no equation')
-    return left.strip(), right
-
-
 def _assumed(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
     """What the quotations of `given` put in for a name, for every leg."""
     puts: dict[str, Sum] = {}
     for text in line.given:
-        left, right = _sides(text)
+        left, right = sides(text)
         for leg in _LEGS:
             rename = renamer(paper, line, leg)
             puts[rename(left)] = read_sum(right, rename)

@@ -167,9 +167,7 @@ def _triads() -> dict[str, sympy.Matrix]:
 
 
 _Q = sympy.symbols("q1:4")
-_T = sympy.Symbol("t")
-_IN_TIME = {q: sympy.Function(q.name)(_T) for q in _Q}
-_SPEEDS = {f.diff(_T): sympy.Symbol(f"qd{k}") for k, f in enumerate(_IN_TIME.values(), 1)}
+_QD = sympy.symbols("qd1:4")
 
 
 @cache
@@ -180,12 +178,10 @@ def _speeds(body: str) -> tuple[sympy.Matrix, sympy.Matrix]:
     last = crossing + sympy.Symbol("bl1") * axes["b1"]
     origin = {"a": sympy.zeros(3, 1), "b": crossing, "c": last}
     own = sum((sympy.Symbol(f"{body}t{k}") * axes[f"{body}{k}"] for k in (1, 2, 3)), origin[body])
-    turn = sympy.Matrix.hstack(*(axes[f"{body}{k}"] for k in (1, 2, 3))).subs(_IN_TIME)
-    spin = turn.diff(_T) * turn.T
-    back = {f: q for q, f in _IN_TIME.items()}
-    found = [own.subs(_IN_TIME).diff(_T), sympy.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])]
-    velocity, angular = (part.subs(_SPEEDS).subs(back) for part in found)
-    return velocity, angular
+    turn = sympy.Matrix.hstack(*(axes[f"{body}{k}"] for k in (1, 2, 3)))
+    spin = sum((turn.diff(q) * turn.T * qd for q, qd in zip(_Q, _QD, strict=True)), sympy.zeros(3))
+    velocity = own.jacobian(_Q) * sympy.Matrix(_QD)
+    return velocity, sympy.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
 
 
 def _along(text: str) -> sympy.Matrix:
@@ -226,12 +222,12 @@ def _applied(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """
     cells = [cell.strip() for cell in line.text.split(";")]
     printed, derived = sympy.zeros(3, 1), sympy.Matrix(sympy.symbols("tau1:4"))
-    rates, down = sympy.Matrix(list(_SPEEDS.values())), -sympy.Symbol("g") * _triads()["n3"]
+    down = -sympy.Symbol("g") * _triads()["n3"]
     for k, body in enumerate("abc"):
         velocity, angular = _speeds(body)
         for vector, cell in zip((velocity, angular), cells[2 * k : 2 * k + 2], strict=True):
-            printed += vector.jacobian(rates).T * _along(cell)
-        derived += velocity.jacobian(rates).T * sympy.Symbol(f"{body}m") * down
+            printed += vector.jacobian(_QD).T * _along(cell)
+        derived += velocity.jacobian(_QD).T * sympy.Symbol(f"{body}m") * down
     text = ", ".join(f"tau{k} - g{k}" for k in (1, 2, 3))
     given = _vectors(printed)
     if line.gives:  # the paper's unit of gravity
@@ -261,10 +257,9 @@ def _friction(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     if found is None or coupling is None:
         raise QuotationError(f'"{line.text}" is no friction of coupled motors')
     G, C = coupling.motor_from_joint, coupling.coulomb
-    places = {letter: range(3) for letter in "ijk"}
     printed = dict.fromkeys(range(3), Fraction(0))
     used = sorted({*"i", *found[1], *found[2], *found[3]})
-    for at in itertools.product(*(places[letter] for letter in used)):
+    for at in itertools.product(range(3), repeat=len(used)):
         index = dict(zip(used, at, strict=True))
         (a, b), (c, d) = ([index[x] for x in pair] for pair in (found[1], found[2]))
         speed = coupling.speed[index[found[3]]]
