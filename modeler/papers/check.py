@@ -76,9 +76,9 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
         if line.seal and seal_of(line) != line.seal:
             raise QuotationError("the numbers are not those that were read from the paper")
         found = READINGS[line.check](paper, line, derived)
+        equal, exact = same(found, line)
     except (QuotationError, ExpressionError, RobotError) as error:
         return _told(line, str(error), Verdict.DIFFERENT)
-    equal, exact = same(found)
     return _told(line, found.text, _verdict(line, equal, exact, found.weak))
 
 

@@ -20,16 +20,16 @@ class Compared:
         printed: as read from the quotation, our names.
         derived: the same, derived.
         text: the derived one as people read it.
-        difference: derived minus printed, as the paper's file states it.
         values: of the names that stand in coefficients, for decimals.
+        settled: the difference that the paper's file states is taken into account already.
         weak: something is only larger or smaller, nothing says that it is equal.
     """
 
     printed: Sum
     derived: Sum
     text: str
-    difference: Sum = field(default_factory=dict)
     values: Mapping[str, float] = field(default_factory=dict)
+    settled: bool = False
     weak: bool = False
 
 
@@ -57,13 +57,14 @@ def numbered(values: Iterable[Amount | int]) -> Sum:
     return added(in_order({(): value} for value in amounts))
 
 
-def same(found: Compared) -> tuple[bool, bool]:
-    """(printed + difference is what is derived, all of it exactly and not only as rounded).
+def same(found: Compared, line: PrintedLine) -> tuple[bool, bool]:
+    """(printed + known difference is what is derived, all of it exactly and not only as rounded).
 
     A coefficient that is printed with a point is compared as a number, to half a unit of its last
     digit; all others exactly.
     """
-    printed = _by_name(added(found.printed, found.difference), found.values)
+    known = {} if found.settled else _difference(line)
+    printed = _by_name(added(found.printed, known), found.values)
     derived = _by_name(found.derived, found.values)
     if printed.keys() != derived.keys():
         return False, False
@@ -128,7 +129,7 @@ def _exchanged(paper: Paper, name: str) -> str:
     return paper.names.get(letters.group(), letters.group()) + name[letters.end() :]
 
 
-def difference_of(line: PrintedLine) -> Sum:
+def _difference(line: PrintedLine) -> Sum:
     """Derived minus printed, as the paper's file states it in our names."""
     text = line.difference.replace("{i}", line.legs[0])
     return read_sum(text, str) if text else {}

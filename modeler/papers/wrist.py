@@ -11,17 +11,8 @@ from typing import Any
 import sympy
 
 from modeler.core.expression import Expression, parse
-from modeler.papers.compared import (
-    Compared,
-    Reading,
-    Robots,
-    difference_of,
-    in_order,
-    joined,
-    numbered,
-)
-from modeler.papers.derived import Derived, expression_of, sum_of
-from modeler.papers.mechanics import without_squared_sines
+from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
+from modeler.papers.derived import Derived, expression_of, sum_of, without_squared_sines
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quotation import Amount, QuotationError, Sum, amount, read_sum, sum_text
 from modeler.terms import CoefficientTable
@@ -72,7 +63,8 @@ def _read(text: str) -> Expression:
 def _stated(line: PrintedLine, found: str, right: str) -> Compared:
     """Equal if what is found to differ is what the paper's file says."""
     different: Sum = {} if found == line.difference else {(("difference", 1),): Amount(Fraction(1))}
-    return Compared(different, {}, f"derived - printed: {found}" if found else right)
+    text = f"derived - printed: {found}" if found else right
+    return Compared(different, {}, text, settled=True)
 
 
 def _function(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -212,7 +204,7 @@ def _velocity(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """Velocity of the mass centre of body `gives[0]`, or its angular velocity, from positions."""
     body, _, angular = line.gives[0].partition(" ")
     derived = _vectors(_speeds(body)[bool(angular)])
-    return Compared(_vectors(_along(line.text)), derived, "the same", difference_of(line))
+    return Compared(_vectors(_along(line.text)), derived, "the same")
 
 
 def _applied(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -232,7 +224,7 @@ def _applied(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     given = _vectors(printed)
     if line.gives:  # the paper's unit of gravity
         derived = derived.subs(sympy.Symbol("g"), sympy.Integer(line.gives[0]))
-    return Compared(given, _vectors(derived), text, difference_of(line))
+    return Compared(given, _vectors(derived), text)
 
 
 def _indices(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -247,7 +239,7 @@ def _indices(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
         name = re.sub(r"([A-Za-z]+?)[ijk]+\b|[ ()]", r"\1", term)
         printed[name] = read_sum("*".join(free) or "0", str)
     derived = {name: read_sum("i", str) for name in line.gives}
-    return Compared(joined(printed), joined(derived), "i in every term", difference_of(line))
+    return Compared(joined(printed), joined(derived), "i in every term")
 
 
 def _friction(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -268,7 +260,7 @@ def _friction(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     text = ", ".join(f"{float(value):g}" for value in derived)
     return Compared(
         numbered(map(Amount, printed.values())), numbered(map(Amount, derived)),
-        f"G' C sgn(G qd); at the motion of docs/wrist.md {text} N m", difference_of(line),
+        f"G' C sgn(G qd); at the motion of docs/wrist.md {text} N m",
     )  # fmt: skip
 
 
