@@ -116,11 +116,8 @@ def _monomials(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`s2^2; c2 s2; 1`: the monomials of a function in the order of its coefficients."""
     derived = [at for _, at in _terms(robots[line.robot], line.gives[0])]
     printed = [read_sum(text, str) for text in line.quote.split(";")]
-    return Compared(
-        in_order(printed),
-        in_order(derived),
-        "; ".join(sum_text(part) for part in derived),
-    )
+    text = "; ".join(sum_text(part) for part in derived)
+    return Compared(in_order(printed), in_order(derived), text)
 
 
 def _values(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
