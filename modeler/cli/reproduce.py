@@ -1,6 +1,7 @@
 """`modeler reproduce PAPER`: a paper's results beside the derived ones, its methods run again."""
 
 import argparse
+import enum
 from collections.abc import Sequence
 from dataclasses import asdict
 
@@ -8,7 +9,7 @@ from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
 from modeler.methods import MethodTable, Outcome, run_methods
 from modeler.papers import Derived, Line, Paper, Verdict, check_paper, derived_robot, read_paper
-from modeler.papers.check import SLIP_TEXTS
+from modeler.papers.paper import SLIPS
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:
@@ -55,8 +56,7 @@ def _lines(paper: Paper) -> list[Line]:
         if line.verdict is Verdict.UNCHECKED:
             say(f"  [{line.verdict.value}] {line.place}: {line.why}")
     say()
-    counts = {v: sum(line.verdict is v for line in lines) for v in Verdict}
-    say(", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count))
+    say(_counted([line.verdict for line in lines]))
     return lines
 
 
@@ -64,7 +64,7 @@ def _say_robot(name: str, derived: Derived, lines: Sequence[Line]) -> None:
     say()
     say(f"{name}: {derived.robot.title}")
     for line in lines:
-        slip = f": {SLIP_TEXTS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
+        slip = f": {SLIPS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
         say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
         if line.verdict in (Verdict.MEASURED, Verdict.CONSISTENT):
             say(f"      must hold: {line.derived}")
@@ -90,11 +90,14 @@ def _methods(paper: Paper) -> list[MethodTable]:
             text = "  ".join(f"{part:<{w}}" for part, w in zip(cell, wide, strict=True))
             say(f"  {text}  [{row.outcome.value}]" + (f" {row.why}" if row.why else ""))
     say()
-    rows = [row for table in tables for row in table.rows]
-    counts = {o: sum(row.outcome is o for row in rows) for o in Outcome}
-    told = ", ".join(f"{count} {outcome.value}" for outcome, count in counts.items() if count)
+    told = _counted([row.outcome for table in tables for row in table.rows])
     say(f"methods: {told or 'none of this paper is run here'}")
     return tables
+
+
+def _counted(found: Sequence[enum.Enum]) -> str:
+    counts = {kind: found.count(kind) for kind in (type(found[0]) if found else ())}
+    return ", ".join(f"{count} {kind.value}" for kind, count in counts.items() if count)
 
 
 def _failed(tables: Sequence[MethodTable]) -> list[str]:

@@ -1,13 +1,7 @@
 """The identifications of the papers, run again in simulation, beside what was printed."""
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from modeler.methods.entries import *  # noqa: F403
-else:
-
-    def __getattr__(name: str) -> Any:
-        """One of `entries`: `modeler --help` reads what is light here, without the rest."""
-        import modeler.methods.entries as entries
-
-        return getattr(entries, name)
+from modeler.methods.report import MethodTable as MethodTable
+from modeler.methods.report import Outcome as Outcome
+from modeler.methods.report import Row as Row
+from modeler.methods.run import METHODS as METHODS
+from modeler.methods.run import run_methods as run_methods

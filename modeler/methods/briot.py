@@ -153,8 +153,7 @@ _SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
 
 
 def _second_load(paper: Paper, cases: list[tuple[float, float]]) -> MethodTable:
-    load, *printed = quoted(paper, "a second payload")[:3]
-    (width,) = quoted(paper, "a second payload")[3:4]
+    load, *printed, width = quoted(paper, "a second payload")[:4]
     rows = [Row("weighed", f"{load:g} kg", f"{load:g} kg", Outcome.SHOWN)]
     for which, theirs, (ours, sigma) in zip(
         ("case 1: the maker's gains", "case 2: the identified gains"), printed, cases, strict=True

@@ -118,11 +118,7 @@ def _all_parameters(
     printed: Mapping[str, tuple[float, ...]], truth: Mapping[str, float], full: FitResult
 ) -> MethodTable:
     """Table 2; the truth of what Table 3 leaves out is 0."""
-    rows = []
-    for p in full.parameters:
-        value, percent = printed[p.name]
-        text = f"{value:.5g} ({abs(percent):.3g} %)"
-        rows.append(recovered(p.name, text, truth.get(p.name, 0.0), p.value, p.sigma or 0.0))
+    rows = _recovered(printed, truth, full)
     theirs = [abs(printed[name][1]) for name in WEAK]
     ours = [p.relative_sigma_percent or 0.0 for p in full.parameters if p.name in WEAK]
     rows.append(
@@ -133,6 +129,17 @@ def _all_parameters(
         )
     )  # fmt: skip
     return MethodTable("Table 2: all base parameters", SETTING, tuple(rows))
+
+
+def _recovered(
+    printed: Mapping[str, tuple[float, ...]], truth: Mapping[str, float], fit: FitResult
+) -> list[Row]:
+    rows = []
+    for p in fit.parameters:
+        value, percent = printed[p.name]
+        text = f"{value:.5g} ({abs(percent):.3g} %)"
+        rows.append(recovered(p.name, text, truth.get(p.name, 0.0), p.value, p.sigma or 0.0))
+    return rows
 
 
 def _range(values: list[float]) -> str:
@@ -171,11 +178,7 @@ def _essential(
     printed: Mapping[str, tuple[float, ...]], full: FitResult, reduced: FitResult
 ) -> MethodTable:
     """Table 3, its selection, and both condition numbers."""
-    rows = []
-    for p in reduced.parameters:
-        value, percent = printed[p.name]
-        text = f"{value:.5g} ({abs(percent):.3g} %)"
-        rows.append(recovered(p.name, text, value, p.value, p.sigma or 0.0))
+    rows = _recovered(printed, {name: value for name, (value, _) in printed.items()}, reduced)
     left = [p.name for p in full.parameters if not p.essential]
     rows.append(
         Row(

@@ -2,11 +2,11 @@
 
 import enum
 import zlib
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from modeler.papers.compared import Compared, same
-from modeler.papers.derived import Derived
+from modeler.core.errors import RobotError
+from modeler.core.expression import ExpressionError
+from modeler.papers.compared import Robots, same
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quotation import QuotationError
 from modeler.papers.readings import READINGS
@@ -24,15 +24,6 @@ class Verdict(enum.Enum):
     OURS = "our consequence, not printed"
     UNCHECKED = "not checked"
     DIFFERENT = "DIFFERENT"
-
-
-SLIP_TEXTS = {
-    "misprint": "a misprint",
-    "omission": "an omission",
-    "error": "the statement is wrong",
-    "count": "counted otherwise, no error",
-    "scan": "the scanned text may be at fault, not the paper",
-}
 
 
 @dataclass(frozen=True)
@@ -58,7 +49,7 @@ class Line:
     why: str
 
 
-def check_paper(paper: Paper, derived: Mapping[str, Derived]) -> list[Line]:
+def check_paper(paper: Paper, derived: Robots) -> list[Line]:
     """All lines with their verdicts.
 
     Args:
@@ -79,16 +70,15 @@ def written_out(line: PrintedLine) -> list[PrintedLine]:
     return [line] if together else [replace(line, legs=(leg,)) for leg in line.legs]
 
 
-def check_line(paper: Paper, line: PrintedLine, derived: Mapping[str, Derived]) -> Line:
+def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
     """The verdict on one line of one leg."""
-    reading: Callable[..., Compared] = READINGS[line.check]
     try:
         if line.seal and seal_of(line) != line.seal:
             raise QuotationError("the numbers are not those that were read from the paper")
-        found = reading(paper, line, derived)
-    except QuotationError as error:
+        found = READINGS[line.check](paper, line, derived)
+        equal, exact = same(found, line)
+    except (QuotationError, ExpressionError, RobotError) as error:
         return _told(line, str(error), Verdict.DIFFERENT)
-    equal, exact = same(found)
     return _told(line, found.text, _verdict(line, equal, exact, found.weak))
 
 

@@ -1,10 +1,13 @@
-"""Two sums, printed and derived, and the difference that is known between them."""
+"""Two sums, printed and derived, in our names, and the difference that is known between them."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modeler.papers.quotation import Amount, Monomial, Sum, added
+from modeler.papers.derived import Derived
+from modeler.papers.paper import Paper, PrintedLine
+from modeler.papers.quotation import Amount, Monomial, Sum, added, read_sum, times
 
 _SLACK = 1 + 1e-9
 
@@ -17,35 +20,51 @@ class Compared:
         printed: as read from the quotation, our names.
         derived: the same, derived.
         text: the derived one as people read it.
-        difference: derived minus printed, as the paper's file states it.
         values: of the names that stand in coefficients, for decimals.
+        settled: the difference that the paper's file states is taken into account already.
         weak: something is only larger or smaller, nothing says that it is equal.
     """
 
     printed: Sum
     derived: Sum
     text: str
-    difference: Sum = field(default_factory=dict)
     values: Mapping[str, float] = field(default_factory=dict)
+    settled: bool = False
     weak: bool = False
+
+
+Robots = Mapping[str, Derived]
+Reading = Callable[[Paper, PrintedLine, Robots], Compared]
 
 
 def joined(parts: Mapping[str, Sum]) -> Sum:
     """Sums of several places as one: every term carries its place as a factor `in<place>`."""
     return {
-        tuple(sorted((*monomial, (f"in{place}", 1)))): value
+        times(monomial, ((f"in{place}", 1),)): value
         for place, part in parts.items()
         for monomial, value in part.items()
     }
 
 
-def same(found: Compared) -> tuple[bool, bool]:
-    """(printed + difference is what is derived, all of it exactly and not only as rounded).
+def in_order(parts: Iterable[Sum]) -> Sum:
+    """Sums by their place: each term of the second has the factor `in2`."""
+    return joined({str(k): part for k, part in enumerate(parts, 1)})
+
+
+def numbered(values: Iterable[Amount | int]) -> Sum:
+    """Numbers by their place: the second is called `in2`."""
+    amounts = (v if isinstance(v, Amount) else Amount(Fraction(v)) for v in values)
+    return added(in_order({(): value} for value in amounts))
+
+
+def same(found: Compared, line: PrintedLine) -> tuple[bool, bool]:
+    """(printed + known difference is what is derived, all of it exactly and not only as rounded).
 
     A coefficient that is printed with a point is compared as a number, to half a unit of its last
     digit; all others exactly.
     """
-    printed = _by_name(added(found.printed, found.difference), found.values)
+    known = {} if found.settled else _difference(line)
+    printed = _by_name(added(found.printed, known), found.values)
     derived = _by_name(found.derived, found.values)
     if printed.keys() != derived.keys():
         return False, False
@@ -81,3 +100,36 @@ def _number(parts: Mapping[Monomial, Amount], values: Mapping[str, float]) -> Am
             factor *= values[name] ** power
         total = total + value * Amount(Fraction(factor))
     return total
+
+
+def renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[str], str]:
+    """The function from a printed name to ours.
+
+    `i` at the end is the leg; the index of a leg that follows R goes in front of it
+    (`ZZ2R1` is our `ZZ21R`); letters that the paper's file names are exchanged, in quotations.
+    """
+
+    def rename(name: str) -> str:
+        if name.endswith("i") and name != "pi":
+            name = name[:-1] + leg
+        name = name if line.ours else _exchanged(paper, name)
+        name = re.sub(r"^([A-Za-z]+\d+)R(\d)$", r"\1\2R", name)
+        if line.strip:
+            name = re.sub(rf"^([A-Za-z]+\d){line.strip}(R?)$", r"\1\2", name)
+        return name
+
+    return rename
+
+
+def _exchanged(paper: Paper, name: str) -> str:
+    if name in paper.names:
+        return paper.names[name]
+    letters = re.match(r"[A-Za-z]*", name)
+    assert letters is not None
+    return paper.names.get(letters.group(), letters.group()) + name[letters.end() :]
+
+
+def _difference(line: PrintedLine) -> Sum:
+    """Derived minus printed, as the paper's file states it in our names."""
+    text = line.difference.replace("{i}", line.legs[0])
+    return read_sum(text, str) if text else {}

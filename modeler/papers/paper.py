@@ -8,17 +8,23 @@ minus printed, and the reason; nothing else passes.
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import RobotError
+from modeler.core.plain import built
 
 _FOLDER = Path(__file__).parent / "library"
 
-SLIPS = ("misprint", "omission", "error", "scan", "count")
-"""Why a print differs: a slip of the pen, something left out, a wrong statement, perhaps only the
-scanned text that was read and not the paper, or another way to count, which is no error."""
+SLIPS = {
+    "misprint": "a misprint",
+    "omission": "an omission",
+    "error": "the statement is wrong",
+    "count": "counted otherwise, no error",
+    "scan": "the scanned text may be at fault, not the paper",
+}
+"""Why a print differs, as it is told."""
 
 
 @dataclass(frozen=True)
@@ -129,8 +135,7 @@ def read_paper(name: str) -> Paper:
         title=document["title"],
         robots=tuple(robots),
         variants={
-            key: Variant(e["of"], tuple(map(str, e.get("gravity", ()))), e.get("open", False))
-            for key, e in document.get("variants", {}).items()
+            key: built(Variant, entry) for key, entry in document.get("variants", {}).items()
         },
         lines=lines,
         names=document.get("names", {}),
@@ -149,9 +154,6 @@ def _lines(entry: dict[str, Any]) -> list[PrintedLine]:
 
 
 def _line(entry: Mapping[str, Any]) -> PrintedLine:
-    known = {f.name for f in fields(PrintedLine)}
-    assert set(entry) <= known, f"{set(entry) - known} is no key of a line"
     assert bool(entry.get("quote")) != bool(entry.get("ours")), f"{entry} is quoted or ours"
     assert entry.get("slip", "scan") in SLIPS, f"{entry['slip']} is no slip"
-    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()}
-    return PrintedLine(**values)
+    return built(PrintedLine, entry)

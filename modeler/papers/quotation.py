@@ -62,6 +62,14 @@ def numbers_of(text: str) -> list[Amount]:
     return [amount(found) for found in _NUMBER.findall(joined)]
 
 
+def sides(text: str) -> tuple[str, str]:
+    """The two sides of an equation."""
+    left, equal, right = text.partition("=")
+    if not equal:
+        raise QuotationError(f'"{text}" is no equation')
+    return left.strip(), right
+
+
 def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) -> Sum:
     """The sum, its names changed by `rename`.
 
@@ -83,7 +91,7 @@ def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) 
     found = reader.sum()
     if reader.at != len(tokens):
         raise QuotationError(f'"{text}" cannot be read from "{"".join(tokens[reader.at :])}" on')
-    return {monomial: value for monomial, value in found.items() if value.value}
+    return found
 
 
 def _tokens(text: str) -> list[str]:
@@ -112,15 +120,12 @@ class _Reader:
         return token
 
     def sum(self) -> dict[Monomial, Amount]:
-        total: dict[Monomial, Amount] = {}
-        first = True
-        while first or self._next() in ("+", "-"):
+        parts: list[Sum] = []
+        while not parts or self._next() in ("+", "-"):
             sign = self._take() if self._next() in ("+", "-") else "+"
-            for monomial, value in self._product().items():
-                value = -value if sign == "-" else value
-                total[monomial] = total[monomial] + value if monomial in total else value
-            first = False
-        return total
+            part = self._product()
+            parts.append({m: -value for m, value in part.items()} if sign == "-" else part)
+        return added(*parts)
 
     def _product(self) -> dict[Monomial, Amount]:
         found = self._factor()
@@ -166,16 +171,7 @@ class _Reader:
 
 
 def _product(a: Sum, b: Sum) -> dict[Monomial, Amount]:
-    total: dict[Monomial, Amount] = {}
-    for left, x in a.items():
-        for right, y in b.items():
-            powers = dict(left)
-            for name, power in right:
-                powers[name] = powers.get(name, 0) + power
-            monomial = tuple(sorted((n, p) for n, p in powers.items() if p))
-            value = x * y
-            total[monomial] = total[monomial] + value if monomial in total else value
-    return total
+    return added(*({times(left, right): x * y} for left, x in a.items() for right, y in b.items()))
 
 
 def _inverse(a: Sum) -> dict[Monomial, Amount]:
@@ -185,6 +181,14 @@ def _inverse(a: Sum) -> dict[Monomial, Amount]:
     if value.half or not value.value:
         raise QuotationError("expected an exact number below a fraction line")
     return {tuple((name, -power) for name, power in monomial): Amount(1 / value.value)}
+
+
+def times(left: Monomial, right: Monomial) -> Monomial:
+    """The product of two monomials."""
+    powers = dict(left)
+    for name, power in right:
+        powers[name] = powers.get(name, 0) + power
+    return tuple(sorted((n, p) for n, p in powers.items() if p))
 
 
 def added(*sums: Sum) -> dict[Monomial, Amount]:

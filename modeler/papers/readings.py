@@ -1,51 +1,51 @@
 """How the statements of a paper are read and compared: one function for each kind."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from modeler.papers.compared import Compared
-from modeler.papers.derived import Derived
-from modeler.papers.motion import (
-    column_reading,
-    effort_reading,
-    element_reading,
-    energy_reading,
-    rotation_reading,
-    speed_reading,
+import sympy
+
+from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered, renamer
+from modeler.papers.derived import (
+    Derived,
+    evaluate,
+    expression_of,
+    quantities,
+    sum_of,
+    without_squared_sines,
 )
-from modeler.papers.naming import difference_of, renamer
 from modeler.papers.paper import Paper, PrintedLine
-from modeler.papers.quantities import evaluate, quantities
 from modeler.papers.quotation import (
     Amount,
     Monomial,
     QuotationError,
     Sum,
+    added,
     numbers_of,
     read_sum,
     replaced,
+    sides,
     sum_text,
 )
-from modeler.papers.tables import (
-    closure_reading,
-    matrix_reading,
-    platform_reading,
-    row_reading,
-    tied_reading,
-)
 from modeler.papers.wrist import WRIST_READINGS
+from modeler.robot import Joint
+from modeler.symbolic.geometry import Row
+from modeler.symbolic.kinematics import base_poses, pose, poses
 
-Robots = Mapping[str, Derived]
 _LEGS = "123456"
 _ONE = Amount(Fraction(1))
 
+ELEMENTS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+"""Parameters of a link in the order of its row of functions."""
 
-def relation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+
+def _relation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`ZZ2Ri = ZZ2i + ...`: a base parameter, or a combination of them, as a sum."""
     found, leg = robots[line.robot], line.legs[0]
-    left, right = _sides(line.text)
+    left, right = sides(line.text)
     rename = renamer(paper, line, leg)
     puts = _assumed(paper, line)
     printed = read_sum(right, rename, _LEGS[:3])
@@ -56,26 +56,19 @@ def relation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compare
     wanted = read_sum(combination if own == target else target, str)
     lost = {name for m in wanted for name, _ in m} - set(found.relations) - set(found.standard)
     if lost - set(found.values) or (own != target and target not in found.relations):
-        return Compared(printed, {}, f"{target} is no base parameter", difference_of(line))
+        return Compared(printed, {}, f"{target} is no base parameter")
     derived = replaced(wanted, found.relations)
     return Compared(
         replaced(printed, puts), replaced(derived, puts),
-        f"{target} = {sum_text(derived)}", difference_of(line), found.values,
+        f"{target} = {sum_text(derived)}", found.values,
     )  # fmt: skip
-
-
-def _sides(text: str) -> tuple[str, str]:
-    left, equal, right = text.partition("=")
-    if not equal:
-        raise QuotationError(f'"{text}" is no equation')
-    return left.strip(), right
 
 
 def _assumed(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
     """What the quotations of `given` put in for a name, for every leg."""
     puts: dict[str, Sum] = {}
     for text in line.given:
-        left, right = _sides(text)
+        left, right = sides(text)
         for leg in _LEGS:
             rename = renamer(paper, line, leg)
             puts[rename(left)] = read_sum(right, rename)
@@ -100,28 +93,19 @@ def _indexed(name: str, index: str, leg: Derived, whole: Derived) -> str:
     return name if name in leg.values and name in whole.values else name + index
 
 
-def numbers_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _numbers_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """Every number of the quotation, in order, against an expression of `gives`."""
     numbers = numbers_of(line.text)
     if len(numbers) != len(line.gives):
         raise QuotationError(f"{len(numbers)} numbers are quoted, {len(line.gives)} are derived")
     known = quantities(robots[line.robot])
     values = [Fraction(evaluate(text, known)) for text in line.gives]
-    printed = {_place(i): number for i, number in enumerate(numbers)}
-    derived = {_place(i): Amount(value) for i, value in enumerate(values)}
     text = ", ".join(str(value) for value in values)
-    return Compared(_nonzero(printed), _nonzero(derived), text, difference_of(line))
+    derived = numbered(Amount(value) for value in values)
+    return Compared(numbered(numbers), derived, text)
 
 
-def _place(index: int) -> Monomial:
-    return ((f"n{index + 1}", 1),)
-
-
-def _nonzero(a: Sum) -> Sum:
-    return {monomial: value for monomial, value in a.items() if value.value}
-
-
-def names_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _names_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """The names of the quotation, over all legs, against a set."""
     if any(number.value for number in numbers_of(line.text)):
         raise QuotationError(f'"{line.text}" is no list of names, nor of names that are 0')
@@ -132,10 +116,10 @@ def names_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
             printed[((rename(name), 1),)] = _ONE
     names = evaluate(line.gives[0], quantities(robots[line.robot]))
     derived: Sum = {((name, 1),): _ONE for name in sorted(names)}
-    return Compared(printed, derived, ", ".join(sorted(names)), difference_of(line))
+    return Compared(printed, derived, ", ".join(sorted(names)))
 
 
-def arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """Numbers of the quotation, called a, b, c, ..., that follow from each other.
 
     Each entry of `gives` is `c = 100*b/abs(a)`, to half a unit of the last digit of c, or a
@@ -164,7 +148,7 @@ def arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compa
             derived = derived | ({((entry, 1),): _ONE} if holds else {})
             texts.append(f"{entry}: {'yes' if holds else 'no'}")
     weak = any(re.search("[<>]", entry) for entry in line.gives)
-    return Compared(printed, derived, ", ".join(texts), difference_of(line), weak=weak)
+    return Compared(printed, derived, ", ".join(texts), weak=weak)
 
 
 def _floats(numbers: Mapping[str, Amount]) -> dict[str, Any]:
@@ -182,21 +166,319 @@ def _rounded(formula: str, numbers: Mapping[str, Amount], known: dict[str, Any])
     return Amount(value, half)
 
 
-READINGS: Mapping[str, Callable[[Paper, PrintedLine, Robots], Compared]] = {
-    "relation": relation_reading,
-    "numbers": numbers_reading,
-    "names": names_reading,
-    "arithmetic": arithmetic_reading,
-    "row": row_reading,
-    "tied": tied_reading,
-    "rows": matrix_reading,
-    "rotation": rotation_reading,
-    "element": element_reading,
-    "column": column_reading,
-    "energy": energy_reading,
-    "speed": speed_reading,
-    "effort": effort_reading,
-    "closure": closure_reading,
-    "platform": platform_reading,
+def _rotation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`sin theta2 qd1; cos theta2 qd1; qd2`: a link's angular velocity, in its own frame.
+
+    The link is the last of `gives`, reached from a base at rest over the rows before it; their
+    angles are theta1, theta2, ..., their speeds qd1, qd2, ...; component 1 is called `in1`.
+    """
+    found = [sum_of(part) for part in _rotation(robots[line.robot], line.gives)]
+    rename = renamer(paper, line)
+    printed = in_order(read_sum(part, rename) for part in line.text.split(";"))
+    text = "; ".join(sum_text(part) for part in found)
+    return Compared(printed, in_order(found), text)
+
+
+def _element_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`h3^1 = (cos theta2 qd1)^2`: an element (1 to 6) of the row of the last link of `gives`."""
+    left, _, right = line.text.partition("=")
+    place = re.fullmatch(r"h(\d)\^([1-6])", left.strip())
+    if place is None or int(place.group(1)) != len(line.gives):
+        raise QuotationError(f"got {left.strip()}; expected 1 to 6 of link {len(line.gives)}")
+    derived = sum_of(_elements(robots[line.robot], line.gives)[int(place.group(2)) - 1])
+    printed = read_sum(right, renamer(paper, line))
+    return Compared(printed, derived, sum_text(derived))
+
+
+def _column_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`alpha2 = [0 0 0 1 ...]^T`: which elements of a link give the first one of the next.
+
+    The links are the last two of `gives`; entry 4 is called `in4`, their number `entries`.
+    """
+    cells = re.fullmatch(r"alpha(\d) = \[([\d ]*)\]\^T", line.text)
+    if cells is None or int(cells[1]) != len(line.gives) - 1:
+        raise QuotationError(f'"{line.text}" is no column of digits')
+    numbers = [int(cell) for cell in cells[2].split()]
+    before, after = (_elements(robots[line.robot], line.gives[:n]) for n in (-1, None))
+    alike = [int(sympy.expand(part - after[0]) == 0) for part in before]
+    alike += [0] * (len(ELEMENTS) - len(alike))
+    told = f"[{' '.join(map(str, alike))}]^T"
+    return Compared(_column(numbers), _column(alike), told)
+
+
+def _column(numbers: list[int]) -> Sum:
+    return added(numbered(numbers), {(("entries", 1),): Amount(Fraction(len(numbers)))})
+
+
+def _elements(derived: Derived, rows: tuple[str, ...]) -> list[sympy.Expr]:
+    """What the six inertias of the last link are multiplied with in its kinetic energy."""
+    w = dict(zip(_W, _rotation(derived, rows), strict=True))
+    return [sympy.expand(_ENERGY.diff(p).subs(w)) for p in _PARAMETERS[:6]]
+
+
+def _rotation(derived: Derived, rows: tuple[str, ...]) -> list[sympy.Expr]:
+    """w_j = R^T w_(j-1) + qd_j z_j from a base at rest; a slide adds nothing."""
+    by_name = {row.joint.name: row for row in derived.model.geometry.rows}
+    w = [sympy.Integer(0)] * 3
+    for index, name in enumerate(rows, 1):
+        row = by_name[name]
+        moved = {name: sympy.Symbol(f"theta{index}") - row.theta} if row.joint.angular else {}
+        w = pose(row, _Moved(moved)).to_link(w)
+        w[2] += sympy.Symbol(f"qd{index}") * len(moved)
+    return [sympy.expand(part) for part in w]
+
+
+@dataclass(frozen=True)
+class _Moved:
+    """Algebra of the recursions over sympy: rows at these values of rate * q, 0 without one."""
+
+    values: Mapping[str, sympy.Expr]
+
+    def static(self, value: sympy.Expr) -> sympy.Expr:
+        return value
+
+    def variable(self, row: Row) -> sympy.Expr:
+        return row.r + self.values.get(row.joint.name, 0)
+
+    def cos_sin(self, row: Row) -> tuple[sympy.Expr, sympy.Expr]:
+        angle = row.theta + int(row.joint.angular) * self.values.get(row.joint.name, 0)
+        return sympy.cos(angle), sympy.sin(angle)
+
+
+def _vector(name: str) -> sympy.Matrix:
+    return sympy.Matrix(sympy.symbols(f"{name}1:4"))
+
+
+_PARAMETERS = sympy.symbols(" ".join(ELEMENTS))
+_XX, _XY, _XZ, _YY, _YZ, _ZZ, *_MS, _M = _PARAMETERS
+_W, _V, _G, _P = (_vector(name) for name in "wvgP")
+_INERTIA = sympy.Matrix([[_XX, _XY, _XZ], [_XY, _YY, _YZ], [_XZ, _YZ, _ZZ]])
+_ENERGY = sympy.expand(
+    (_W.T * _INERTIA * _W)[0] / 2 + _M * _V.dot(_V) / 2 + sympy.Matrix(_MS).dot(_V.cross(_W))
+)
+_AXES = [_vector(name) for name in "sna"]
+_HEIGHT = -sympy.expand(
+    _G.dot(_M * _P + sum((m * axis for m, axis in zip(_MS, _AXES, strict=True)), sympy.zeros(3, 1)))
+)
+
+
+def _energy_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """What a parameter of a link is multiplied with in its energy: `1/2 w1 w1`, `-^0g^T0sk`.
+
+    E = w'Jw/2 + M v'v/2 + MS.(v x w), U = -g.(M P + A MS), A = [s n a]; J is symmetric, products
+    of inertia come twice. `gives` are the parameters; `ek ... | ...` is a row of E, `uk` one of U.
+    """
+    energy = _HEIGHT if line.text.startswith("uk ") else _ENERGY
+    found = {name: sum_of(energy.diff(sympy.Symbol(name))) for name in line.gives}
+    text = re.sub(
+        r"\^[0k]([A-Za-z])k?\^T ?\^?[0k]([A-Za-z])k?",
+        lambda found: f"({' + '.join(f'{found[1]}{n} {found[2]}{n}' for n in '123')})",
+        re.sub(r"^([eu]k |hs\^1 = )", "", line.text).replace(",s", ""),
+    )
+    rename = renamer(paper, line)
+    cells = [read_sum(cell, rename) for cell in text.split("|")]
+    if len(cells) != len(line.gives):
+        raise QuotationError(f"{len(cells)} elements are quoted, {len(line.gives)} are derived")
+    printed = dict(zip(line.gives, cells, strict=True))
+    told = " | ".join(sum_text(part) for part in found.values())
+    return Compared(joined(printed), joined(found), told)
+
+
+def _speed_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`barsigmak qdk ^kak`: what a joint's own speed adds to `gives`, "angular" or "linear".
+
+    Both kinds of joints are derived from R(q) and P(q); sigma is 0 where one turns and 1 where one
+    slides, and what it adds is along z in frame k, so a sum in sigma is found from the two.
+    """
+    q = sympy.Symbol("q")
+    found = []
+    for theta, r in ((q, 0), (0, q)):
+        turn = sympy.rot_axis3(-theta)
+        spin = turn.T * turn.diff(q)
+        slide = turn.T * sympy.Matrix([0, 0, r]).diff(q)
+        found.append(sympy.simplify(spin[1, 0] if line.gives[0] == "angular" else slide[2]))
+    sigma, speed = sympy.symbols("sigmak qdk")
+    derived = sum_of((found[0] + (found[1] - found[0]) * sigma) * speed * sympy.Symbol("ak"))
+    text = line.text.replace("^kak", "ak").replace("barsigmak", "(1 - sigmak)")
+    printed = read_sum(text, renamer(paper, line))
+    return Compared(printed, derived, sum_text(derived))
+
+
+def _effort_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`^0Jp^T ^0J1^T DL1`: `gives[2]`, forces at `gives[0]`, as forces at `gives[1]`.
+
+    Places are "motors", with speeds Jp^-1 V, "leg", Ji^-1 V, and "platform", V. Equal power,
+    F'A^-1 V = G'B^-1 V for all V, makes G = B' A'^-1 F: from a leg to the motors Jp' Ji'^-1.
+    """
+    here, there, what = line.gives
+    names = {"motors": "Jp", "leg": f"J{what[-1]}"}
+    wanted = [names[there]] if there in names else []
+    wanted += [f"{names[here]}inv"] if here in names else []
+    given = re.findall(r"\^0(J\w)\^T", line.text)
+    rest = re.sub(r"\^0J\w\^T|sum_i|\^0|[\[\]( =]", "", line.text)
+    printed, derived = (
+        {tuple((name, 1) for name in sorted(chain)): Amount(Fraction(1))}
+        for chain in ([*given, rest], [*wanted, what])
+    )
+    shown = " ".join(f"{name.removesuffix('inv')}^{'-' * name.endswith('inv')}T" for name in wanted)
+    return Compared(printed, derived, f"{shown} {what}")
+
+
+_COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
+
+
+def _row_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """A row of the table, cells between bars, against the robot's; cell r is called `inr`."""
+    leg = line.legs[0]
+    cells = [cell.strip() for cell in line.text.split("|")]
+    if len(cells) != len(_COLUMNS):
+        raise QuotationError(f"{len(cells)} cells are quoted, a row has {len(_COLUMNS)}")
+    cells[:2] = [cell.replace("i", leg) for cell in cells[:2]]
+    rename = renamer(paper, line, leg)
+    printed = joined({c: read_sum(x, rename) for c, x in zip(_COLUMNS, cells, strict=True)})
+    found = next((j for j in robots[line.robot].robot.joints if j.name == cells[0]), None)
+    if found is None:
+        raise QuotationError(f"there is no row {cells[0]}")
+    own = {column: read_sum(text, str) for column, text in _cells(found).items()}
+    text = " | ".join(sum_text(part) for part in own.values())
+    return Compared(printed, joined(own), text)
+
+
+def _cells(joint: Joint) -> dict[str, str]:
+    return {
+        "j": joint.name, "a": joint.antecedent, "mu": str(int(joint.actuated)),
+        "sigma": str(int(joint.kind)), "gamma": joint.gamma.text, "b": joint.b.text,
+        "alpha": joint.alpha.text, "d": joint.d.text, "theta": joint.theta.text, "r": joint.r.text,
+    }  # fmt: skip
+
+
+def _tied_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`q4i = -q3i, q7i = q3i`: joints that follow others; `of` is a cut joint, which has no row."""
+    rename = renamer(paper, line, line.legs[0])
+    printed: dict[str, Sum] = {}
+    pairs = r"(\w+) (\w+) \+ (\w+) (\w+)"  # (a, b) + (c, d) = 0
+    for equation in re.sub(pairs, r"\3 = -\1, \4 = -\2", line.text).split(","):
+        left, right = sides(equation)
+        name = rename(left)
+        if name in printed:
+            raise QuotationError(f"{name} is given twice")
+        printed[name] = read_sum(right, rename)
+    tied = dict(robots[line.robot].tied)
+    if line.of:
+        left, _, right = line.of.partition("=")
+        tied[rename(left.strip())] = replaced(read_sum(right, rename), tied)
+    lost = set(printed) - set(tied)
+    if lost:
+        raise QuotationError(f"there is no joint variable {', '.join(sorted(lost))}")
+    derived: dict[str, Sum] = {name: tied[name] for name in printed}
+    text = ", ".join(f"{name} = {sum_text(part)}" for name, part in derived.items())
+    return Compared(joined(printed), joined(derived), text)
+
+
+def _closure_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """The place of frame `gives[0]`, where a leg meets the platform, derived from the table.
+
+    `d4 cos q2i cos q3i + a deltai; ...; ...`: along the axes of the leg's first frame, with deltai
+    1 for leg 3 and 0 for the others, bardelta 1 - delta, legs counted in a circle. Without `;`:
+    for each leg an expression in x, y, z that is 0 at that place, `|` between them.
+    """
+    printed: dict[str, Sum] = {}
+    derived: dict[str, Sum] = {}
+    texts = line.text.split("|") if "|" in line.text else [line.text] * len(line.legs)
+    if len(texts) != len(line.legs):
+        raise QuotationError(f"{len(texts)} expressions are quoted for {len(line.legs)} legs")
+    for leg, text in zip(line.legs, texts, strict=True):
+        rename = renamer(paper, line, leg)
+        text = _with_deltas(text, int(leg))
+        turn, place = _placed(robots[line.robot], line.gives[0].replace("{i}", leg), f"1{leg}")
+        if ";" in text:
+            printed |= {f"{leg}x{k}": read_sum(x, rename) for k, x in enumerate(text.split(";"))}
+            along = enumerate(turn.T * place)
+            derived |= {f"{leg}x{k}": sum_of(without_squared_sines(x)) for k, x in along}
+        else:
+            put = {symbol.name: symbol for symbol in place.free_symbols}
+            put |= dict(zip("xyz", place, strict=True))
+            left = expression_of(read_sum(text, rename), put)
+            printed[leg] = sum_of(without_squared_sines(left))
+    told = "; ".join(sum_text(part) for part in (derived or printed).values())
+    return Compared(joined(printed), joined(derived), told)
+
+
+def _with_deltas(text: str, leg: int) -> str:
+    def number(found: re.Match[str]) -> str:
+        third = (leg + int(found[2] or 0)) % 3 == 0
+        return str(int(third != bool(found[1])))
+
+    return re.sub(r"(bar)?deltai(?:\+(\d))?", number, text)
+
+
+def _placed(derived: Derived, name: str, first: str) -> tuple[sympy.Matrix, sympy.Matrix]:
+    """(rotation of the row `first`, place of the origin of the row `name`), both in frame 0."""
+    geometry = derived.model.geometry
+    free = [sympy.Symbol(joint.variable) for joint in geometry.robot.free]
+    moving = [row for row in geometry.rows if row.index is not None]
+    moved = _Moved({
+        row.joint.name: row.rate * sum(sympy.Rational(v) * free[u] for u, v in form.items())
+        for row, form in zip(moving, geometry.forms, strict=True)
+    })  # fmt: skip
+    found = base_poses(geometry, poses(geometry, moved), moved)
+    places = {row.joint.name: place for row, place in zip(geometry.rows, found, strict=True)}
+    return sympy.Matrix(places[first][0]).T, sympy.Matrix(places[name][1])
+
+
+def _platform_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`phip = diag(ddotx, ...)`: what the platform's mass is multiplied with, its force.
+
+    Newton: m (acceleration - gravity), a column; entry 2 of a column is `in2`, entry (2, 2) of a
+    matrix `in2x2`.
+    """
+    found = re.fullmatch(r"phip = (diag)?\((.*)\)", line.text)
+    if found is None:
+        raise QuotationError(f'"{line.text}" is no list of forces')
+    cells = [read_sum(cell, str) for cell in found[2].split(",")]
+    printed = joined({f"{k}x{k}" if found[1] else str(k): c for k, c in enumerate(cells, 1)})
+    force = [
+        sum_of(sympy.Symbol(f"ddot{axis}") - part)
+        for axis, part in zip("xyz", robots[line.robot].model.geometry.gravity, strict=True)
+    ]
+    text = f"the column ({', '.join(sum_text(part) for part in force)})"
+    return Compared(printed, in_order(force), text)
+
+
+def _matrix_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """Rows of G^T, `1 0 0; 0 1 -1`: G = d(all joints of `gives[1]`) / d(those of `gives[0]`)."""
+    tied = robots[line.robot].tied
+    above, below = line.gives[1].split(), line.gives[0].split()
+    derived = [[_slope(tied[name], by) for name in above] for by in below]
+    printed = [[read_sum(cell, str) for cell in row.split()] for row in line.text.split(";")]
+    text = "; ".join(" ".join(map(sum_text, row)) for row in derived)
+    return Compared(_entries(printed), _entries(derived), text)
+
+
+def _entries(rows: list[list[Sum]]) -> Sum:
+    return joined({f"{i}x{j}": cell for i, row in enumerate(rows) for j, cell in enumerate(row)})
+
+
+def _slope(whole: Sum, name: str) -> Sum:
+    key = ((name, 1),)
+    return {(): whole[key]} if key in whole else {}
+
+
+READINGS: Mapping[str, Reading] = {
+    "relation": _relation_reading,
+    "numbers": _numbers_reading,
+    "names": _names_reading,
+    "arithmetic": _arithmetic_reading,
+    "row": _row_reading,
+    "tied": _tied_reading,
+    "rows": _matrix_reading,
+    "rotation": _rotation_reading,
+    "element": _element_reading,
+    "column": _column_reading,
+    "energy": _energy_reading,
+    "speed": _speed_reading,
+    "effort": _effort_reading,
+    "closure": _closure_reading,
+    "platform": _platform_reading,
     **WRIST_READINGS,
 }

@@ -2,7 +2,7 @@
 
 import itertools
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -10,12 +10,9 @@ from typing import Any
 
 import sympy
 
-from modeler.core.errors import RobotError
-from modeler.core.expression import Expression, ExpressionError, parse
-from modeler.papers.compared import Compared, joined
-from modeler.papers.derived import Derived
-from modeler.papers.motion import sum_of, without_squared_sines
-from modeler.papers.naming import difference_of
+from modeler.core.expression import Expression, parse
+from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
+from modeler.papers.derived import Derived, expression_of, sum_of, without_squared_sines
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quotation import Amount, QuotationError, Sum, amount, read_sum, sum_text
 from modeler.terms import CoefficientTable
@@ -32,7 +29,7 @@ from modeler.terms.text import monomial_text
 _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "section 4"}
 
 
-def coefficient_quotations(paper: Paper, robots: Mapping[str, Derived]) -> list[PrintedLine]:
+def coefficient_quotations(paper: Paper, robots: Robots) -> list[PrintedLine]:
     """The quotations of the robot file, with what the paper's file says is wrong in them."""
     if not paper.coefficients:
         return []
@@ -60,27 +57,21 @@ def _only(table: CoefficientTable, **entries: object) -> CoefficientTable:
 
 
 def _read(text: str) -> Expression:
-    try:
-        return parse(" ".join(text.split()))
-    except ExpressionError as error:
-        raise QuotationError(str(error)) from None
+    return parse(" ".join(text.split()))
 
 
 def _stated(line: PrintedLine, found: str, right: str) -> Compared:
     """Equal if what is found to differ is what the paper's file says."""
     different: Sum = {} if found == line.difference else {(("difference", 1),): Amount(Fraction(1))}
-    return Compared(different, {}, f"derived - printed: {found}" if found else right)
+    text = f"derived - printed: {found}" if found else right
+    return Compared(different, {}, text, settled=True)
 
 
-def _function(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _function(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     name, _, text = line.quote.partition(" = ")
     printed = _read(text)
     table = _only(robots[line.robot].table, functions={name: printed})
-    try:
-        wrong = wrong_functions(table)
-    except RobotError as error:
-        raise QuotationError(str(error)) from None
-    parts = [f"({v})*{k}" for c in wrong for k, v in c.difference.items()]
+    parts = [f"({v})*{k}" for c in wrong_functions(table) for k, v in c.difference.items()]
     found = "; ".join(parts + _of_others(table, name, printed))
     return _stated(line, found, "the same")
 
@@ -91,33 +82,27 @@ def _of_others(table: CoefficientTable, name: str, printed: Expression) -> list[
     return [f"{n} is of {function}" for n, function in own.items() if function != name]
 
 
-def _definition(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _definition(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     name, _, text = line.quote.partition(" = ")
     table = _only(robots[line.robot].table, definitions={name: _read(text)})
-    try:
-        found = "; ".join(check.difference for check in wrong_definitions(table))
-    except RobotError as error:
-        raise QuotationError(str(error)) from None
+    found = "; ".join(check.difference for check in wrong_definitions(table))
     return _stated(line, found, "the same")
 
 
-def _solution(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _solution(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     name, _, text = line.quote.partition(" = ")
     above, _, below = text.partition(" over ")
     table = _only(
         robots[line.robot].table, solutions={name: (_read(above), _read(below or "1"))}
     )  # fmt: skip
-    try:
-        (check,) = check_solutions(table)
-    except RobotError as error:
-        raise QuotationError(str(error)) from None
+    (check,) = check_solutions(table)
     if check.verdict == "right":
         return _stated(line, "", f"returns {name}")
     found = check.verdict + (f", numerator {check.numerator}" if "0" in check.verdict else "")
     return replace(_stated(line, found, ""), text=found)
 
 
-def _independent(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _independent(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """The list of independent coefficients: those that are defined, and independent."""
     table, names = robots[line.robot].table, tuple(line.quote.split(", "))
     if names != tuple(table.printed.definitions):
@@ -127,18 +112,15 @@ def _independent(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived])
     return replace(_stated(line, found, "independent"), text=found or "independent")
 
 
-def _monomials(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _monomials(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`s2^2; c2 s2; 1`: the monomials of a function in the order of its coefficients."""
     derived = [at for _, at in _terms(robots[line.robot], line.gives[0])]
     printed = [read_sum(text, str) for text in line.quote.split(";")]
-    return Compared(
-        joined({str(i): part for i, part in enumerate(printed)}),
-        joined({str(i): part for i, part in enumerate(derived)}),
-        "; ".join(sum_text(part) for part in derived),
-    )
+    text = "; ".join(sum_text(part) for part in derived)
+    return Compared(in_order(printed), in_order(derived), text)
 
 
-def _values(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _values(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """A function with numbers for its coefficients, against the list that gives them by name."""
     name, _, text = line.quote.partition(" = ")
     values = {}
@@ -174,9 +156,7 @@ def _triads() -> dict[str, sympy.Matrix]:
 
 
 _Q = sympy.symbols("q1:4")
-_T = sympy.Symbol("t")
-_IN_TIME = {q: sympy.Function(q.name)(_T) for q in _Q}
-_SPEEDS = {f.diff(_T): sympy.Symbol(f"qd{k}") for k, f in enumerate(_IN_TIME.values(), 1)}
+_QD = sympy.symbols("qd1:4")
 
 
 @cache
@@ -187,12 +167,10 @@ def _speeds(body: str) -> tuple[sympy.Matrix, sympy.Matrix]:
     last = crossing + sympy.Symbol("bl1") * axes["b1"]
     origin = {"a": sympy.zeros(3, 1), "b": crossing, "c": last}
     own = sum((sympy.Symbol(f"{body}t{k}") * axes[f"{body}{k}"] for k in (1, 2, 3)), origin[body])
-    turn = sympy.Matrix.hstack(*(axes[f"{body}{k}"] for k in (1, 2, 3))).subs(_IN_TIME)
-    spin = turn.diff(_T) * turn.T
-    back = {f: q for q, f in _IN_TIME.items()}
-    found = [own.subs(_IN_TIME).diff(_T), sympy.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])]
-    velocity, angular = (part.subs(_SPEEDS).subs(back) for part in found)
-    return velocity, angular
+    turn = sympy.Matrix.hstack(*(axes[f"{body}{k}"] for k in (1, 2, 3)))
+    spin = sum((turn.diff(q) * turn.T * qd for q, qd in zip(_Q, _QD, strict=True)), sympy.zeros(3))
+    velocity = own.jacobian(_Q) * sympy.Matrix(_QD)
+    return velocity, sympy.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
 
 
 def _along(text: str) -> sympy.Matrix:
@@ -210,43 +188,43 @@ def _along(text: str) -> sympy.Matrix:
         factors, _, axis = term.strip().rpartition(" ")
         if axis not in axes:
             raise QuotationError(f'"{term}" ends with no unit vector')
-        plain = sum_text(read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str))
-        total += sympy.sympify(plain.replace("^", "**"), angles) * axes[axis]
+        size = read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str)
+        total += expression_of(size, angles) * axes[axis]
     return total
 
 
 def _vectors(found: sympy.Matrix) -> Sum:
-    return joined({str(k): sum_of(without_squared_sines(x)) for k, x in enumerate(found, 1)})
+    return in_order(sum_of(without_squared_sines(x)) for x in found)
 
 
-def _velocity(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _velocity(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """Velocity of the mass centre of body `gives[0]`, or its angular velocity, from positions."""
     body, _, angular = line.gives[0].partition(" ")
     derived = _vectors(_speeds(body)[bool(angular)])
-    return Compared(_vectors(_along(line.text)), derived, "the same", difference_of(line))
+    return Compared(_vectors(_along(line.text)), derived, "the same")
 
 
-def _applied(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _applied(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`-am n3; tau1 a1; ...`: force and torque on each body, projected on its speeds.
 
     The generalised forces of motors between bodies are tau_i; gravity's follow from the height.
     """
     cells = [cell.strip() for cell in line.text.split(";")]
     printed, derived = sympy.zeros(3, 1), sympy.Matrix(sympy.symbols("tau1:4"))
-    rates, down = sympy.Matrix(list(_SPEEDS.values())), -sympy.Symbol("g") * _triads()["n3"]
+    down = -sympy.Symbol("g") * _triads()["n3"]
     for k, body in enumerate("abc"):
         velocity, angular = _speeds(body)
         for vector, cell in zip((velocity, angular), cells[2 * k : 2 * k + 2], strict=True):
-            printed += vector.jacobian(rates).T * _along(cell)
-        derived += velocity.jacobian(rates).T * sympy.Symbol(f"{body}m") * down
+            printed += vector.jacobian(_QD).T * _along(cell)
+        derived += velocity.jacobian(_QD).T * sympy.Symbol(f"{body}m") * down
     text = ", ".join(f"tau{k} - g{k}" for k in (1, 2, 3))
     given = _vectors(printed)
     if line.gives:  # the paper's unit of gravity
         derived = derived.subs(sympy.Symbol("g"), sympy.Integer(line.gives[0]))
-    return Compared(given, _vectors(derived), text, difference_of(line))
+    return Compared(given, _vectors(derived), text)
 
 
-def _indices(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _indices(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`Jij ddotqi + Sijk qdj qdk + gi = taui`: the index of each term that no summation takes.
 
     `gives` are the terms of the equation, `Jddotq`; an index that stands three times is doubled.
@@ -258,20 +236,19 @@ def _indices(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> 
         name = re.sub(r"([A-Za-z]+?)[ijk]+\b|[ ()]", r"\1", term)
         printed[name] = read_sum("*".join(free) or "0", str)
     derived = {name: read_sum("i", str) for name in line.gives}
-    return Compared(joined(printed), joined(derived), "i in every term", difference_of(line))
+    return Compared(joined(printed), joined(derived), "i in every term")
 
 
-def _friction(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) -> Compared:
+def _friction(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`Gii Cik sgn(qdk)` at the robot file's motion, against G' C sgn(G qd)."""
     found = re.fullmatch(r"G([ijk]{2}) C([ijk]{2}) sgn\(qd([ijk])\)", line.text)
     coupling = robots[line.robot].table.printed.coupling
     if found is None or coupling is None:
         raise QuotationError(f'"{line.text}" is no friction of coupled motors')
     G, C = coupling.motor_from_joint, coupling.coulomb
-    places = {letter: range(3) for letter in "ijk"}
     printed = dict.fromkeys(range(3), Fraction(0))
     used = sorted({*"i", *found[1], *found[2], *found[3]})
-    for at in itertools.product(*(places[letter] for letter in used)):
+    for at in itertools.product(range(3), repeat=len(used)):
         index = dict(zip(used, at, strict=True))
         (a, b), (c, d) = ([index[x] for x in pair] for pair in (found[1], found[2]))
         speed = coupling.speed[index[found[3]]]
@@ -279,16 +256,12 @@ def _friction(paper: Paper, line: PrintedLine, robots: Mapping[str, Derived]) ->
     derived = check_friction(coupling).derived
     text = ", ".join(f"{float(value):g}" for value in derived)
     return Compared(
-        _numbered(list(printed.values())), _numbered(list(derived)),
-        f"G' C sgn(G qd); at the motion of docs/wrist.md {text} N m", difference_of(line),
+        numbered(map(Amount, printed.values())), numbered(map(Amount, derived)),
+        f"G' C sgn(G qd); at the motion of docs/wrist.md {text} N m",
     )  # fmt: skip
 
 
-def _numbered(values: list[Fraction]) -> Sum:
-    return {((f"in{k}", 1),): Amount(Fraction(v)) for k, v in enumerate(values, 1) if v}
-
-
-WRIST_READINGS: Mapping[str, Callable[[Paper, PrintedLine, Mapping[str, Derived]], Compared]] = {
+WRIST_READINGS: Mapping[str, Reading] = {
     "function": _function,
     "definition": _definition,
     "solution": _solution,
