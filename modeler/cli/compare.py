@@ -84,7 +84,7 @@ def _training(model: IdentifiedModel, observation: Observation) -> list[str]:
     """A line on the logs whose rows the model was fitted on, whatever the files are called."""
     seen = []
     for log in observation.report.logs:
-        fitted = sorted({used.name for used in model.logs if used.shares(log.content, *log.span)})
+        fitted = sorted({used.name for used in model.logs if used.shares_rows(log)})
         if fitted == [log.name]:
             seen.append(log.name)
         elif fitted:

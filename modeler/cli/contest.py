@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api.chain import read_logs, recompile
-from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.places import ModelFile
 from modeler.compare import compare
@@ -14,6 +13,7 @@ from modeler.core.errors import DataError
 from modeler.fit import IdentifiedModel, load_model
 from modeler.fit.reduced import with_essential_only
 from modeler.observation import Log
+from modeler.observation.apart import check_apart
 from modeler.pages.contest import write_contest, write_overlays
 from modeler.scoring.contest import contest
 from modeler.scoring.contest_text import contest_lines
@@ -42,7 +42,7 @@ def run_contest(args: argparse.Namespace) -> Json:
             compiled.append(model.compile() if args.run_embedded_c else recompile(model))
             bar((k + 1) / (len(models) + 1))
         read = [read_logs(own, logs, args.map) for own in compiled]
-        check_logs(given(logs, read[0]), [])
+        check_apart(read[0], places=logs)
         predictions, _ = predict_together(models, compiled, read, names)
         found = contest(names, predictions)
     lines = _provenance(names, models, read[0])

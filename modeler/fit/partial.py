@@ -53,14 +53,9 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
     return Partial(_compressed(model, stretches), facts)
 
 
-def merge(first: Partial, later: Partial) -> Partial:
-    """Of rows of a log, and of those that follow them."""
-    return first.over(later)
-
-
 def merge_all(parts: Iterable[Partial]) -> Partial:
     """Of all chunks of a log, one after the other."""
-    return reduce(merge, parts)
+    return reduce(Partial.over, parts)
 
 
 def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:

@@ -22,6 +22,7 @@ from modeler.observation.observation import Observation
 from modeler.observation.processing import Processing
 from modeler.observation.seen import Chosen
 from modeler.observation.source import Source
+from modeler.observation.stack import no_row_left
 from modeler.observation.streamed_report import Passes, streamed_report
 from modeler.observation.survey import Known, Survey, WholeNeeded, survey
 
@@ -119,14 +120,14 @@ def by_threads(
     model: "CompiledModel",
     source: Source,
     chosen: Chosen,
-    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] | None = None,
+    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] = reduce_chunk,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
     As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
-    each; None: `reduce_chunk`.
+    each.
     """
-    workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
+    workers = cpu_count() or 1
     waiting: deque[Future[Any]] = deque()
     with ThreadPoolExecutor(workers) as pool:
         try:
@@ -222,15 +223,11 @@ def _streamed(
     model: "CompiledModel", sources: Sequence[Source], passes: Passes, every: Sequence[Compressed]
 ) -> Streamed:
     data, seen = reduce(merged, every), passes.found.observation
+    report = streamed_report(model, sources, passes)
     if not data.rows.any():
-        report = streamed_report(model, sources, passes)
-        raise DataError(
-            f"{', '.join(source.name for source in sources)}: no usable row is left: "
-            + "; ".join(joint.line() for joint in report.joints)
-            + "; check these columns, or record longer and faster motion of every joint"
-        )
+        raise no_row_left(report)
     return Streamed(
-        observation=dataclasses.replace(seen, report=streamed_report(model, sources, passes)),
+        observation=dataclasses.replace(seen, report=report),
         data=data,
         share=min(1.0, float(seen.used.sum() / data.rows.sum())),
         samples=sum(facts.tally.count("samples") for facts in passes.facts),

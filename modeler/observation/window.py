@@ -6,6 +6,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.observation.log import Log
+from modeler.observation.source import cut
 
 
 def window(log: Log, start: float | None, end: float | None) -> Log:
@@ -27,22 +28,7 @@ def window(log: Log, start: float | None, end: float | None) -> Log:
             f"{log.name}: no rows from {low:g} to {high:g} s; its times go from "
             f"{log.time[0]:g} to {log.time[-1]:g} s"
         )
-
-    def cut(values: np.ndarray | None) -> np.ndarray | None:
-        return None if values is None else values[rows]
-
-    return dataclasses.replace(
-        log,
-        name=f"{log.name}@{_side(start)}:{_side(end)}",
-        time=log.time[rows],
-        q=log.q[rows],
-        tau=log.tau[rows],
-        qd=cut(log.qd),
-        qdd=cut(log.qdd),
-        commanded=cut(log.commanded),
-        segment=cut(log.segment),
-        extra={name: values[rows] for name, values in log.extra.items()},
-    )
+    return dataclasses.replace(cut(log, rows), name=f"{log.name}@{_side(start)}:{_side(end)}")
 
 
 def _side(time: float | None) -> str:
