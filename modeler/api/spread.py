@@ -9,8 +9,7 @@ from modeler.compiled import CompiledModel
 from modeler.compiled.once import compiled_once
 from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
-from modeler.fit.partial import Partial, merge_all, reduce_chunk
-from modeler.fit.streamed import Reducer, by_threads
+from modeler.fit.streamed import Partial, Reducer, by_threads, merge_all, reduce_chunk
 from modeler.jobs import Workers
 from modeler.logs import LogMap
 from modeler.observation.chunk import chunks_between

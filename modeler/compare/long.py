@@ -17,7 +17,6 @@ from modeler.fit import IdentifiedModel
 from modeler.fit.streamed import all_rows, by_threads
 from modeler.observation import Observation
 from modeler.observation.chunk import Chunk
-from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER
 from modeler.observation.report import DataReport
 from modeler.observation.row_filter import spacing
@@ -25,6 +24,7 @@ from modeler.observation.seen import Chosen, seen
 from modeler.observation.source import Source
 from modeler.observation.stack import stacked
 from modeler.observation.streamed_report import streamed_report
+from modeler.observation.tally import Facts
 
 MOST = 400_000
 """Rows of a comparison, after decimation; of longer logs fewer rows are taken."""

@@ -12,19 +12,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler.compiled.fused import no_rows
 from modeler.core.errors import DataError, LoopError
-from modeler.estimate.compressed import Compressed, merged
-from modeler.fit.partial import reduce_chunk
+from modeler.estimate.compressed import Compressed, compress, merged
 from modeler.observation.chunk import Chunk, chunks
-from modeler.observation.facts import Facts
+from modeler.observation.evaluated import Evaluated
 from modeler.observation.log import FINGER
 from modeler.observation.observation import Observation
+from modeler.observation.passing import with_stretch
 from modeler.observation.processing import Processing
-from modeler.observation.seen import Chosen
+from modeler.observation.seen import Chosen, seen
 from modeler.observation.source import Source
-from modeler.observation.stack import no_row_left
+from modeler.observation.stack import no_row_left, torque_of
 from modeler.observation.streamed_report import Passes, streamed_report
+from modeler.observation.stretch import Stretch
 from modeler.observation.survey import Known, Survey, WholeNeeded, survey
+from modeler.observation.tally import Facts
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -37,6 +40,62 @@ Share = Callable[[float], None]
 
 Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
 """Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Partial:
+    """What a fit needs of some rows of a log; it can be pickled.
+
+    Attributes:
+        data: their triangles.
+        facts: what the rows say of the log.
+    """
+
+    data: Compressed
+    facts: Facts
+
+    def over(self, later: "Partial") -> "Partial":
+        """Of these rows, and of those that follow them."""
+        return Partial(merged(self.data, later.data), self.facts.over(later.facts))
+
+
+def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partial:
+    """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
+
+    Args:
+        model: the compiled robot.
+        chunk: of a log.
+        chosen: for that log.
+
+    Raises:
+        DataError: a value that cannot be.
+    """
+    stretches, facts = seen(model, chunk, chosen)
+    return Partial(_compressed(model, stretches), facts)
+
+
+def merge_all(parts: Iterable[Partial]) -> Partial:
+    """Of all chunks of a log, one after the other."""
+    return reduce(Partial.over, parts)
+
+
+def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
+    """Triangles of some stretches; W is never there as a whole."""
+    parts = [part for part in stretches if part.used.any()]
+    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    for part in parts:
+        torque = part.filtered(torque_of(part.segment))
+        state = with_stretch(regressor, part, torque, part.used, state)
+    like = none_of(model)
+    return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
+
+
+def none_of(model: "CompiledModel") -> Compressed:
+    """The triangles of no rows."""
+    names, joints = [base.name for base in model.spec.base], model.spec.joints
+    free = [j for j, joint in enumerate(joints) if not joint.actuated]
+    nothing = np.empty((0, len(names)))
+    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,10 +211,10 @@ def _all_logs(
     """All chunks of each log in one."""
     total, done = max(1, sum(source.rows for source in sources)), 0
     begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
-    for source, partials in zip(sources, begun, strict=True):
+    for source, parts in zip(sources, begun, strict=True):
         whole: Any = None
-        for partial in partials:
-            whole = partial if whole is None else whole.over(partial)
+        for part in parts:
+            whole = part if whole is None else whole.over(part)
             rows = whole.facts.tally.count("rows")
             progress(min(1.0, (done + rows) / total))
         if whole is None:

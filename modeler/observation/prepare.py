@@ -18,9 +18,14 @@ from modeler.observation.band import (
     what_rings,
     what_trembles,
 )
-from modeler.observation.consistency import Consistency, consistency, without_late
+from modeler.observation.consistency import (
+    Consistency,
+    consistency,
+    quieter,
+    without_late,
+    without_velocities,
+)
 from modeler.observation.damage import Damage, Defects, Usual, damages, defects
-from modeler.observation.derivatives import quieter, without_velocities
 from modeler.observation.log import Log
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.processing import Processing

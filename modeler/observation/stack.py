@@ -133,7 +133,7 @@ def stacked(
         q=motion[:, 0],
         qd=motion[:, 1],
         qdd=motion[:, 2],
-        torque=np.concatenate([part.filtered(_torque(part.segment)) for part in stretches]),
+        torque=np.concatenate([part.filtered(torque_of(part.segment)) for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
         regressor=Evaluated(model, stretches),
@@ -152,7 +152,8 @@ def _motion(part: Stretch) -> np.ndarray:
     )
 
 
-def _torque(segment: Segment) -> Callable[[slice], np.ndarray]:
+def torque_of(segment: Segment) -> Callable[[slice], np.ndarray]:
+    """What is filtered of a segment, a window at a time."""
     return lambda window: segment.tau[window]
 
 

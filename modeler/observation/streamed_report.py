@@ -7,13 +7,12 @@ from functools import reduce
 from typing import TYPE_CHECKING
 
 from modeler.observation.damage import Whose, damages
-from modeler.observation.facts import Facts
 from modeler.observation.log import LONG, fingerprint, fingerprint_of
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.source import Source, joined
 from modeler.observation.stack import joint_reports
 from modeler.observation.survey import Survey
-from modeler.observation.tally import Tally
+from modeler.observation.tally import Facts, Tally
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

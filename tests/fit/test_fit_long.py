@@ -18,8 +18,7 @@ from modeler.fit import identify, streamed, with_verdict
 from modeler.fit.crossed import Crossed
 from modeler.fit.doubts import unshown
 from modeler.fit.long import identify_long
-from modeler.fit.partial import merge_all, reduce_chunk
-from modeler.fit.streamed import stream
+from modeler.fit.streamed import merge_all, reduce_chunk, stream
 from modeler.observation import Processing, observe
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass

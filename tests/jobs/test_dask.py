@@ -17,8 +17,7 @@ from modeler.cli import main
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.fit.long import identify_long
-from modeler.fit.partial import merge_all
-from modeler.fit.streamed import by_threads, stream
+from modeler.fit.streamed import by_threads, merge_all, stream
 from modeler.jobs import cluster, open_workers
 from modeler.jobs.run import Here
 from modeler.observation import Log

@@ -16,8 +16,7 @@ from modeler.observation.band import (
     what_trembles,
 )
 from modeler.observation.motion import segment_of
-from modeler.observation.saturation import saturated
-from modeler.observation.segments import split
+from modeler.observation.segments import saturated, split
 
 W0 = 2 * np.pi * 0.7  # rad/s
 
