@@ -6,8 +6,7 @@ from modeler.api.chain import AnyLog, Mapped, read_logs, recompile
 from modeler.api.long_logs import are_long, sources_of, too_long
 from modeler.compare import Comparison
 from modeler.compare import compare as compare_prediction
-from modeler.compare.long import compare_long
-from modeler.compare.predict import predict
+from modeler.compare.predict import compare_long, predict
 from modeler.compiled import CompiledModel
 from modeler.diagnose import Diagnosis, Known
 from modeler.diagnose import diagnose as find_missing

@@ -17,9 +17,8 @@ from modeler.compare.prediction import (
     residual,
     unit_errors,
 )
-from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
-from modeler.compare.shares import Shares, shares
+from modeler.compare.shares import Repetition, Shares, repetitions, shares
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
