@@ -270,10 +270,8 @@ def _read(path: Path) -> dict[str, Any]:
             f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
         )
     if raw.get("format") != FORMAT:
-        raise ManifestError(
-            f"{path}: model format {shown(raw.get('format'))}, this version reads {FORMAT}; fit "
-            "the model again"
-        )
+        got = f"model format {shown(raw['format'])}" if "format" in raw else "no model format"
+        raise ManifestError(f"{path}: {got}, this version reads {FORMAT}; fit the model again")
     return raw
 
 
