@@ -1,4 +1,4 @@
-"""`modeler compare MODEL LOG...`."""
+"""`modeler compare MODEL LOG...`, and several models on the same rows."""
 
 import argparse
 from collections.abc import Callable, Sequence

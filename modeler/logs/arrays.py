@@ -1,4 +1,4 @@
-"""Arrays by name, as MAT, HDF5 and numpy files hold them, as columns."""
+"""Arrays by name, as MAT, HDF5 and numpy files hold them, as columns; numpy files."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""Units by name, as factors to SI: `deg`, `rpm`, `mA`, `N m`, `kg cm`, `rev/8192`."""
+"""Units by name, as factors to SI (`deg`, `N m`, `rev/8192`), and which a column may be in."""
 
 import math
 import re

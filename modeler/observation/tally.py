@@ -1,4 +1,4 @@
-"""Counts of what was done to the rows of a log, that add up over its chunks."""
+"""What the chunks of a log say of its rows: counts that add up, and facts, put together."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
