@@ -179,14 +179,14 @@ def by_threads(
     model: "CompiledModel",
     source: Source,
     chosen: Chosen,
-    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] = reduce_chunk,
+    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] | None = None,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
     As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
-    each.
+    each; None: `reduce_chunk`.
     """
-    workers = cpu_count() or 1
+    workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
     waiting: deque[Future[Any]] = deque()
     with ThreadPoolExecutor(workers) as pool:
         try:
