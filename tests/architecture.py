@@ -108,7 +108,7 @@ ONLY_IN = {
     "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
     "flint": ("symbolic/balls.py",),
     "pandas": ("core/table.py",),
-    "h5py": ("logs/hdf5.py",),
+    "h5py": ("logs/mat.py",),
     "rosbags": ("logs/bags.py",),
     "distributed": ("jobs/cluster.py",),
 }

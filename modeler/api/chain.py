@@ -35,9 +35,8 @@ from modeler.observation import Log, Observation, Processing, read_log
 from modeler.observation import observe as observe_logs
 from modeler.observation.apart import check_apart
 from modeler.observation.log import LONG
-from modeler.observation.part import read_part
 from modeler.observation.source import source_of
-from modeler.observation.window import window
+from modeler.observation.window import read_part, window
 from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_own_effect
 from modeler.simulate.log import SimulatedLog, write_log

@@ -4,12 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 from string import ascii_uppercase
 
 from modeler.api.chain import AnyLog, Mapped, read_logs, recompile
-from modeler.api.given import check_logs, given
-from modeler.api.long_logs import are_long, check_rows_apart, sources_of, too_long
+from modeler.api.long_logs import are_long, sources_of, too_long
 from modeler.compare import Comparison
 from modeler.compare import compare as compare_prediction
-from modeler.compare.long import compare_long
-from modeler.compare.predict import predict
+from modeler.compare.predict import compare_long, predict
 from modeler.compare.together import predict_together
 from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
@@ -53,14 +51,14 @@ def compared(
         try:
             sources = sources_of(compiled, logs, mapping)
             comparison, observation = compare_long(model, sources, compiled, progress)
-            check_rows_apart(observation)
+            check_apart(observation.report.logs)
             return comparison, observation
         except WholeNeeded as error:
             if too_long(logs):
                 raise
             tell(f"{error}; read as a whole instead")
     read = read_logs(compiled, logs, mapping)
-    check_logs(given([str(log) for log in logs], read), [])
+    check_apart(read, places=[str(log) for log in logs])
     prediction, observation = predict(model, read, compiled)
     return compare_prediction(prediction), observation
 

@@ -12,7 +12,8 @@ from modeler.derivation import Derivation
 from modeler.fit import FitResult, IdentifiedModel, Method
 from modeler.fit.streamed import OF_TRIANGLES, Reducer, Streamed, identify_long, stream
 from modeler.logs.blocks import blocks_of
-from modeler.observation import Log, Observation, Processing
+from modeler.observation import Log, Processing
+from modeler.observation.apart import check_apart
 from modeler.observation.log import LONG, MOST_WHOLE
 from modeler.observation.source import MemorySource, Source, source_of
 
@@ -104,7 +105,7 @@ def fit_long(
         DataError: see `stream` and `identify_long`.
     """
     streamed = stream(compiled, sources, processing, progress, reducer=reducer)
-    check_rows_apart(streamed.observation)
+    check_apart(streamed.observation.report.logs)
     result = judged_long(compiled, streamed, method)
     return identified(derivation, emitted, streamed.observation, result), streamed
 
@@ -113,16 +114,3 @@ def judged_long(compiled: CompiledModel, streamed: Streamed, method: Method) -> 
     """The fit of long logs with its verdict."""
     way = Way(identify_long(streamed, method, compiled))
     return judged(compiled, streamed.observation, way, streamed.data)
-
-
-def check_rows_apart(observation: Observation) -> None:
-    """Refuse rows that are given twice, by what the report says of the logs."""
-    logs = observation.report.logs
-    for index, log in enumerate(logs):
-        for first in logs[:index]:
-            same = log.content != "" and log.content == first.content
-            if same and log.span[0] <= first.span[1] and first.span[0] <= log.span[1]:
-                raise DataError(
-                    f"{log.name}: got rows of {first.name} again; rows that repeat count twice, "
-                    "and their noise looks like something that returns; give each row once"
-                )

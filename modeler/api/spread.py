@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
 from pathlib import Path
 from typing import TypeGuard
 
@@ -10,7 +9,7 @@ from modeler.compiled import CompiledModel
 from modeler.compiled.once import compiled_once
 from modeler.core.contract import Emitted
 from modeler.core.errors import DataError
-from modeler.fit.streamed import Partial, Reducer, by_threads, merge, reduce_chunk
+from modeler.fit.streamed import Partial, Reducer, by_threads, merge_all, reduce_chunk
 from modeler.jobs import Workers
 from modeler.logs import LogMap
 from modeler.observation.chunk import chunks_between
@@ -81,7 +80,7 @@ def reduce_rows(shared: Shared, numbers: range) -> Partial:
             "must see the logs by the same paths"
         )
     parts = chunks_between(source, numbers, chosen.own, chosen.beside)
-    return reduce(merge, (reduce_chunk(model, part, chosen) for part in parts))
+    return merge_all(reduce_chunk(model, part, chosen) for part in parts)
 
 
 def merged_in_time(first: Partial, later: Partial) -> Partial:
@@ -96,7 +95,7 @@ def merged_in_time(first: Partial, later: Partial) -> Partial:
             f"{after:.9g} s after {before:.9g} s; expected increasing time; sort and split the "
             "file where the clock restarts"
         )
-    return merge(first, later)
+    return first.over(later)
 
 
 def _in_order(begun: Sequence[Callable[[], Partial]]) -> Iterator[Partial]:

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api.chain import compile_model, derive, generate, identified, read_logs
-from modeler.api.given import check_logs, given
 from modeler.api.ways import estimated, judged
 from modeler.cli.console import Json, say, say_next, working
 from modeler.cli.drive_gains import check_load, fit_with_gains
@@ -17,6 +16,7 @@ from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.fit import FitResult, IdentifiedModel, save_model
 from modeler.observation import Log, Observation, Processing, observe
+from modeler.observation.apart import check_apart
 from modeler.pages.following import after_fit
 from modeler.robot import INERTIAL, Robot, robot_from_text
 from modeler.robot.edit import with_parameters
@@ -94,7 +94,14 @@ def _written(
 
 
 def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
-    check_logs(given(args.logs, logs), given(args.payload_log, loaded))
+    check_apart([*logs, *loaded], places=[*args.logs, *args.payload_log])
+    places = {log.name: place for place, log in zip(args.logs, logs, strict=True)}
+    for place, log in zip(args.payload_log, loaded, strict=True):
+        if log.name in places:
+            raise DataError(
+                f"{place}: carries the load, and {places[log.name]} has the same file name; "
+                "rename one, loads are assigned by name"
+            )
 
 
 def _check_robot_out(args: argparse.Namespace) -> None:

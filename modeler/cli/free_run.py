@@ -5,13 +5,13 @@ import math
 from pathlib import Path
 
 from modeler.api.chain import read_logs, recompile
-from modeler.api.given import check_logs, given
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.fit import load_model
 from modeler.freerun import Asked, free_run
 from modeler.freerun.controlled import Gains
 from modeler.freerun.pictures import free_run_pictures
+from modeler.observation.apart import check_apart
 from modeler.pictures.files import write_files
 
 
@@ -22,7 +22,7 @@ def run_free_run(args: argparse.Namespace) -> Json:
     with working("deriving the robot of the model"):
         compiled = recompile(model)
         logs = read_logs(compiled, args.logs, args.map)
-    check_logs(given(args.logs, logs), [])
+    check_apart(logs, places=args.logs)
     with progress("simulating") as bar:
         found = free_run(model, logs, compiled, asked, bar)
     for line in (*found.summary().splitlines(), *model.warning):

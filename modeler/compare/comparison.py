@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from modeler.compare.by_log import LogError, errors_by_log
 from modeler.compare.prediction import (
     JointInfo,
     Prediction,
@@ -18,10 +17,8 @@ from modeler.compare.prediction import (
     residual,
     unit_errors,
 )
-from modeler.compare.repetition import Repetition, repetitions
 from modeler.compare.ripple import lines, ripple
-from modeler.compare.scale import Scale, scale
-from modeler.compare.shares import Shares, shares
+from modeler.compare.shares import Repetition, Shares, repetitions, shares
 from modeler.compare.structure import Structure, structure
 from modeler.compare.table import summary
 from modeler.compare.where import Region, Window, velocity_regions, worst_window
@@ -31,6 +28,87 @@ from modeler.core.json_text import nulled
 from modeler.core.presented import Presented
 from modeler.residuals.orders import OrderSpectrum
 from modeler.residuals.spectrum import Spectrum, spectrum
+
+_AGAINST = -0.7  # correlation of measured and predicted torque below which the sign is wrong
+_ALIKE = 0.9  # from which on they have one shape
+_OFF = 0.1  # a scale nearer to one is no wrong scale
+_EXPLAINS = 0.75  # of the squared residual, by the scale alone
+_FEWEST = 20  # samples
+
+
+@dataclass(frozen=True)
+class Scale:
+    """measured = factor * predicted + constant, by least squares."""
+
+    factor: float
+    correlation: float
+    mended: float  # share of the squared residual that the factor takes away
+
+    @property
+    def opposite(self) -> bool:
+        """True if the prediction has the wrong sign."""
+        return self.correlation < _AGAINST
+
+    @property
+    def off(self) -> bool:
+        """True if the prediction is right but for a factor."""
+        wrong = abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
+        return self.correlation > _ALIKE and wrong
+
+
+def scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
+    """The factor between two torques, (n,) each; None for too few samples or a constant."""
+    if measured.size < _FEWEST:
+        return None
+    m, p = measured - measured.mean(), predicted - predicted.mean()
+    squares, own = float(p @ p), float(m @ m)
+    if squares <= 0.0 or own <= 0.0:
+        return None
+    factor = float(m @ p) / squares
+    before, after = float(np.sum((m - p) ** 2)), float(np.sum((m - factor * p) ** 2))
+    return Scale(
+        factor=factor,
+        correlation=float(m @ p) / float(np.sqrt(squares * own)),
+        mended=1.0 - after / before if before > 0.0 else 0.0,
+    )
+
+
+@dataclass(frozen=True)
+class LogError(Brief):
+    """||measured - predicted|| / ||measured|| over the rows of one log that count."""
+
+    log: str
+    samples: int  # rows that count for at least one joint
+    relative_error: float  # all joints; NaN without torque
+    joints: tuple[tuple[str, float], ...]  # by joint name; NaN where nothing counts
+    by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
+
+
+def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
+    """In the order of the logs."""
+    e = np.nan_to_num(residual(prediction))
+    measured = np.where(prediction.used, prediction.measured, 0.0)
+    found = []
+    for run, log in enumerate(prediction.logs):
+        rows = prediction.run == run
+        found.append(
+            LogError(
+                log=log,
+                samples=int(prediction.used[rows].any(axis=1).sum()),
+                relative_error=_relative(e[rows], measured[rows]),
+                joints=tuple(
+                    (info.name, _relative(e[rows, j], measured[rows, j]))
+                    for j, info in enumerate(prediction.joints)
+                ),
+                by_unit=unit_errors(prediction, rows),
+            )
+        )
+    return tuple(found)
+
+
+def _relative(e: np.ndarray, measured: np.ndarray) -> float:
+    size = float(np.linalg.norm(measured))
+    return float(np.linalg.norm(e)) / size if size > 0.0 else float("nan")
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ import numpy as np
 
 from modeler.compare.prediction import Prediction
 from modeler.observation.masks import MASKS, WHY
+from modeler.observation.segments import runs
 from modeler.pictures.picture import (
     COLOR_NAMES,
     PALE_BLUE,
@@ -87,12 +88,8 @@ def _reasons(prediction: Prediction, j: int) -> np.ndarray:
 
 def _runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
     """First and last of each run of True within one segment."""
-    number = np.cumsum(np.concatenate([[True], (np.diff(whole) != 0) | (np.diff(flags) != 0)]))
-    found = []
-    for k in np.unique(number[flags]):
-        own = np.flatnonzero(number == k)
-        found.append((int(own[0]), int(own[-1])))
-    return found
+    pieces = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(whole)) + 1)
+    return [(int(own[a]), int(own[b - 1])) for own in pieces for a, b in runs(flags[own])]
 
 
 def _gaps(

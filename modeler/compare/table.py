@@ -41,7 +41,7 @@ def summary(comparison: "Comparison") -> str:
         lines.append(f"{comparison.samples} samples")
     lines += method_lines(comparison)
     if len(comparison.logs) > 1:
-        lines += ["", *_logs(comparison)]
+        lines += ["", *aligned(by_log(comparison), (0,))]
     return "\n".join(line.rstrip() for line in lines)
 
 
@@ -80,18 +80,18 @@ def _row(item: "JointComparison") -> tuple[str, ...]:
     )
 
 
-def _logs(comparison: "Comparison") -> list[str]:
-    names = [name for name, _ in comparison.logs[0].joints]
+def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
+    """A head, and a row of each log; `error` is that of all joints together, by unit."""
     units = comparison.by_unit
-    errors = ["error"] if len(units) == 1 else [f"error {unit}" for unit in units]
-    head = ("log", "samples", *errors, *(f"joint {name}" for name in names))
+    errors = [error] if len(units) == 1 else [f"{error} {unit}" for unit in units]
+    names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
     rows = [
-        (
+        [
             item.log,
             str(item.samples),
             *(or_dash(error, ".1%") for error in item.by_unit.values()),
             *(or_dash(error, ".1%") for _, error in item.joints),
-        )
+        ]
         for item in comparison.logs
     ]
-    return aligned([head, *rows], (0,))
+    return [["log", "samples", *errors, *names], *rows]

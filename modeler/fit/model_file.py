@@ -22,7 +22,8 @@ from modeler.core.json_text import JsonError, parse_json, shown
 from modeler.core.plain import PlainError, check_fields, plain
 from modeler.core.presented import Presented
 from modeler.fit.result import FitResult, fit_from_json
-from modeler.observation import DataReport, Log, Processing
+from modeler.observation import DataReport, Processing
+from modeler.observation.log import Rows, shared_rows
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -68,13 +69,9 @@ class LogProvenance:
     start: float
     end: float
 
-    def shares_rows(self, log: Log) -> bool:
+    def shares_rows(self, log: Rows) -> bool:
         """True if rows of `log` were fitted."""
-        return self.shares(log.content, log.time[0], log.time[-1])
-
-    def shares(self, content: str, start: float, end: float) -> bool:
-        """True if rows from `start` to `end`, s, of the file with that fingerprint were fitted."""
-        return content == self.content != "" and bool(start <= self.end and self.start <= end)
+        return shared_rows(log, self.content, self.start, self.end)
 
 
 @dataclass(frozen=True)
@@ -295,10 +292,8 @@ def _read(path: Path) -> dict[str, Any]:
             f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
         )
     if raw.get("format") != FORMAT:
-        raise ManifestError(
-            f"{path}: model format {shown(raw.get('format'))}, this version reads {FORMAT}; fit "
-            "the model again"
-        )
+        got = f"model format {shown(raw['format'])}" if "format" in raw else "no model format"
+        raise ManifestError(f"{path}: {got}, this version reads {FORMAT}; fit the model again")
     return raw
 
 

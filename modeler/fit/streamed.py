@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial, reduce
+from functools import reduce
 from os import cpu_count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,17 +23,17 @@ from modeler.fit.identify import base_equations, dead_joints, fit_equations
 from modeler.fit.result import FitResult
 from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.evaluated import Evaluated
-from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER
-from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
 from modeler.observation.passing import with_stretch
 from modeler.observation.processing import Processing
 from modeler.observation.seen import Chosen, seen
 from modeler.observation.source import Source
+from modeler.observation.stack import no_row_left, torque_of
 from modeler.observation.streamed_report import Passes, streamed_report
 from modeler.observation.stretch import Stretch
 from modeler.observation.survey import Known, Survey, WholeNeeded, survey
+from modeler.observation.tally import Facts
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -83,14 +83,9 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
     return Partial(_compressed(model, stretches), facts)
 
 
-def merge(first: Partial, later: Partial) -> Partial:
-    """Of rows of a log, and of those that follow them."""
-    return first.over(later)
-
-
 def merge_all(parts: Iterable[Partial]) -> Partial:
     """Of all chunks of a log, one after the other."""
-    return reduce(merge, parts)
+    return reduce(Partial.over, parts)
 
 
 def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
@@ -98,14 +93,10 @@ def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compres
     parts = [part for part in stretches if part.used.any()]
     regressor, state = Evaluated(model, parts), no_rows(model.pattern)
     for part in parts:
-        torque = part.filtered(partial(_torque, part.segment))
+        torque = part.filtered(torque_of(part.segment))
         state = with_stretch(regressor, part, torque, part.used, state)
     like = none_of(model)
     return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
-
-
-def _torque(segment: Segment, window: slice) -> np.ndarray:
-    return segment.tau[window]
 
 
 def none_of(model: "CompiledModel") -> Compressed:
@@ -333,15 +324,11 @@ def _streamed(
     model: "CompiledModel", sources: Sequence[Source], passes: Passes, every: Sequence[Compressed]
 ) -> Streamed:
     data, seen = reduce(merged, every), passes.found.observation
+    report = streamed_report(model, sources, passes)
     if not data.rows.any():
-        report = streamed_report(model, sources, passes)
-        raise DataError(
-            f"{', '.join(source.name for source in sources)}: no usable row is left: "
-            + "; ".join(joint.line() for joint in report.joints)
-            + "; check these columns, or record longer and faster motion of every joint"
-        )
+        raise no_row_left(report)
     return Streamed(
-        observation=dataclasses.replace(seen, report=streamed_report(model, sources, passes)),
+        observation=dataclasses.replace(seen, report=report),
         data=data,
         share=min(1.0, float(seen.used.sum() / data.rows.sum())),
         samples=sum(facts.tally.count("samples") for facts in passes.facts),

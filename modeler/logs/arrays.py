@@ -1,4 +1,4 @@
-"""Arrays by name, as MAT, HDF5 and numpy files hold them, as columns."""
+"""Arrays by name, as MAT, HDF5 and numpy files hold them, as columns; numpy files."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.files import check_unpacked
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted, reading
 
 LEAST_ROWS = 10
@@ -183,3 +184,20 @@ def _told(held: Held) -> str:
 def _listed(names: Sequence[str]) -> str:
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     return ", ".join(names[:_SHOWN]) + more
+
+
+def read_numpy(path: Path, wanted: Wanted) -> Columns:
+    """The columns of the arrays of an .npz file, or of the fields of an .npy file.
+
+    Arrays of Python objects are refused: reading them would run what the file says.
+    """
+    with reading(path, "numpy file"), path.open("rb") as file:
+        content = np.load(file, allow_pickle=False)
+        if isinstance(content, np.ndarray):
+            name = "" if content.dtype.names else path.stem
+            arrays = with_fields(name, content)
+        else:
+            with content:
+                check_unpacked(path, sum(member.file_size for member in content.zip.infolist()))
+                arrays = [a for name in content.files for a in with_fields(name, content[name])]
+    return columns_of(path, "numpy file", arrays, wanted)

@@ -1,21 +1,316 @@
-"""Files that are read block by block of rows, so that one of any length fits in memory."""
+"""Parquet and CSV files: whole, or block by block, so that one of any length fits in memory."""
 
+import re
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.csv
 import pyarrow.parquet
 
 from modeler.core.errors import DataError
-from modeler.logs.arrow import arrow_columns, opened, told
-from modeler.logs.columns import Columns, Values
-from modeler.logs.csv_blocks import CsvBlocks
-from modeler.logs.unchanged import State, check_unchanged, state_of
+from modeler.core.files import check_unpacked
+from modeler.logs.columns import Columns, NotNumbers, Values, Wanted, unreadable
 
+_UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
+"""What Arrow says of a row; it counts the header."""
+
+_MARKS = {";": "semicolons", "\t": "tabs", "|": "bars"}
+_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d")
+_LINE = 2**24  # bytes of the longest line that is looked at
+_BOM = "\ufeff"
+
+State = tuple[int, int]
+"""Bytes of a file, and when it was last written to."""
+
+_LINES = 200  # by whose length the rows of the file are counted
 _BYTES = 1 << 20  # of a file at a time
+
+
+@dataclass(frozen=True, eq=False)
+class _Arrow:
+    """A column of a table of Arrow."""
+
+    column: pa.ChunkedArray
+    before: int = 0  # rows of the file that stand before it
+
+    @property
+    def numeric(self) -> bool:
+        kind = self.column.type
+        return bool(
+            pa.types.is_integer(kind)
+            or pa.types.is_floating(kind)
+            or pa.types.is_decimal(kind)
+            or pa.types.is_null(kind)
+        )
+
+    def numbers(self) -> np.ndarray:
+        if not self.numeric:
+            raise NotNumbers(self._why())
+        column = pc.cast(self.column, pa.float64(), safe=False)
+        if column.null_count or not column.num_chunks:
+            return np.array(column.to_numpy(), dtype=float)
+        # Arrow's own `to_numpy` loads pandas, where it is installed.
+        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks])
+
+    def _why(self) -> str:
+        kind = self.column.type
+        if pa.types.is_string(kind) or pa.types.is_large_string(kind):
+            for row, value in enumerate(self.column.to_pylist(), start=self.before + 1):
+                try:
+                    float(value if value is not None else "nan")
+                except ValueError:
+                    return (
+                        f', row {row}: got "{value}"; expected a number{_with_point(value)}; '
+                        "correct it, or leave the entry empty if the measurement is missing"
+                    )
+        return f" holds {kind}; expected numbers; write the column as floating point"
+
+
+def read_csv(path: Path, wanted: Wanted) -> Columns:
+    """The columns of a CSV file."""
+    del wanted  # one table, no parts
+    with told(path, "CSV"):
+        check_csv(path)
+        return arrow_columns(_parsed(path))
+
+
+def read_parquet(path: Path, wanted: Wanted) -> Columns:
+    """The columns of a Parquet file."""
+    del wanted
+    with told(path, "PARQUET"):
+        return arrow_columns(opened(path).read())  # read_table refuses equal names
+
+
+def opened(path: Path, **how: Any) -> pa.parquet.ParquetFile:
+    """A Parquet file whose columns have room.
+
+    Raises:
+        DataError: it unpacks to more than a log does.
+    """
+    file = pa.parquet.ParquetFile(path, **how)
+    meta = file.metadata
+    groups = [meta.row_group(place).total_byte_size for place in range(meta.num_row_groups)]
+    check_unpacked(path, max(8 * meta.num_rows * meta.num_columns, sum(groups)))
+    return file
+
+
+@contextmanager
+def told(path: Path, what: str) -> Iterator[None]:
+    """Errors of Arrow as one line."""
+    try:
+        yield
+    except (pa.ArrowException, OSError) as error:
+        match = _UNEVEN.search(str(error))
+        if match is None:
+            raise unreadable(path, what, error, "write the file again") from None
+        quote = ', where a quote (") is open' if match[4].count('"') % 2 else ""
+        raise DataError(
+            f"{path}: row {int(match[1]) - 1}: got {match[3]} entries for {match[2]} "
+            f"columns{quote}; expected one each; correct that row"
+        ) from None
+
+
+def _parsed(path: Path) -> pa.Table:
+    """The table of a CSV file; an error of one row names it."""
+    try:
+        return pa.csv.read_csv(path)
+    except pa.ArrowInvalid:
+        # Rows are counted only where one thread reads all.
+        return pa.csv.read_csv(path, pa.csv.ReadOptions(use_threads=False))
+
+
+def arrow_columns(table: pa.Table, before: int = 0) -> Columns:
+    """The columns of a table; `before` rows of its file stand before it."""
+    named = [
+        (bare(name), _Arrow(table.column(i), before)) for i, name in enumerate(table.column_names)
+    ]
+    return Columns(tuple(named), table.num_rows)
+
+
+def _with_point(value: str) -> str:
+    return " with a decimal point" if re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value) else ""
+
+
+def bare(name: str) -> str:
+    """A column name without blanks and quotes around it: `"time", "q1"` leaves both."""
+    name = name.strip()
+    if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
+        name = name[1:-1].strip()
+    return name
+
+
+def check_csv(path: Path) -> None:
+    """Refuse what is not comma-separated UTF-8 with decimal points and its header in row 1.
+
+    Raises:
+        DataError: the header is in another encoding, a comment, or separated by something else;
+            or the first row has more entries than there are columns.
+        OSError: the file cannot be read.
+    """
+    with path.open("rb") as file:
+        lines = iter(lambda: file.readline(_LINE), b"")
+        written = (line for line in lines if line.strip())  # the parser skips blank lines too
+        header = _header(path, next(written, b""))
+        if len(header) >= _LINE:
+            raise DataError(
+                f"{path}: the first line does not end within {_LINE >> 20} MiB; expected the names "
+                "of the columns; write the file again"
+            )
+        # Text columns are left out, so what they hold need not be readable.
+        first = next(written, b"").decode("utf-8", errors="replace")
+    if header.lstrip().startswith("#"):
+        raise DataError(
+            f'{path}: starts with a comment, "{header[:40]}"; expected the names of the columns; '
+            'delete the lines before them, and a "#" in front of them'
+        )
+    if header.count('"') % 2:
+        raise DataError(
+            f'{path}: the first line has a quote (") that is not closed; expected the names of the '
+            "columns; close it, or delete it"
+        )
+    if "," not in header:
+        for mark, name in _MARKS.items():
+            if mark in header:
+                raise DataError(_separated_by(path, mark, name, first))
+    columns, entries = header.count(",") + 1, first.count(",") + 1
+    if entries > columns and '"' not in header + first:
+        raise DataError(
+            f"{path}: row 1: got {entries} entries for {columns} columns; expected one each; "
+            "write decimal points where numbers have decimal commas"
+        )
+
+
+def _separated_by(path: Path, mark: str, name: str, first: str) -> str:
+    also = ""
+    if any(_DECIMAL_COMMA.match(entry) for entry in first.split(mark)):
+        also = ", and decimal points for the decimal commas"
+    return (
+        f"{path}: columns separated by {name}; expected columns separated by commas; write the "
+        f"file again with commas{also}"
+    )
+
+
+def _header(path: Path, line: bytes) -> str:
+    try:
+        return line.decode("utf-8").removeprefix(_BOM).rstrip("\r\n")
+    except UnicodeDecodeError as error:
+        before = line[: error.start].decode("utf-8")[-40:]
+        raise DataError(
+            f'{path}: the header is not UTF-8: byte 0x{line[error.start]:02x} after "{before}"; '
+            "save the file as UTF-8"
+        ) from None
+
+
+def state_of(path: Path) -> State:
+    """Of a file that is there."""
+    state = path.stat()
+    return state.st_size, state.st_mtime_ns
+
+
+def check_unchanged(path: Path, before: State) -> None:
+    """A file that is written while it is read has no one content.
+
+    Raises:
+        DataError: it is another than before.
+    """
+    try:
+        now = state_of(path)
+    except OSError as error:
+        raise DataError(
+            f"{path}: went away while it was read ({error.strerror}); expected it to stay; run "
+            "this again"
+        ) from None
+    if now != before:
+        raise DataError(
+            f"{path}: was written to while it was read ({before[0]} bytes, now {now[0]}); expected "
+            "a log that is complete; wait until it is, and run this again"
+        )
+
+
+class CsvBlocks:
+    """The lines of a CSV file; a block is parsed by itself, and its columns are what it holds."""
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._state = path, state_of(path)
+        with told(path, "CSV"):
+            check_csv(path)
+            with path.open("rb") as file:
+                header = file.readline()
+                while header and not header.strip():
+                    header = file.readline()
+                self._start = file.tell()
+                lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
+            self._names = pa.csv.read_csv(pa.py_buffer(header)).column_names
+        self._line = max(1.0, sum(map(len, lines)) / max(1, len(lines)))  # bytes
+
+    @property
+    def rows(self) -> int:
+        """About as many as the file has."""
+        return round((self._state[0] - self._start) / self._line)
+
+    @property
+    def state(self) -> State:
+        """Of the file when it was opened."""
+        return self._state
+
+    def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
+        """All rows in their order, about `size` at a time."""
+        read, rest = 0, b""
+        with told(self._path, "CSV"), self._path.open("rb") as file:
+            file.seek(self._start)
+            while True:
+                text = file.read(max(1, int(size * self._line)))
+                end = text.rfind(b"\n") + 1
+                if text and not end:
+                    rest += text
+                    continue
+                whole, rest = (rest + text[:end], text[end:]) if text else (rest, b"")
+                if whole.strip():
+                    table = self._parsed(whole, names, read)
+                    yield arrow_columns(table, read)
+                    read += table.num_rows
+                if not text:
+                    break
+        check_unchanged(self._path, self._state)
+
+    def window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
+        """Up to `size` rows from about a share of the file on."""
+        room = int(size * self._line)
+        start = max(self._start, min(self._start + int(share * self._state[0]),
+                                     self._state[0] - room))  # fmt: skip
+        with told(self._path, "CSV"), self._path.open("rb") as file:
+            file.seek(start - 1)
+            file.readline()  # the line that begins before
+            text = file.read(room)
+            text += file.readline()
+            return arrow_columns(self._parsed(text, names, 0))
+
+    def _parsed(self, text: bytes, names: Sequence[str], before: int) -> pa.Table:
+        """A table of whole lines; an error of one row names its place in the file."""
+        wanted = [name for name in self._names if not names or bare(name) in names]
+        convert = pa.csv.ConvertOptions(include_columns=wanted)
+        try:
+            return pa.csv.read_csv(
+                pa.py_buffer(text), pa.csv.ReadOptions(column_names=self._names),
+                convert_options=convert,
+            )  # fmt: skip
+        except pa.ArrowInvalid:
+            # Rows are counted only where one thread reads all.
+            options = pa.csv.ReadOptions(column_names=self._names, use_threads=False)
+            try:
+                return pa.csv.read_csv(pa.py_buffer(text), options, convert_options=convert)
+            except pa.ArrowInvalid as error:
+                check_unchanged(self._path, self._state)
+                # As in a file that is read whole, the header is row 1.
+                told_row = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}",
+                                  str(error))  # fmt: skip
+                raise pa.ArrowInvalid(told_row) from None
 
 
 class Blocks(Protocol):

@@ -1,5 +1,6 @@
 """What every format gives: named columns of one length, read when they are asked for."""
 
+import errno
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -124,6 +125,8 @@ def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataErro
             "limit (ulimit -v) or free some; if the file is small, it is damaged: write it again"
         )
     words = str(error).strip().split("\n")[0][:200] or type(error).__name__
+    if isinstance(error, OverflowError) or getattr(error, "errno", None) == errno.EINVAL:
+        words = "it states a length or a place that no file has"
     return DataError(f"{path}: cannot be read as {what} ({words}); {advice}")
 
 

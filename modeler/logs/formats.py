@@ -4,12 +4,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from modeler.core.errors import DataError
-from modeler.logs.arrow import read_csv, read_parquet
+from modeler.logs.arrays import read_numpy
 from modeler.logs.bags import read_bag
+from modeler.logs.blocks import read_csv, read_parquet
 from modeler.logs.columns import Columns, Wanted
-from modeler.logs.hdf5 import read_hdf5
-from modeler.logs.mat import read_mat
-from modeler.logs.numpy_file import read_numpy
+from modeler.logs.mat import read_hdf5, read_mat
 
 _READERS: Mapping[str, Callable[[Path, Wanted], Columns]] = {
     ".parquet": read_parquet, ".csv": read_csv, ".mat": read_mat, ".h5": read_hdf5,

@@ -139,7 +139,7 @@ def look(
     mapping: LogMap,
     joints: Sequence[JointSpec] = (),
     span: tuple[float | None, float | None] = (None, None),
-    every: Iterable[Table] = (),
+    every: Iterable[Table] | None = None,
 ) -> Look:
     """What is in a log.
 
@@ -149,25 +149,30 @@ def look(
         mapping: stated by the user; what it leaves open is guessed.
         joints: of the robot, if it is known.
         span: only the rows from one time to another, s.
-        every: all rows of a long log, block after block.
+        every: all rows of a long log, block after block; None: the table has them.
 
     Raises:
         DataError: no rows in that span, or a time column without values.
     """
     values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
-    blocks: Iterable[dict[str, np.ndarray]] = (_numbers(block, values) for block in every)
+    blocks: Iterable[dict[str, np.ndarray]] = [values]
+    if every is not None:
+        blocks = (_numbers(block, values) for block in every)
     if span != (None, None):
         found = guesses(values, {}, joints)
-        values, every = _within(table, found, blocks if every else [values], span), ()
+        values, every = _within(table, found, blocks, span), None
+        blocks = [values]
     found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
     units = {n: u for one in found for n, u in zip(one.columns, one.units, strict=True) if u}
     time, clock = _clock(table, values, found)
     shown = {name: table.in_unit(name, v) for name, v in values.items()}
-    channels = tuple(_channel(table, name, v, units.get(name, "")) for name, v in shown.items())
-    rows, notes, pairs = len(time), table.notes, _pairs(found)
-    drawn = time, np.stack([time[1:], np.diff(time)]), shown
-    if every:
-        rows, clock, channels, drawn = _all_rows(table, blocks, found, (clock, channels))
+    rows, clock, extents, drawn = _all_rows(table, blocks, found, clock, every is None)
+    channels = tuple(
+        _channel(table, name, v, units.get(name, ""), extents[name], rows)
+        for name, v in shown.items()
+    )
+    notes, pairs = table.notes, _pairs(found)
+    if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
     doubts += [*rate_doubts(pairs, values, time), *_dead(channels, shown, values, pairs)]
@@ -228,8 +233,20 @@ def _within(
     return inside
 
 
-Runs = tuple[np.ndarray, np.ndarray]
-"""(m,) values at which a channel stays for some rows, and (m,) for how many."""
+@dataclass(frozen=True, eq=False)
+class _Extent:
+    """What the values of a channel in a block of rows take up.
+
+    Attributes:
+        missing: rows without a value.
+        ends, held: (5,) values at which it stays for some rows, and for how many rows: at the
+            first, the least, the largest, all others together, and the last.
+    """
+
+    missing: int
+    ends: np.ndarray
+    held: np.ndarray
+
 
 Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
 """Time, steps and values of a `Look`."""
@@ -237,35 +254,32 @@ Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
 
 def _all_rows(
     table: Table, blocks: Iterable[dict[str, np.ndarray]], found: Sequence[Guess],
-    seen: tuple[Clock | None, Sequence[Channel]],
-) -> tuple[int, Clock | None, tuple[Channel, ...], Drawn]:  # fmt: skip
-    """Rows, clock and channels of a long log, and what is drawn of it; `seen`: of its windows."""
-    counts, clocks, every, drawn = list[int](), list[Clock](), [], list[Drawn]()
-    runs = list[list[Runs]]()
+    seen: Clock | None, whole: bool,
+) -> tuple[int, Clock | None, dict[str, list[_Extent]], Drawn]:  # fmt: skip
+    """Rows, clock, extents by channel, and what is drawn; `seen`: of the windows of a long log."""
+    counts, clocks, extents, drawn = list[int](), list[Clock](), list[dict](), list[Drawn]()
     last: dict[str, np.ndarray] = {}  # a block knows the row before it: one step more
     for values in blocks:
         rows = {name: np.append(last.get(name, v[:0]), v) for name, v in values.items()}
-        time, clock = _clock(table, rows, found, seen[0])
+        time, clock = _clock(table, rows, found, None if whole else seen)
         if clock is None:
             time = time + sum(counts)
         else:
             clocks.append(clock)
-        own = slice(1 if last else 0, None)
-        steps = np.stack([time[1:], np.diff(time)])
+        own = time[1 if last else 0 :]
         shown = {name: table.in_unit(name, v) for name, v in values.items()}
-        every.append([_channel(table, name, v, "", False) for name, v in shown.items()])
-        runs.append([_runs_of_block(v) for v in shown.values()])
-        drawn.append(_extremes(time[own], steps, shown))
+        extents.append({name: _extent(v) for name, v in shown.items()})
+        part = own, np.stack([time[1:], np.diff(time)]), shown
+        drawn.append(part if whole else _extremes(*part))
         last = {name: v[-1:] for name, v in values.items()}
-        counts.append(len(time[own]))
-    times, stepped, values_drawn = zip(*drawn, strict=True)
+        counts.append(len(own))
+    times, steps, values_drawn = zip(*drawn, strict=True)
     time = np.concatenate(times)
-    channels = zip(seen[1], zip(*every, strict=True), zip(*runs, strict=True), strict=True)
     return (
         sum(counts),
-        None if seen[0] is None else _clock_over(seen[0], clocks, float(np.ptp(time))),
-        tuple(_channel_over(*each, sum(counts)) for each in channels),
-        (time, np.concatenate(stepped, axis=1),
+        None if seen is None else _clock_over(seen, clocks, time),
+        {name: [own[name] for own in extents] for name in last},
+        (time, np.concatenate(steps, axis=1),
          {name: np.concatenate([own[name] for own in values_drawn]) for name in last}),
     )  # fmt: skip
 
@@ -281,8 +295,9 @@ def _extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarr
     return time[rows], steps[:, ends[1]], {name: x[rows] for name, x in values.items()}
 
 
-def _clock_over(seen: Clock, clocks: Sequence[Clock], duration: float) -> Clock:
+def _clock_over(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clock:
     """The clock of consecutive blocks."""
+    duration = float(np.nanmax(time) - np.nanmin(time))
     sums = {
         name: sum(getattr(own, name) for own in clocks)
         for name in ("gaps", "lost", "repeated", "back")
@@ -292,20 +307,6 @@ def _clock_over(seen: Clock, clocks: Sequence[Clock], duration: float) -> Clock:
     jitter = float(np.sqrt(np.mean(jitters)))
     return dataclasses.replace(
         widest, rate=seen.rate, tick=seen.tick, jitter=jitter, duration=duration, **sums
-    )
-
-
-def _channel_over(
-    seen: Channel, parts: Sequence[Channel], runs: Sequence[Runs], rows: int
-) -> Channel:
-    """A channel of consecutive blocks."""
-    low = float(np.fmin.reduce([own.low for own in parts]))
-    high = float(np.fmax.reduce([own.high for own in parts]))
-    missing = sum(own.missing for own in parts)
-    ends, lengths = (np.concatenate(each) for each in zip(*runs, strict=True))
-    limits = _limits((ends, lengths), low, high, rows - missing)
-    return dataclasses.replace(
-        seen, low=low, high=high, missing=missing, limits=limits, constant=low == high
     )
 
 
@@ -355,21 +356,22 @@ def _tick(steps: np.ndarray, step: float) -> float:
 
 
 def _channel(
-    table: Table, name: str, values: np.ndarray, guessed: str, graded: bool = True
+    table: Table, name: str, values: np.ndarray, guessed: str, parts: Sequence[_Extent], rows: int
 ) -> Channel:
-    finite = values[np.isfinite(values)]
-    stated = table.unit(name)
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (np.nan, np.nan)
+    """Of values in windows, and extents of all rows."""
+    stated, missing = table.unit(name), sum(own.missing for own in parts)
+    ends, held = np.stack([own.ends for own in parts]), np.stack([own.held for own in parts])
+    low, high = float(np.fmin.reduce(ends[:, 1])), float(np.fmax.reduce(ends[:, 2]))
     return Channel(
         name=table.called(name),
         unit=stated or guessed,
         guessed=not stated and bool(guessed),
         low=low,
         high=high,
-        missing=int(values.size - finite.size),
-        resolution=_resolution(finite) if graded else 0.0,
-        limits=_limits(_runs(finite, True), low, high, finite.size),
-        constant=bool(finite.size and low == high),
+        missing=missing,
+        resolution=_resolution(values[np.isfinite(values)]),
+        limits=_limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing),
+        constant=low == high,
     )
 
 
@@ -385,36 +387,32 @@ def _resolution(values: np.ndarray) -> float:
     return step if float(np.quantile(off, 0.9)) < 0.05 else 0.0
 
 
-def _runs(values: np.ndarray, inner: bool) -> Runs:
-    """Of finite values; `inner`: not at the beginning or the end, where a robot stands still."""
-    edges = np.flatnonzero(np.diff(values)) + 1  # where another value begins
-    if not inner:
-        edges = np.concatenate([[0], edges, [values.size]])
-    lengths = np.diff(edges)
-    long = lengths >= _HELD
-    return values[edges[:-1]][long], lengths[long]
+def _extent(values: np.ndarray) -> _Extent:
+    finite = values[np.isfinite(values)]
+    missing = values.size - finite.size
+    if not finite.size:
+        return _Extent(missing, np.full(5, np.nan), np.zeros(5, dtype=int))
+    starts = np.append(0, np.flatnonzero(np.diff(finite)) + 1)  # where another value begins
+    at, rows = finite[starts], np.diff(starts, append=finite.size)
+    rows[rows < _HELD] = 0
+    low, high, inner = finite.min(), finite.max(), rows[1:-1]
+    held = [inner[at[1:-1] == end].sum() for end in (low, high)]
+    held = [rows[0], *held, inner.sum() - sum(held), rows[-1] if rows.size > 1 else 0]
+    return _Extent(missing, np.array([at[0], low, high, np.nan, at[-1]]), np.array(held))
 
 
-def _runs_of_block(values: np.ndarray) -> Runs:
-    """Its runs at its least, at its largest and at all other values, each together."""
-    values = values[np.isfinite(values)]
-    ends, lengths = _runs(values, False)
-    at = np.array([values.min(), values.max()]) if values.size else np.full(2, np.nan)
-    rows = [int(lengths[ends == end].sum()) for end in at]
-    other = int(lengths[~np.isin(ends, at)].sum())
-    return np.append(at, np.nan), np.array([*rows, other]) * [1, at[0] < at[1], 1]
-
-
-def _limits(runs: Runs, low: float, high: float, rows: int) -> tuple[tuple[float, float], ...]:
+def _limits(
+    ends: np.ndarray, held: np.ndarray, limits: tuple[float, float], rows: int
+) -> tuple[tuple[float, float], ...]:
     """Ends of the range at which so many values stay for some rows, and for which share of all.
 
-    Not of a channel that stays anywhere, because it is slower than the log.
+    Not at the beginning or the end, where a robot stands still; and not of a channel that stays
+    anywhere, because it is slower than the log.
     """
-    ends, lengths = runs
-    if not low < high or lengths.sum() > _SLOW * rows:
+    if not limits[0] < limits[1] or held.sum() > _SLOW * rows:
         return ()
-    held = [(end, int(lengths[ends == end].sum())) for end in (low, high)]
-    return tuple((end, count / rows) for end, count in held if count > _STUCK * rows)
+    counts = [(end, int(held[ends == end].sum())) for end in limits]
+    return tuple((end, count / rows) for end, count in counts if count > _STUCK * rows)
 
 
 def _of_clock(clock: Clock | None) -> list[str]:

@@ -12,8 +12,7 @@ from modeler.logs.arrays import LEAST_ROWS
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
 from modeler.logs.formats import read_columns
 from modeler.logs.mapping import Entry, LogMap, near
-from modeler.logs.quantities import si_unit
-from modeler.logs.units import Unit, find_unit
+from modeler.logs.units import Unit, find_unit, si_unit
 
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
 _SHOWN = 40  # names of columns that a message lists
@@ -127,7 +126,8 @@ class Table:
         if stated is None and (text := self.found.units.get(column)):
             stated = find_unit(text)
             entry = Entry((), where=f"{self.path}: column {column}")
-        return None if stated is None else si_unit(own, entry or Entry(()), stated, self._joints)
+        where = entry.where if entry is not None else ""
+        return None if stated is None else si_unit(own, where or own, stated, self._joints)
 
     def _told(self) -> list[str]:
         """Entries of [log] that found nothing, units of the file's own, a time without column."""

@@ -1,11 +1,12 @@
-"""Units by name, as factors to SI: `deg`, `rpm`, `mA`, `N m`, `kg cm`, `rev/8192`."""
+"""Units by name, as factors to SI (`deg`, `N m`, `rev/8192`), and which a column may be in."""
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
 
 GRAVITY = 9.80665
@@ -30,6 +31,27 @@ _KINDS: Mapping[Powers, str] = {
     CURRENT: "a current", HEAT: "a temperature", FORCE: "a force", TORQUE: "a torque",
     VOLTAGE: "a voltage",
 }  # fmt: skip
+
+_INCH, _POUND = 0.0254, 0.45359237  # m, kg; exact (international yard and pound, 1959)
+_WORDS = {
+    "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad", "revolution": "rev",
+    "revolutions": "rev", "turns": "rev", "second": "s", "seconds": "s", "minutes": "min",
+    "millisecond": "ms", "milliseconds": "ms", "meter": "m", "meters": "m", "metre": "m",
+    "metres": "m", "millimeter": "mm", "millimeters": "mm", "newton": "N", "newtons": "N",
+    "ampere": "A", "amperes": "A", "amps": "A", "volt": "V", "volts": "V", "celsius": "degC",
+}  # fmt: skip
+_PREFIXES = {
+    "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
+}  # fmt: skip
+_DECADES = 100  # that no unit is away from SI
+_PREFIXED = {"m", "g", "s", "rad", "deg", "A", "V", "N", "Nm", "Hz"}
+_FACTOR = re.compile(
+    r"\s*([*/·.]?)\s*([A-Za-zµμ°%]+|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?:\^?(-?\d+))?"
+)
+EXAMPLES = "deg, rev, rpm, deg/s, mm, ms, us, N m, mN m, kN, kg cm, lb in, mA, A, rev/8192"
+"""Units that a message names."""
+
+_MOTION = {"q": 0, "qc": 0, "qd": 1, "qdd": 2}  # times that time is divided by
 
 
 @dataclass(frozen=True)
@@ -76,8 +98,6 @@ def _unit(factor: float, powers: Powers, zero: float = 0.0) -> Unit:
     return Unit("", factor, powers, zero)
 
 
-_INCH, _POUND = 0.0254, 0.45359237  # m, kg; exact (international yard and pound, 1959)
-
 _TABLE: Mapping[str, Unit] = MappingProxyType({
     "m": _unit(1.0, LENGTH), "in": _unit(_INCH, LENGTH), "inch": _unit(_INCH, LENGTH),
     "ft": _unit(12.0 * _INCH, LENGTH),
@@ -97,24 +117,6 @@ _TABLE: Mapping[str, Unit] = MappingProxyType({
     "degF": _unit(5.0 / 9.0, HEAT, -32.0), "°F": _unit(5.0 / 9.0, HEAT, -32.0),
     "percent": _unit(0.01, NONE), "%": _unit(0.01, NONE),
 })  # fmt: skip
-_WORDS = {
-    "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad", "revolution": "rev",
-    "revolutions": "rev", "turns": "rev", "second": "s", "seconds": "s", "minutes": "min",
-    "millisecond": "ms", "milliseconds": "ms", "meter": "m", "meters": "m", "metre": "m",
-    "metres": "m", "millimeter": "mm", "millimeters": "mm", "newton": "N", "newtons": "N",
-    "ampere": "A", "amperes": "A", "amps": "A", "volt": "V", "volts": "V", "celsius": "degC",
-}  # fmt: skip
-_PREFIXES = {
-    "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
-}  # fmt: skip
-_DECADES = 100  # that no unit is away from SI
-_PREFIXED = {"m", "g", "s", "rad", "deg", "A", "V", "N", "Nm", "Hz"}
-_FACTOR = re.compile(
-    r"\s*([*/·.]?)\s*([A-Za-zµμ°%]+|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?:\^?(-?\d+))?"
-)
-
-EXAMPLES = "deg, rev, rpm, deg/s, mm, ms, us, N m, mN m, kN, kg cm, lb in, mA, A, rev/8192"
-"""Units that a message names."""
 
 
 def unit_named(text: str) -> Unit:
@@ -164,3 +166,54 @@ def _simple(name: str) -> Unit | None:
         base = _TABLE[rest]
         return _unit(_PREFIXES[prefix] * base.factor, base.powers)
     return None
+
+
+def si_unit(own: str, where: str, unit: Unit, joints: Sequence[JointSpec]) -> Unit:
+    """The unit of an entry as one of what our column measures.
+
+    Raises:
+        DataError: it measures something else; names the entry, the joint and what was expected.
+    """
+    wanted, what, example = _wanted(own, joints)
+    if wanted is None:
+        return unit
+    if wanted == CURRENT and unit.powers in (NONE, VOLTAGE):
+        return unit  # drive units: what the drive gain is of
+    found = unit.as_quantity(wanted)
+    if found is None:
+        also = "; a current is called current<j>" if unit.powers == CURRENT else ""
+        raise DataError(
+            f'{where}: got unit "{unit.text}", which is {unit.kind}; {own} is {what}: '
+            f"expected a unit such as {example}{also}"
+        )
+    return found
+
+
+def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, str]:
+    """Powers, in words, and examples of units; None for a column that may measure anything."""
+    if own == "time":
+        return TIME, "a time", "s, ms, us, ns"
+    if own.startswith("temperature"):
+        return HEAT, "a temperature", "degC, K, degF"
+    for joint in joints:
+        turns = joint.unit == "rad"
+        kind = f"of joint {joint.name}, which is {joint.kind}"
+        if own == f"current{joint.name}":
+            return CURRENT, f"a current {kind}", "mA, A, V, %"
+        if own == f"tau{joint.name}" and joint.effort_unit == "N m":
+            return TORQUE, f"a torque {kind}", "N m, mN m, kg cm, lb in"
+        if own == f"tau{joint.name}":
+            return FORCE, f"a force {kind}", "N, kN, kgf, lbf"
+        for prefix, over in _MOTION.items():
+            if own == f"{prefix}{joint.name}":
+                return _motion(turns, over, kind)
+    return None, "", ""
+
+
+def _motion(turns: bool, over: int, kind: str) -> tuple[Powers, str, str]:
+    m, kg, s, rad, A, K = ANGLE if turns else LENGTH
+    what = ("a position", "a speed", "an acceleration")[over]
+    units = ("deg", "rad", "rev") if turns else ("mm", "m", "in")
+    written = ("", "/s", "/s^2")[over]
+    example = ", ".join(unit + written for unit in units) + (", rpm" if turns and over == 1 else "")
+    return (m, kg, s - over, rad, A, K), f"{what} {kind}", example

@@ -1,27 +1,33 @@
-"""Logs that are used together: every row has one part, explained or held out."""
+"""Logs that are used together: every row has one part, fitted, explained or held out."""
 
 from collections.abc import Sequence
 
 from modeler.core.errors import DataError
-from modeler.observation import Log
-from modeler.observation.log import shared_rows
+from modeler.observation.log import Rows, shared_rows
 
 
-def check_apart(logs: Sequence[Log], holdout: Sequence[Log] = ()) -> None:
+def check_apart(
+    logs: Sequence[Rows], holdout: Sequence[Rows] = (), places: Sequence[str] = ()
+) -> None:
     """Refuse rows that are given twice, and held-out rows that are also explained.
 
-    Both would flatter every effect.
+    Args:
+        logs: as they were read, or their reports.
+        holdout: of which errors are to be told.
+        places: what the user typed for `logs`; none: their names.
 
     Raises:
         DataError: names the two logs.
     """
-    for given in (logs, holdout):
+    for given, typed in ((logs, places), (holdout, ())):
+        names = typed or [log.name for log in given]
         for index, log in enumerate(given):
-            for first in given[:index]:
-                if _shared(log, first):
+            for first, other in zip(names, given[:index], strict=False):
+                if _shared(log, other):
                     raise DataError(
-                        f"{log.name}: got rows of {first.name} again; rows that repeat make all "
-                        "that is found look too sure; give each row once"
+                        f"{names[index]}: got rows of {first} again; rows that repeat count "
+                        "twice, and their noise looks like something that returns; give each row "
+                        "once"
                     )
     for other in holdout:
         for log in logs:
@@ -32,5 +38,5 @@ def check_apart(logs: Sequence[Log], holdout: Sequence[Log] = ()) -> None:
                 )
 
 
-def _shared(log: Log, other: Log) -> bool:
-    return shared_rows(log, other.content, other.time[0], other.time[-1])
+def _shared(log: Rows, other: Rows) -> bool:
+    return shared_rows(log, other.content, *other.span)

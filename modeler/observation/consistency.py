@@ -1,5 +1,6 @@
 """Are the logged velocities and accelerations the derivatives of what they claim?"""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -27,6 +28,10 @@ WRONG = 0.5
 
 _CLEAR = 10.0  # times its noise is what the lower signal must change by over a window to judge it
 _DEGREES = 180.0 / np.pi
+
+QUIETER = 2.0
+"""Noise of the logged velocity over that of the differentiated position from which on that is
+taken: below, a measured velocity has no delay and no quantisation of its own to fear."""
 
 
 @dataclass(frozen=True)
@@ -242,3 +247,32 @@ def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
 def white_noise(values: np.ndarray) -> float:
     """Standard deviation of white noise on a smooth signal, from its third differences."""
     return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / np.sqrt(20.0)
+
+
+def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
+    """True if differentiating the position is quieter than the logged velocity on most joints.
+
+    White noise of standard deviation s_q on the position, through the position filter of cut-off
+    f, is noise of (2 pi f) s_q / sqrt(3) on the velocity.
+
+    Args:
+        pieces: with logged velocities, of all logs.
+        cutoff: of the position filter, Hz.
+    """
+    moved, logged = [], []
+    for piece in pieces:
+        if piece.qd is None or piece.qdd is not None or len(piece.time) < 8:
+            return False
+        own = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
+        moved.append([own * white_noise(column) for column in piece.q.T])
+        logged.append([white_noise(column) for column in piece.qd.T])
+    if not logged:
+        return False
+    return bool(
+        np.mean(np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)) > 0.5
+    )  # fmt: skip
+
+
+def without_velocities(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
+    """The pieces with their velocities to be taken from the positions."""
+    return tuple(dataclasses.replace(piece, qd=None) for piece in pieces)

@@ -9,6 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
+from modeler.observation.segments import runs
 from modeler.observation.signals import signals_of
 
 if TYPE_CHECKING:
@@ -127,7 +128,7 @@ def _tiles(observation: Observation, window: float | None) -> list[_Tiles]:
         intervals = 2 * max(1, round(wanted / 2))
         starts: list[np.ndarray] = [np.zeros(0, dtype=int)]
         stretch = [np.zeros(0, dtype=int)]
-        for first, stop in _runs(s.whole & s.valid.all(axis=1)):
+        for first, stop in runs(s.whole & s.valid.all(axis=1)):
             fitting = (stop - first - 1) // intervals
             if fitting < 1:
                 continue
@@ -137,11 +138,6 @@ def _tiles(observation: Observation, window: float | None) -> list[_Tiles]:
             number += 1
         found.append(_Tiles(s, np.concatenate(starts), intervals, np.concatenate(stretch)))
     return found
-
-
-def _runs(good: np.ndarray) -> list[tuple[int, int]]:
-    edges = np.flatnonzero(np.diff(good.astype(np.int8), prepend=0, append=0))
-    return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def _check_window(observation: Observation, window: float | None) -> None:

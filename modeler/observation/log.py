@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Protocol
 
 import numpy as np
 
@@ -12,6 +13,22 @@ from modeler.core.presented import Presented
 _NONE: Mapping = MappingProxyType({})
 
 _FINE = 1e-7  # of a step; over the rows of a block, less than a row
+
+
+class Rows(Protocol):
+    """Rows of a file: a log, or what is kept of it."""
+
+    @property
+    def name(self) -> str:
+        """Of the file."""
+
+    @property
+    def content(self) -> str:
+        """Fingerprint of the whole file; "" if there is none."""
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time, s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +74,11 @@ class Log(Presented):
     def rows(self) -> int:
         """Number of rows, n."""
         return len(self.time)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time, s."""
+        return float(self.time[0]), float(self.time[-1])
 
     @property
     def step(self) -> float:
@@ -123,7 +145,7 @@ def _digest(measurements: Sequence[np.ndarray]) -> bytes:
     return content.digest()
 
 
-def shared_rows(log: Log, content: str, start: float, end: float) -> bool:
+def shared_rows(log: Rows, content: str, start: float, end: float) -> bool:
     """True if `log` holds rows of the file with that fingerprint from `start` to `end`, s."""
     same = log.content != "" and log.content == content
-    return same and bool(log.time[0] <= end and start <= log.time[-1])
+    return same and log.span[0] <= end and start <= log.span[1]

@@ -11,7 +11,6 @@ from modeler.observation.closable import closed
 from modeler.observation.consistency import Consistency, Contradiction, consistency
 from modeler.observation.damage import Defects, Usual, defects
 from modeler.observation.dry_friction import IDLE_TRAVEL, TOP, Shaft, moving
-from modeler.observation.facts import Facts
 from modeler.observation.log import FINGER, Log, finger
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.prepare import believed, check_size
@@ -21,7 +20,7 @@ from modeler.observation.row_filter import filter_at
 from modeler.observation.segments import Piece, split
 from modeler.observation.source import cut
 from modeler.observation.stretch import Stretch, stretch
-from modeler.observation.tally import tally
+from modeler.observation.tally import Facts, tally
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.observation.log import Log
-from modeler.observation.saturation import saturated
 
 GAP = 5.0
 """A step longer than this many median steps ends a segment."""
@@ -19,6 +18,9 @@ SHORT = 3
 """A bridge of up to so many samples is a cubic, as smooth as the motion beside it."""
 
 _LEAST = 4  # samples; the second difference and its neighbours
+
+LEAST_RUN = 5
+QUANTA = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,9 +184,8 @@ def _nearest(stamps: np.ndarray, time: np.ndarray) -> np.ndarray:
 
 def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:
     """The flags (n,) that stand in runs of more than `length`."""
-    edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0))
     kept = np.zeros(len(flags), dtype=bool)
-    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+    for start, stop in runs(flags):
         kept[start:stop] = stop - start > length
     return kept
 
@@ -216,3 +217,49 @@ def _bridge(
             distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
             valid[:, j] &= distance <= _NEAR * step
     return values, valid
+
+
+def saturated(values: np.ndarray, extremes: tuple[float, float] | None = None) -> np.ndarray:
+    """Samples at which a torque is clipped; (n,) bool.
+
+    A run counts when the torque is exactly its largest or smallest value of the whole log for at
+    least 5 samples in a row, and leaps into or out of that run by more than 3 steps of its own
+    resolution. A clean quantised signal rounds its crest one step at a time and is not caught;
+    a torque at rest, which is constant all along, has no leap and is not caught either.
+
+    Args:
+        values: (n,) torque of one joint, NaN where missing.
+        extremes: smallest and largest value of the log elsewhere, of which these are a part.
+    """
+    found = np.zeros(len(values), dtype=bool)
+    if not len(values):
+        return found
+    low, high = float(np.fmin.reduce(values)), float(np.fmax.reduce(values))
+    if not low < high:
+        return found
+    ends = [low, high]
+    if extremes is not None:
+        ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
+    found_runs = [
+        (end, (start, stop))
+        for end in ends
+        for start, stop in runs(values == end)
+        if stop - start >= LEAST_RUN
+    ]
+    if not found_runs:
+        return found
+    gaps = np.diff(np.unique(values[np.isfinite(values)]))
+    # Differences at the level of rounding (a product with a drive gain) are no resolution.
+    resolution = float(np.min(gaps[gaps > 1e-9 * (high - low)]))
+    for extreme, (start, stop) in found_runs:
+        beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
+        leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
+        if leap > QUANTA * resolution:
+            found[start:stop] = True
+    return found
+
+
+def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """[start, stop) of each stretch of True in flags (n,)."""
+    edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0)).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))

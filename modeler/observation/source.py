@@ -198,8 +198,8 @@ def _whole(logs: Sequence[Log], name: str) -> np.ndarray | None:
     return None if any(values is None for values in found) else np.concatenate(found)
 
 
-def cut(log: Log, rows: slice) -> Log:
-    """Some consecutive rows of a log."""
+def cut(log: Log, rows: slice | np.ndarray) -> Log:
+    """Some rows of a log: consecutive ones, or those of a mask (n,)."""
 
     def some(values: np.ndarray | None) -> np.ndarray | None:
         return None if values is None else values[rows]

@@ -1,17 +1,18 @@
 """y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
 from modeler.observation.closable import without_open
 from modeler.observation.dry_friction import Shaft, floors_of, moving, shafts, with_every_joint
 from modeler.observation.evaluated import Evaluated
 from modeler.observation.log import Log
-from modeler.observation.motion import Segment
+from modeler.observation.motion import CAUSES, Segment
 from modeler.observation.observation import Observation
 from modeler.observation.prepare import Mending, Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
@@ -73,18 +74,20 @@ def observed(
             dataclasses.replace(_log_report(log, run, prepared, stretches), open_times=times)
             for run, (log, times) in enumerate(zip(logs, open_times, strict=True))
         ),
-        joints=_joint_reports(model, parts, floors, stretches),
+        joints=joint_reports(model.spec.joints, parts, floors, _counts(stretches)),
     )
     if not any(part.used.any() for part in stretches):
-        raise DataError(
-            f"{', '.join(log.name for log in logs)}: no usable row is left: "
-            + "; ".join(
-                [joint.line() for joint in report.joints]
-                + [f"{log.name}: {note}" for log in logs for note in log.notes]
-            )
-            + "; check these columns, or record longer and faster motion of every joint"
-        )
+        raise no_row_left(report, [f"{log.name}: {note}" for log in logs for note in log.notes])
     return stacked(model, [log.name for log in logs], stretches, report)
+
+
+def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
+    """What is told of logs without a usable row."""
+    return DataError(
+        f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
+        + "; ".join([*(joint.line() for joint in report.joints), *notes])
+        + "; check these columns, or record longer and faster motion of every joint"
+    )
 
 
 def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
@@ -130,7 +133,7 @@ def stacked(
         q=motion[:, 0],
         qd=motion[:, 1],
         qdd=motion[:, 2],
-        torque=np.concatenate([part.filtered(_torque(part.segment)) for part in stretches]),
+        torque=np.concatenate([part.filtered(torque_of(part.segment)) for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
         regressor=Evaluated(model, stretches),
@@ -149,7 +152,8 @@ def _motion(part: Stretch) -> np.ndarray:
     )
 
 
-def _torque(segment: Segment) -> Callable[[slice], np.ndarray]:
+def torque_of(segment: Segment) -> Callable[[slice], np.ndarray]:
+    """What is filtered of a segment, a window at a time."""
     return lambda window: segment.tau[window]
 
 
@@ -189,32 +193,42 @@ def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stre
     )
 
 
-def _joint_reports(
-    model: "CompiledModel",
+def _counts(stretches: Sequence[Stretch]) -> dict[str, Any]:
+    """Samples of all stretches, by joint, as a `Tally` has them of chunks."""
+    return {
+        "full": sum(part.segment.samples for part in stretches),
+        "valid": sum(np.sum(part.segment.valid, axis=0) for part in stretches),
+        "usable": sum(np.sum(part.usable, axis=0) for part in stretches),
+        "used": sum(np.sum(part.used, axis=0) for part in stretches),
+    } | {cause: sum(part.segment.lost[cause] for part in stretches) for cause in CAUSES}
+
+
+def joint_reports(
+    joints: Sequence[JointSpec],
     parts: Sequence[Shaft],
-    floors: dict[str, float],
-    stretches: Sequence[Stretch],
+    floors: Mapping[str, float],
+    counts: Mapping[str, Any],
 ) -> tuple[JointReport, ...]:
-    valid = sum(np.sum(part.segment.valid, axis=0) for part in stretches)
-    usable = sum(np.sum(part.usable, axis=0) for part in stretches)
-    used = sum(np.sum(part.used, axis=0) for part in stretches)
-    samples = sum(part.segment.samples for part in stretches)
-    causes = stretches[0].segment.lost
-    lost = {
-        cause: np.sum([part.segment.lost[cause] for part in stretches], axis=0) for cause in causes
-    }
+    """What became of the samples of each joint.
+
+    Args:
+        joints: of the robot.
+        parts: its shafts.
+        floors: speeds below which they do not count.
+        counts: "full" samples, and by joint those "valid", "usable", "used" and lost by each cause.
+    """
     reports = []
-    for j, joint in enumerate(model.spec.joints):
+    for j, joint in enumerate(joints):
         own = [floors[part.name] for part in parts if j in part.joints]
         reports.append(
             JointReport(
                 name=joint.name,
-                used=int(used[j]),
-                slow=float(1.0 - usable[j] / max(1, valid[j])),
+                used=int(counts["used"][j]),
+                slow=float(1.0 - counts["usable"][j] / max(1, counts["valid"][j])),
                 speed_floor=max(own) if own else None,
                 unit=f"{joint.unit}/s",
-                samples=samples,
-                lost={cause: int(count[j]) for cause, count in lost.items() if count[j]},
+                samples=int(counts["full"]),
+                lost={cause: int(counts[cause][j]) for cause in CAUSES if counts[cause][j]},
             )
         )
     return tuple(reports)

@@ -1,21 +1,18 @@
 """The report of logs that were read in chunks."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import TYPE_CHECKING
 
-from modeler.core.contract import JointSpec
 from modeler.observation.damage import Whose, damages
-from modeler.observation.dry_friction import Shaft
-from modeler.observation.facts import Facts
 from modeler.observation.log import LONG, fingerprint, fingerprint_of
-from modeler.observation.motion import CAUSES
-from modeler.observation.report import DataReport, JointReport, LogReport
+from modeler.observation.report import DataReport, LogReport
 from modeler.observation.source import Source, joined
+from modeler.observation.stack import joint_reports
 from modeler.observation.survey import Survey
-from modeler.observation.tally import Tally
+from modeler.observation.tally import Facts, Tally
 
 if TYPE_CHECKING:
     from modeler.compiled import CompiledModel
@@ -71,12 +68,13 @@ def streamed_report(
     found, facts = passes.found, passes.facts
     looked, chosen = found.observation.report, found.chosen[0]
     floors = dict(chosen.processing.speed_floors or {})
+    tally = reduce(Tally.over, (own.tally for own in facts))
     return dataclasses.replace(
         looked,
         processing=dataclasses.replace(looked.processing, speed_floors=floors),
         choices=(*passes.sentences(), *looked.choices),
         logs=tuple(_log_report(model, source, k, passes) for k, source in enumerate(sources)),
-        joints=_joint_reports(model.spec.joints, chosen.shafts, facts, floors),
+        joints=joint_reports(model.spec.joints, chosen.shafts, floors, tally.sums),
     )
 
 
@@ -129,29 +127,3 @@ def _content(source: Source, facts: Facts) -> str:
         return fingerprint_of(facts.fingers)
     log = joined(list(source.blocks(LONG)))
     return fingerprint(log.time, log.q, log.tau)
-
-
-def _joint_reports(
-    joints: Sequence[JointSpec],
-    parts: Sequence[Shaft],
-    facts: Sequence[Facts],
-    floors: Mapping[str, float],
-) -> tuple[JointReport, ...]:
-    tally = reduce(Tally.over, (own.tally for own in facts))
-    valid, usable, used = (tally.by_joint(name) for name in ("valid", "usable", "used"))
-    reports = []
-    for j, joint in enumerate(joints):
-        own = [floors[part.name] for part in parts if j in part.joints]
-        lost = {cause: int(tally.by_joint(cause)[j]) for cause in CAUSES}
-        reports.append(
-            JointReport(
-                name=joint.name,
-                used=int(used[j]),
-                slow=float(1.0 - usable[j] / max(1, valid[j])),
-                speed_floor=max(own) if own else None,
-                unit=f"{joint.unit}/s",
-                samples=tally.count("full"),
-                lost={cause: count for cause, count in lost.items() if count},
-            )
-        )
-    return tuple(reports)

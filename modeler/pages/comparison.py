@@ -8,7 +8,7 @@ from pathlib import Path
 from modeler.compare.comparison import Comparison, JointComparison
 from modeler.compare.overview_picture import overview_picture
 from modeler.compare.pictures import joint_pictures
-from modeler.compare.table import method_lines, or_dash, share_text
+from modeler.compare.table import by_log, method_lines, or_dash, share_text
 from modeler.compare.verdict import (
     best_other,
     best_pattern,
@@ -208,20 +208,9 @@ def _log_table(comparison: Comparison) -> list[Table]:
     """Relative error of each log and joint; nothing for a single log."""
     if len(comparison.logs) < 2:
         return []
-    names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
-    rows = [
-        [
-            item.log,
-            str(item.samples),
-            *(or_dash(error, ".1%") for error in item.by_unit.values()),
-            *(or_dash(error, ".1%") for _, error in item.joints),
-        ]
-        for item in comparison.logs
-    ]
-    units = comparison.by_unit
-    every = ["all"] if len(units) == 1 else [f"all {unit}" for unit in units]
+    head, *rows = by_log(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
-    return [Table(("log", "samples", *every, *names), rows, caption)]
+    return [Table(head, rows, caption)]
 
 
 def _joint_section(comparison: Comparison, item: JointComparison) -> Section:

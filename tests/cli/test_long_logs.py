@@ -52,7 +52,7 @@ def chunked(monkeypatch):
         monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
     monkeypatch.setattr("modeler.api.looking.WINDOW", 900)
     monkeypatch.setattr(
-        "modeler.compare.long.compare_long.__defaults__", (lambda share: None, 1024)
+        "modeler.compare.predict.compare_long.__defaults__", (lambda share: None, 1024)
     )
     monkeypatch.setattr("modeler.fit.streamed.stream.__defaults__", (None, lambda share: None,
                                                                      1024, None))  # fmt: skip
@@ -202,7 +202,7 @@ def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(place, chunked, tmp
     capsys.readouterr()
     every, out = told_of(words, tmp_path / "every", capsys)
     assert "training only: the model was fitted on run.parquet" in out
-    monkeypatch.setattr("modeler.compare.long.MOST", 150)
+    monkeypatch.setattr("modeler.compare.predict.MOST", 150)
     some, _ = told_of(words, tmp_path / "some", capsys)
     assert 120 < some["samples"] <= 151 < every["samples"]
     assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)

@@ -7,8 +7,8 @@ import pytest
 from known_defects import prediction
 
 from modeler.compare import JointInfo, Prediction, compare, joint_verdict
-from modeler.compare.repetition import repetitions
-from modeler.compare.scale import scale
+from modeler.compare.comparison import scale
+from modeler.compare.shares import repetitions
 from modeler.residuals.laps import lap
 
 STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude

@@ -229,6 +229,7 @@ DAMAGE = {
     "foreign": (lambda r: {"hello": 1}, "JSON, but not a model file"),
     "list": (lambda r: [1], "JSON, but not a model file"),
     "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 3"),
+    "formatless": (lambda r: damaged(r, "format"), "no model format, this version reads 3"),
     "before": (lambda r: damaged(r, "format", value=2), "reads 3; fit the model again"),
     "manifest": (lambda r: damaged(r, "manifest"), "damaged, manifest is missing"),
     "sources": (lambda r: damaged(r, "sources", value=3), "sources is 3, expected an object"),

@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from modeler.logs.arrow import arrow_columns
+from modeler.logs.blocks import arrow_columns
 
 COLUMNS = {
     "whole": pa.array([1, -2, 3, 4, 5], pa.int32()),

@@ -13,10 +13,9 @@ from modeler.core.errors import DataError
 from modeler.logs import map_from_table
 from modeler.logs.blocks import blocks_of
 from modeler.observation.log import finger, fingerprint, fingerprint_of
-from modeler.observation.part import read_part
 from modeler.observation.read import read_log
 from modeler.observation.source import joined, source_of
-from modeler.observation.window import window
+from modeler.observation.window import read_part, window
 
 SIZE = 150
 
@@ -210,7 +209,7 @@ def test_a_piece_of_a_long_log_is_that_of_the_whole(span, tmp_path, case, monkey
     columns["tau2"][100:104] = np.nan
     del columns["note"], columns["temperature"]
     path = written(tmp_path / "run.parquet", columns)
-    for where in ("part", "log"):
+    for where in ("window", "log"):
         monkeypatch.setattr(f"modeler.observation.{where}.FINGER", 256)
     monkeypatch.setattr("modeler.observation.log.LONG", 500)
     spec = case.compiled.spec

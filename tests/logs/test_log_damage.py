@@ -59,6 +59,15 @@ def test_damaged_files_end_in_one_line(kind, short, tmp_path):
     assert refused > MUTANTS // 3
 
 
+def test_a_length_that_no_file_has_is_told_in_words(short, tmp_path):
+    path = writers.npz(tmp_path / "run.npz", short)
+    content = path.read_bytes()
+    path.write_bytes(content[:-6] + b"\xff\xff\xff\x7f" + content[-2:])  # where zip's directory is
+    with pytest.raises(DataError, match=r"run\.npz: cannot be read as numpy file") as told:
+        Table(path)
+    assert "Errno" not in str(told.value)
+
+
 def damaged(whole: bytes, chance: random.Random, cut: bool) -> bytes:
     """Cut off somewhere, or with some bytes changed."""
     if cut:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.observation.derivatives import quieter, without_velocities
+from modeler.observation.consistency import quieter, without_velocities
 from modeler.observation.segments import Piece
 
 TIME = np.arange(2000) * 0.002

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.observation import observe, read_log
-from modeler.observation.late_channels import late_channels
+from modeler.observation.findings import late_channels
 from modeler.simulate import SimulationSettings, hidden_from_text, simulate, write_log
 from tests.modules import compiled, module
 

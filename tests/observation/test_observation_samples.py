@@ -8,16 +8,15 @@ import pytest
 from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
 from modeler.observation import Log, Processing, processing_from_json
-from modeler.observation.band import (
+from modeler.observation.motion import segment_of
+from modeler.observation.prepare import (
     choose_cutoffs,
     joint_motions,
     spectra_of,
     what_rings,
     what_trembles,
 )
-from modeler.observation.motion import segment_of
-from modeler.observation.saturation import saturated
-from modeler.observation.segments import split
+from modeler.observation.segments import saturated, split
 
 W0 = 2 * np.pi * 0.7  # rad/s
 
