@@ -249,7 +249,7 @@ def test_every_kind_of_robot_passes_its_own_check(name, tmp_path):
     compiler("make")
     write_emitted(module(name).emitted, tmp_path)
     strict = "CFLAGS=-O1 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
-    assert "agree to" in run("make", "check", strict, where=tmp_path)
+    assert "agree with the stored states to" in run("make", "check", strict, where=tmp_path)
 
 
 def test_a_version_is_made_of_the_signature():
