@@ -34,7 +34,7 @@ def called(words: Sequence[str]) -> int:
 def _run(words: Sequence[str], phase: Phase) -> int:
     with phase():
         from modeler.cli.console import complain, flush_stdout
-        from modeler.core.errors import ModelerError, on_one_line
+        from modeler.core.errors import ModelerError, on_one_line, short_of_memory
 
     try:
         try:
@@ -46,6 +46,13 @@ def _run(words: Sequence[str], phase: Phase) -> int:
         return 1
     except BrokenPipeError:
         return 0  # the reader of our output has gone (`modeler ... | head`): nothing is wrong
+    except OSError as error:  # what the system refuses of a path, wherever it is first looked at
+        if error.filename is None or short_of_memory(error):
+            raise
+        complain(
+            on_one_line(f"{error.filename}: cannot be used ({error.strerror}); check the path")
+        )
+        return 1
     except KeyboardInterrupt:
         complain("interrupted")
         return INTERRUPTED

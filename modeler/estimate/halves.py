@@ -104,8 +104,8 @@ def halves(
                 continue
             added[kept] = np.maximum(added[kept], np.where(z > _FELT, more, 0.0))
             if z.max() > farthest:
-                farthest = float(z.max())
-                worst = int(kept[z.argmax()]), j, name, farthest
+                farthest, in_rows = float(z.max()), (R[0][j] != 0.0).any(axis=0)[:-1]
+                worst = int(kept[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
     square = np.where(sigma > 0.0, sigma, 1.0) ** 2
     return Halves(np.sqrt(1.0 + added / square), worst)
 
