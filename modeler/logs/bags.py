@@ -11,7 +11,9 @@ from modeler.logs.messages import Recording
 
 def read_bag(path: Path, wanted: Wanted) -> Columns:
     """The columns of the messages of a bag; of each topic that has numbers."""
-    what = "ROS bag" if path.suffix.lower() != ".mcap" else "MCAP"
+    kind = path.suffix.lower()
+    what = "ROS bag" if kind != ".mcap" else "MCAP"
+    repair = {".mcap": "mcap recover", ".bag": "rosbag reindex"}.get(kind, "ros2 bag reindex")
     try:
         from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
@@ -21,7 +23,7 @@ def read_bag(path: Path, wanted: Wanted) -> Columns:
         check_unpacked(path, _declared(file))
     recording = Recording()
     with (
-        reading(path, what, "record it again, or repair it (`ros2 bag reindex`, `mcap recover`)"),
+        reading(path, what, f"record it again, or repair it (`{repair}`)"),
         AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as bag,
     ):
         known = [c for c in bag.connections if c.msgtype in bag.typestore.fielddefs]

@@ -12,6 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from modeler.core.errors import DataError, short_of_memory
+from modeler.core.files import PACKED, UNPACKED
 
 _NONE: Mapping = MappingProxyType({})
 
@@ -119,13 +120,14 @@ def reading(path: Path, what: str, advice: str = "write the file again") -> Iter
 
 def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataError:
     """What another's reader raised, as one line."""
-    if short_of_memory(error):
+    short = short_of_memory(error)
+    if short and (path.is_dir() or path.stat().st_size > UNPACKED / PACKED):
         return DataError(
             f"{path}: more memory is asked for than there is; expected {what} that fits; raise the "
-            "limit (ulimit -v) or free some; if the file is small, it is damaged: write it again"
+            "limit (ulimit -v) or free some"
         )
-    words = str(error).strip().split("\n")[0][:200] or type(error).__name__
-    if isinstance(error, OverflowError) or getattr(error, "errno", None) == errno.EINVAL:
+    words = " ".join(str(error).split(": (")[0].split())[:200] or "its structure is broken"
+    if short or isinstance(error, OverflowError) or getattr(error, "errno", None) == errno.EINVAL:
         words = "it states a length or a place that no file has"
     return DataError(f"{path}: cannot be read as {what} ({words}); {advice}")
 

@@ -72,16 +72,23 @@ def _table(path: Path) -> pa.Table:
             f"{path}: cannot be read ({error.strerror}); expected the file of a motion, or "
             "exciting or point-to-point"
         ) from None
+    if path.suffix not in (".parquet", ".csv"):
+        raise DataError(f"{path}: got suffix {path.suffix or '(none)'}; expected .csv or .parquet")
     try:
         if path.suffix == ".parquet":
             file = pq.ParquetFile(io.BytesIO(content))
             check_unpacked(path, 8 * file.metadata.num_rows * file.metadata.num_columns)
             return file.read()
-        return pacsv.read_csv(io.BytesIO(content))
+        one_by_one = pacsv.ReadOptions(use_threads=False)  # which knows the row of an error
+        return pacsv.read_csv(io.BytesIO(content), one_by_one)
     except (pa.ArrowException, OSError) as error:
-        first = str(error).splitlines()[0]
+        first, table = (
+            str(error).splitlines()[0],
+            "CSV" if path.suffix == ".csv" else "Parquet file",
+        )
         raise DataError(
-            f"{path}: no table of columns ({first}); expected .csv or .parquet"
+            f"{path}: cannot be read as a table of columns ({first}); correct it, or write the "
+            f"{table} again"
         ) from None
 
 

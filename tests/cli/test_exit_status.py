@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -91,6 +92,7 @@ def test_interrupted(tmp_path: Path) -> None:
     running = subprocess.Popen(
         [sys.executable, "-m", "modeler.cli", *words], stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONUNBUFFERED": "1"},
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # a shell's & ignores it
     )  # fmt: skip
     assert running.stderr is not None
     for line in running.stderr:
