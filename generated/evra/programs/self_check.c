@@ -654,7 +654,8 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", evra_signature(), EVRA_SIGNATURE))
+    if (!belongs("library", evra_signature(),
+            EVRA_SIGNATURE))
         return 1;
     compare_sines();
     empty();

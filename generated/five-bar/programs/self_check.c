@@ -207,7 +207,8 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", five_bar_signature(), FIVE_BAR_SIGNATURE))
+    if (!belongs("library", five_bar_signature(),
+            FIVE_BAR_SIGNATURE))
         return 1;
     compare_sines();
     empty();

@@ -370,7 +370,8 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", orthoglide_2003_signature(), ORTHOGLIDE_2003_SIGNATURE))
+    if (!belongs("library", orthoglide_2003_signature(),
+            ORTHOGLIDE_2003_SIGNATURE))
         return 1;
     compare_sines();
     empty();

@@ -345,7 +345,8 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", orthoglide_2012_signature(), ORTHOGLIDE_2012_SIGNATURE))
+    if (!belongs("library", orthoglide_2012_signature(),
+            ORTHOGLIDE_2012_SIGNATURE))
         return 1;
     compare_sines();
     empty();

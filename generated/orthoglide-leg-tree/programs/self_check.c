@@ -253,9 +253,11 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", orthoglide_leg_tree_signature(), ORTHOGLIDE_LEG_TREE_SIGNATURE))
+    if (!belongs("library", orthoglide_leg_tree_signature(),
+            ORTHOGLIDE_LEG_TREE_SIGNATURE))
         return 1;
-    if (!belongs("unit of tiles", orthoglide_leg_tree_tile_signature(), ORTHOGLIDE_LEG_TREE_SIGNATURE))
+    if (!belongs("unit of tiles", orthoglide_leg_tree_tile_signature(),
+            ORTHOGLIDE_LEG_TREE_SIGNATURE))
         return 1;
     compare_tiles();
     compare_sines();

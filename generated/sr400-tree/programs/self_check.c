@@ -298,9 +298,11 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", sr400_tree_signature(), SR400_TREE_SIGNATURE))
+    if (!belongs("library", sr400_tree_signature(),
+            SR400_TREE_SIGNATURE))
         return 1;
-    if (!belongs("unit of tiles", sr400_tree_tile_signature(), SR400_TREE_SIGNATURE))
+    if (!belongs("unit of tiles", sr400_tree_tile_signature(),
+            SR400_TREE_SIGNATURE))
         return 1;
     compare_tiles();
     compare_sines();

@@ -292,9 +292,11 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", sr400_signature(), SR400_SIGNATURE))
+    if (!belongs("library", sr400_signature(),
+            SR400_SIGNATURE))
         return 1;
-    if (!belongs("unit of tiles", sr400_tile_signature(), SR400_SIGNATURE))
+    if (!belongs("unit of tiles", sr400_tile_signature(),
+            SR400_SIGNATURE))
         return 1;
     compare_tiles();
     compare_sines();

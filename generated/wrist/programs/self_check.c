@@ -214,9 +214,11 @@ static void compare_sines(void)
 
 int main(void)
 {
-    if (!belongs("library", wrist_signature(), WRIST_SIGNATURE))
+    if (!belongs("library", wrist_signature(),
+            WRIST_SIGNATURE))
         return 1;
-    if (!belongs("unit of tiles", wrist_tile_signature(), WRIST_SIGNATURE))
+    if (!belongs("unit of tiles", wrist_tile_signature(),
+            WRIST_SIGNATURE))
         return 1;
     compare_tiles();
     compare_sines();
