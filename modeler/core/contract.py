@@ -226,7 +226,7 @@ class ModuleSpec(Brief):
         if self.closure is not None or self.precision != "double":
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
-        return (*units, *TILE_RUNTIME, "modeler_sincos.h")
+        return (*units, *TILE_RUNTIME, *(name for name in RUNTIME if name.endswith(".h")))
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
