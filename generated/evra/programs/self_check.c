@@ -659,135 +659,186 @@ int main(void)
         return 1;
     compare_sines();
     empty();
-    modeler_batch_1(evra_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 90);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(evra_base_parameters, 1, inputs,
+            out, 90);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("evra_base_parameters", out,
             beta, 1, 90, TOLERANCE);
     empty();
-    modeler_batch_status_4(evra_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, {beta, 0}, },
-        out, 8, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, {beta, 0}, };
+
+        modeler_batch_status_4(evra_inverse_dynamics, 2, inputs,
+            out, 8, status);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("evra_inverse_dynamics", out,
             at_inverse_dynamics, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_status_2(evra_gravity, 2,
-        (const modeler_input[]){ {q, 8}, {beta, 0}, },
-        out, 8, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {beta, 0}, };
+
+        modeler_batch_status_2(evra_gravity, 2, inputs,
+            out, 8, status);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("evra_gravity", out,
             at_gravity, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_status_3(evra_coriolis, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {beta, 0}, },
-        out, 8, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {beta, 0}, };
+
+        modeler_batch_status_3(evra_coriolis, 2, inputs,
+            out, 8, status);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("evra_coriolis", out,
             at_coriolis, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_status_3(evra_friction, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {beta, 0}, },
-        out, 8, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {beta, 0}, };
+
+        modeler_batch_status_3(evra_friction, 2, inputs,
+            out, 8, status);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("evra_friction", out,
             at_friction, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_status_2(evra_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 8}, {beta, 0}, },
-        out, 64, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {beta, 0}, };
+
+        modeler_batch_status_2(evra_inertia_matrix, 2, inputs,
+            out, 64, status);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("evra_inertia_matrix", out,
             at_inertia_matrix, 2, 64, TOLERANCE);
     empty();
-    modeler_batch_status_1(evra_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 8}, },
-        out, 312, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, };
+
+        modeler_batch_status_1(evra_forward_kinematics, 2, inputs,
+            out, 312, status);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("evra_forward_kinematics", out,
             at_forward_kinematics, 2, 312, TOLERANCE);
     empty();
-    modeler_batch_status_1(evra_close, 2,
-        (const modeler_input[]){ {q, 8}, },
-        out, 26, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, };
+
+        modeler_batch_status_1(evra_close, 2, inputs,
+            out, 26, status);
+    }
     if (REPLACED)
         memcpy(at_close, out, sizeof(at_close));
     compare("evra_close", out,
             at_close, 2, 26, TOLERANCE);
     empty();
-    modeler_batch_status_2(evra_close_from, 2,
-        (const modeler_input[]){ {q, 8}, {start, 26}, },
-        out, 26, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {start, 26}, };
+
+        modeler_batch_status_2(evra_close_from, 2, inputs,
+            out, 26, status);
+    }
     if (REPLACED)
         memcpy(at_close_from, out, sizeof(at_close_from));
     compare("evra_close_from", out,
             at_close_from, 2, 26, TOLERANCE);
     empty();
-    modeler_batch_status_1(evra_coupling, 2,
-        (const modeler_input[]){ {q, 8}, },
-        out, 208, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, };
+
+        modeler_batch_status_1(evra_coupling, 2, inputs,
+            out, 208, status);
+    }
     if (REPLACED)
         memcpy(at_coupling, out, sizeof(at_coupling));
     compare("evra_coupling", out,
             at_coupling, 2, 208, TOLERANCE);
     empty();
-    modeler_batch_status_4(evra_platform_inverse_dynamics, 2,
-        (const modeler_input[]){ {x, 8}, {xd, 8}, {xdd, 8}, {beta, 0}, },
-        out, 8, status);
+    {
+        const modeler_input inputs[] = { {x, 8}, {xd, 8}, {xdd, 8}, {beta, 0}, };
+
+        modeler_batch_status_4(evra_platform_inverse_dynamics, 2, inputs,
+            out, 8, status);
+    }
     if (REPLACED)
         memcpy(at_platform_inverse_dynamics, out, sizeof(at_platform_inverse_dynamics));
     compare("evra_platform_inverse_dynamics", out,
             at_platform_inverse_dynamics, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_status_1(evra_platform_close, 2,
-        (const modeler_input[]){ {x, 8}, },
-        out, 26, status);
+    {
+        const modeler_input inputs[] = { {x, 8}, };
+
+        modeler_batch_status_1(evra_platform_close, 2, inputs,
+            out, 26, status);
+    }
     if (REPLACED)
         memcpy(at_platform_close, out, sizeof(at_platform_close));
     compare("evra_platform_close", out,
             at_platform_close, 2, 26, TOLERANCE);
     empty();
-    modeler_batch_status_2(evra_platform_close_from, 2,
-        (const modeler_input[]){ {x, 8}, {start, 26}, },
-        out, 26, status);
+    {
+        const modeler_input inputs[] = { {x, 8}, {start, 26}, };
+
+        modeler_batch_status_2(evra_platform_close_from, 2, inputs,
+            out, 26, status);
+    }
     if (REPLACED)
         memcpy(at_platform_close_from, out, sizeof(at_platform_close_from));
     compare("evra_platform_close_from", out,
             at_platform_close_from, 2, 26, TOLERANCE);
     empty();
-    modeler_batch_status_1(evra_platform_coupling, 2,
-        (const modeler_input[]){ {x, 8}, },
-        out, 208, status);
+    {
+        const modeler_input inputs[] = { {x, 8}, };
+
+        modeler_batch_status_1(evra_platform_coupling, 2, inputs,
+            out, 208, status);
+    }
     if (REPLACED)
         memcpy(at_platform_coupling, out, sizeof(at_platform_coupling));
     compare("evra_platform_coupling", out,
             at_platform_coupling, 2, 208, TOLERANCE);
     empty();
-    modeler_batch_status_3(evra_regressor, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, },
-        out, 1680, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, };
+
+        modeler_batch_status_3(evra_regressor, 2, inputs,
+            out, 1680, status);
+    }
     multiply(out, 210, chi);
     compare("evra_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_status_3(evra_base_regressor, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, },
-        out, 720, status);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, };
+
+        modeler_batch_status_3(evra_base_regressor, 2, inputs,
+            out, 720, status);
+    }
     multiply(out, 90, beta);
     compare("evra_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_status_3(evra_platform_base_regressor, 2,
-        (const modeler_input[]){ {x, 8}, {xd, 8}, {xdd, 8}, },
-        out, 720, status);
+    {
+        const modeler_input inputs[] = { {x, 8}, {xd, 8}, {xdd, 8}, };
+
+        modeler_batch_status_3(evra_platform_base_regressor, 2, inputs,
+            out, 720, status);
+    }
     multiply(out, 90, beta);
     compare("evra_platform_base_regressor", product,
             at_platform_inverse_dynamics, STATES, N, TOLERANCE);

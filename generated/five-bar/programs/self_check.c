@@ -212,96 +212,132 @@ int main(void)
         return 1;
     compare_sines();
     empty();
-    modeler_batch_1(five_bar_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 11);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(five_bar_base_parameters, 1, inputs,
+            out, 11);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("five_bar_base_parameters", out,
             beta, 1, 11, TOLERANCE);
     empty();
-    modeler_batch_status_4(five_bar_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 2}, {qd, 2}, {qdd, 2}, {beta, 0}, },
-        out, 2, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {qd, 2}, {qdd, 2}, {beta, 0}, };
+
+        modeler_batch_status_4(five_bar_inverse_dynamics, 2, inputs,
+            out, 2, status);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("five_bar_inverse_dynamics", out,
             at_inverse_dynamics, 2, 2, TOLERANCE);
     empty();
-    modeler_batch_status_2(five_bar_gravity, 2,
-        (const modeler_input[]){ {q, 2}, {beta, 0}, },
-        out, 2, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {beta, 0}, };
+
+        modeler_batch_status_2(five_bar_gravity, 2, inputs,
+            out, 2, status);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("five_bar_gravity", out,
             at_gravity, 2, 2, TOLERANCE);
     empty();
-    modeler_batch_status_3(five_bar_coriolis, 2,
-        (const modeler_input[]){ {q, 2}, {qd, 2}, {beta, 0}, },
-        out, 2, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {qd, 2}, {beta, 0}, };
+
+        modeler_batch_status_3(five_bar_coriolis, 2, inputs,
+            out, 2, status);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("five_bar_coriolis", out,
             at_coriolis, 2, 2, TOLERANCE);
     empty();
-    modeler_batch_status_3(five_bar_friction, 2,
-        (const modeler_input[]){ {q, 2}, {qd, 2}, {beta, 0}, },
-        out, 2, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {qd, 2}, {beta, 0}, };
+
+        modeler_batch_status_3(five_bar_friction, 2, inputs,
+            out, 2, status);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("five_bar_friction", out,
             at_friction, 2, 2, TOLERANCE);
     empty();
-    modeler_batch_status_2(five_bar_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 2}, {beta, 0}, },
-        out, 4, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {beta, 0}, };
+
+        modeler_batch_status_2(five_bar_inertia_matrix, 2, inputs,
+            out, 4, status);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("five_bar_inertia_matrix", out,
             at_inertia_matrix, 2, 4, TOLERANCE);
     empty();
-    modeler_batch_status_1(five_bar_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 2}, },
-        out, 48, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, };
+
+        modeler_batch_status_1(five_bar_forward_kinematics, 2, inputs,
+            out, 48, status);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("five_bar_forward_kinematics", out,
             at_forward_kinematics, 2, 48, TOLERANCE);
     empty();
-    modeler_batch_status_1(five_bar_close, 2,
-        (const modeler_input[]){ {q, 2}, },
-        out, 4, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, };
+
+        modeler_batch_status_1(five_bar_close, 2, inputs,
+            out, 4, status);
+    }
     if (REPLACED)
         memcpy(at_close, out, sizeof(at_close));
     compare("five_bar_close", out,
             at_close, 2, 4, TOLERANCE);
     empty();
-    modeler_batch_status_2(five_bar_close_from, 2,
-        (const modeler_input[]){ {q, 2}, {start, 4}, },
-        out, 4, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {start, 4}, };
+
+        modeler_batch_status_2(five_bar_close_from, 2, inputs,
+            out, 4, status);
+    }
     if (REPLACED)
         memcpy(at_close_from, out, sizeof(at_close_from));
     compare("five_bar_close_from", out,
             at_close_from, 2, 4, TOLERANCE);
     empty();
-    modeler_batch_status_1(five_bar_coupling, 2,
-        (const modeler_input[]){ {q, 2}, },
-        out, 8, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, };
+
+        modeler_batch_status_1(five_bar_coupling, 2, inputs,
+            out, 8, status);
+    }
     if (REPLACED)
         memcpy(at_coupling, out, sizeof(at_coupling));
     compare("five_bar_coupling", out,
             at_coupling, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_status_3(five_bar_regressor, 2,
-        (const modeler_input[]){ {q, 2}, {qd, 2}, {qdd, 2}, },
-        out, 80, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {qd, 2}, {qdd, 2}, };
+
+        modeler_batch_status_3(five_bar_regressor, 2, inputs,
+            out, 80, status);
+    }
     multiply(out, 40, chi);
     compare("five_bar_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_status_3(five_bar_base_regressor, 2,
-        (const modeler_input[]){ {q, 2}, {qd, 2}, {qdd, 2}, },
-        out, 22, status);
+    {
+        const modeler_input inputs[] = { {q, 2}, {qd, 2}, {qdd, 2}, };
+
+        modeler_batch_status_3(five_bar_base_regressor, 2, inputs,
+            out, 22, status);
+    }
     multiply(out, 11, beta);
     compare("five_bar_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);

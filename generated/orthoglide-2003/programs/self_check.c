@@ -375,135 +375,186 @@ int main(void)
         return 1;
     compare_sines();
     empty();
-    modeler_batch_1(orthoglide_2003_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 43);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(orthoglide_2003_base_parameters, 1, inputs,
+            out, 43);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("orthoglide_2003_base_parameters", out,
             beta, 1, 43, TOLERANCE);
     empty();
-    modeler_batch_status_4(orthoglide_2003_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, {beta, 0}, },
-        out, 3, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, {beta, 0}, };
+
+        modeler_batch_status_4(orthoglide_2003_inverse_dynamics, 2, inputs,
+            out, 3, status);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("orthoglide_2003_inverse_dynamics", out,
             at_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_status_2(orthoglide_2003_gravity, 2,
-        (const modeler_input[]){ {q, 3}, {beta, 0}, },
-        out, 3, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {beta, 0}, };
+
+        modeler_batch_status_2(orthoglide_2003_gravity, 2, inputs,
+            out, 3, status);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("orthoglide_2003_gravity", out,
             at_gravity, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_status_3(orthoglide_2003_coriolis, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {beta, 0}, },
-        out, 3, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {beta, 0}, };
+
+        modeler_batch_status_3(orthoglide_2003_coriolis, 2, inputs,
+            out, 3, status);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("orthoglide_2003_coriolis", out,
             at_coriolis, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_status_3(orthoglide_2003_friction, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {beta, 0}, },
-        out, 3, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {beta, 0}, };
+
+        modeler_batch_status_3(orthoglide_2003_friction, 2, inputs,
+            out, 3, status);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("orthoglide_2003_friction", out,
             at_friction, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_status_2(orthoglide_2003_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 3}, {beta, 0}, },
-        out, 9, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {beta, 0}, };
+
+        modeler_batch_status_2(orthoglide_2003_inertia_matrix, 2, inputs,
+            out, 9, status);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("orthoglide_2003_inertia_matrix", out,
             at_inertia_matrix, 2, 9, TOLERANCE);
     empty();
-    modeler_batch_status_1(orthoglide_2003_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 3}, },
-        out, 252, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, };
+
+        modeler_batch_status_1(orthoglide_2003_forward_kinematics, 2, inputs,
+            out, 252, status);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("orthoglide_2003_forward_kinematics", out,
             at_forward_kinematics, 2, 252, TOLERANCE);
     empty();
-    modeler_batch_status_1(orthoglide_2003_close, 2,
-        (const modeler_input[]){ {q, 3}, },
-        out, 12, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, };
+
+        modeler_batch_status_1(orthoglide_2003_close, 2, inputs,
+            out, 12, status);
+    }
     if (REPLACED)
         memcpy(at_close, out, sizeof(at_close));
     compare("orthoglide_2003_close", out,
             at_close, 2, 12, TOLERANCE);
     empty();
-    modeler_batch_status_2(orthoglide_2003_close_from, 2,
-        (const modeler_input[]){ {q, 3}, {start, 12}, },
-        out, 12, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {start, 12}, };
+
+        modeler_batch_status_2(orthoglide_2003_close_from, 2, inputs,
+            out, 12, status);
+    }
     if (REPLACED)
         memcpy(at_close_from, out, sizeof(at_close_from));
     compare("orthoglide_2003_close_from", out,
             at_close_from, 2, 12, TOLERANCE);
     empty();
-    modeler_batch_status_1(orthoglide_2003_coupling, 2,
-        (const modeler_input[]){ {q, 3}, },
-        out, 36, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, };
+
+        modeler_batch_status_1(orthoglide_2003_coupling, 2, inputs,
+            out, 36, status);
+    }
     if (REPLACED)
         memcpy(at_coupling, out, sizeof(at_coupling));
     compare("orthoglide_2003_coupling", out,
             at_coupling, 2, 36, TOLERANCE);
     empty();
-    modeler_batch_status_4(orthoglide_2003_platform_inverse_dynamics, 2,
-        (const modeler_input[]){ {x, 3}, {xd, 3}, {xdd, 3}, {beta, 0}, },
-        out, 3, status);
+    {
+        const modeler_input inputs[] = { {x, 3}, {xd, 3}, {xdd, 3}, {beta, 0}, };
+
+        modeler_batch_status_4(orthoglide_2003_platform_inverse_dynamics, 2, inputs,
+            out, 3, status);
+    }
     if (REPLACED)
         memcpy(at_platform_inverse_dynamics, out, sizeof(at_platform_inverse_dynamics));
     compare("orthoglide_2003_platform_inverse_dynamics", out,
             at_platform_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_status_1(orthoglide_2003_platform_close, 2,
-        (const modeler_input[]){ {x, 3}, },
-        out, 12, status);
+    {
+        const modeler_input inputs[] = { {x, 3}, };
+
+        modeler_batch_status_1(orthoglide_2003_platform_close, 2, inputs,
+            out, 12, status);
+    }
     if (REPLACED)
         memcpy(at_platform_close, out, sizeof(at_platform_close));
     compare("orthoglide_2003_platform_close", out,
             at_platform_close, 2, 12, TOLERANCE);
     empty();
-    modeler_batch_status_2(orthoglide_2003_platform_close_from, 2,
-        (const modeler_input[]){ {x, 3}, {start, 12}, },
-        out, 12, status);
+    {
+        const modeler_input inputs[] = { {x, 3}, {start, 12}, };
+
+        modeler_batch_status_2(orthoglide_2003_platform_close_from, 2, inputs,
+            out, 12, status);
+    }
     if (REPLACED)
         memcpy(at_platform_close_from, out, sizeof(at_platform_close_from));
     compare("orthoglide_2003_platform_close_from", out,
             at_platform_close_from, 2, 12, TOLERANCE);
     empty();
-    modeler_batch_status_1(orthoglide_2003_platform_coupling, 2,
-        (const modeler_input[]){ {x, 3}, },
-        out, 36, status);
+    {
+        const modeler_input inputs[] = { {x, 3}, };
+
+        modeler_batch_status_1(orthoglide_2003_platform_coupling, 2, inputs,
+            out, 36, status);
+    }
     if (REPLACED)
         memcpy(at_platform_coupling, out, sizeof(at_platform_coupling));
     compare("orthoglide_2003_platform_coupling", out,
             at_platform_coupling, 2, 36, TOLERANCE);
     empty();
-    modeler_batch_status_3(orthoglide_2003_regressor, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, },
-        out, 489, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, };
+
+        modeler_batch_status_3(orthoglide_2003_regressor, 2, inputs,
+            out, 489, status);
+    }
     multiply(out, 163, chi);
     compare("orthoglide_2003_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_status_3(orthoglide_2003_base_regressor, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, },
-        out, 129, status);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, };
+
+        modeler_batch_status_3(orthoglide_2003_base_regressor, 2, inputs,
+            out, 129, status);
+    }
     multiply(out, 43, beta);
     compare("orthoglide_2003_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_status_3(orthoglide_2003_platform_base_regressor, 2,
-        (const modeler_input[]){ {x, 3}, {xd, 3}, {xdd, 3}, },
-        out, 129, status);
+    {
+        const modeler_input inputs[] = { {x, 3}, {xd, 3}, {xdd, 3}, };
+
+        modeler_batch_status_3(orthoglide_2003_platform_base_regressor, 2, inputs,
+            out, 129, status);
+    }
     multiply(out, 43, beta);
     compare("orthoglide_2003_platform_base_regressor", product,
             at_platform_inverse_dynamics, STATES, N, TOLERANCE);

@@ -262,79 +262,109 @@ int main(void)
     compare_tiles();
     compare_sines();
     empty();
-    modeler_batch_1(orthoglide_leg_tree_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 32);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(orthoglide_leg_tree_base_parameters, 1, inputs,
+            out, 32);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("orthoglide_leg_tree_base_parameters", out,
             beta, 1, 32, TOLERANCE);
     empty();
-    modeler_batch_4(orthoglide_leg_tree_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, {beta, 0}, };
+
+        modeler_batch_4(orthoglide_leg_tree_inverse_dynamics, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("orthoglide_leg_tree_inverse_dynamics", out,
             at_inverse_dynamics, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_2(orthoglide_leg_tree_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 6}, {beta, 0}, },
-        out, 36);
+    {
+        const modeler_input inputs[] = { {q, 6}, {beta, 0}, };
+
+        modeler_batch_2(orthoglide_leg_tree_inertia_matrix, 2, inputs,
+            out, 36);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("orthoglide_leg_tree_inertia_matrix", out,
             at_inertia_matrix, 2, 36, TOLERANCE);
     empty();
-    modeler_batch_2(orthoglide_leg_tree_gravity, 2,
-        (const modeler_input[]){ {q, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {q, 6}, {beta, 0}, };
+
+        modeler_batch_2(orthoglide_leg_tree_gravity, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("orthoglide_leg_tree_gravity", out,
             at_gravity, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_3(orthoglide_leg_tree_coriolis, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {beta, 0}, };
+
+        modeler_batch_3(orthoglide_leg_tree_coriolis, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("orthoglide_leg_tree_coriolis", out,
             at_coriolis, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_2(orthoglide_leg_tree_friction, 2,
-        (const modeler_input[]){ {qd, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {qd, 6}, {beta, 0}, };
+
+        modeler_batch_2(orthoglide_leg_tree_friction, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("orthoglide_leg_tree_friction", out,
             at_friction, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_1(orthoglide_leg_tree_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 6}, },
-        out, 72);
+    {
+        const modeler_input inputs[] = { {q, 6}, };
+
+        modeler_batch_1(orthoglide_leg_tree_forward_kinematics, 2, inputs,
+            out, 72);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("orthoglide_leg_tree_forward_kinematics", out,
             at_forward_kinematics, 2, 72, TOLERANCE);
     empty();
-    modeler_batch_3(orthoglide_leg_tree_regressor, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, },
-        out, 360);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, };
+
+        modeler_batch_3(orthoglide_leg_tree_regressor, 2, inputs,
+            out, 360);
+    }
     multiply(out, 60, chi);
     compare("orthoglide_leg_tree_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(orthoglide_leg_tree_base_regressor, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, },
-        out, 192);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, };
+
+        modeler_batch_3(orthoglide_leg_tree_base_regressor, 2, inputs,
+            out, 192);
+    }
     multiply(out, 32, beta);
     compare("orthoglide_leg_tree_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, },
-        out, 88);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, };
+
+        modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros, 2, inputs,
+            out, 88);
+    }
     multiply_nonzeros(out, beta);
     compare("orthoglide_leg_tree_base_regressor_nonzeros", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);

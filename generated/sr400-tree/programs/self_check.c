@@ -307,79 +307,109 @@ int main(void)
     compare_tiles();
     compare_sines();
     empty();
-    modeler_batch_1(sr400_tree_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 50);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(sr400_tree_base_parameters, 1, inputs,
+            out, 50);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("sr400_tree_base_parameters", out,
             beta, 1, 50, TOLERANCE);
     empty();
-    modeler_batch_4(sr400_tree_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, {beta, 0}, },
-        out, 8);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, {beta, 0}, };
+
+        modeler_batch_4(sr400_tree_inverse_dynamics, 2, inputs,
+            out, 8);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("sr400_tree_inverse_dynamics", out,
             at_inverse_dynamics, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_2(sr400_tree_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 8}, {beta, 0}, },
-        out, 64);
+    {
+        const modeler_input inputs[] = { {q, 8}, {beta, 0}, };
+
+        modeler_batch_2(sr400_tree_inertia_matrix, 2, inputs,
+            out, 64);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("sr400_tree_inertia_matrix", out,
             at_inertia_matrix, 2, 64, TOLERANCE);
     empty();
-    modeler_batch_2(sr400_tree_gravity, 2,
-        (const modeler_input[]){ {q, 8}, {beta, 0}, },
-        out, 8);
+    {
+        const modeler_input inputs[] = { {q, 8}, {beta, 0}, };
+
+        modeler_batch_2(sr400_tree_gravity, 2, inputs,
+            out, 8);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("sr400_tree_gravity", out,
             at_gravity, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_tree_coriolis, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {beta, 0}, },
-        out, 8);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {beta, 0}, };
+
+        modeler_batch_3(sr400_tree_coriolis, 2, inputs,
+            out, 8);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("sr400_tree_coriolis", out,
             at_coriolis, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_2(sr400_tree_friction, 2,
-        (const modeler_input[]){ {qd, 8}, {beta, 0}, },
-        out, 8);
+    {
+        const modeler_input inputs[] = { {qd, 8}, {beta, 0}, };
+
+        modeler_batch_2(sr400_tree_friction, 2, inputs,
+            out, 8);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("sr400_tree_friction", out,
             at_friction, 2, 8, TOLERANCE);
     empty();
-    modeler_batch_1(sr400_tree_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 8}, },
-        out, 96);
+    {
+        const modeler_input inputs[] = { {q, 8}, };
+
+        modeler_batch_1(sr400_tree_forward_kinematics, 2, inputs,
+            out, 96);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("sr400_tree_forward_kinematics", out,
             at_forward_kinematics, 2, 96, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_tree_regressor, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, },
-        out, 640);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, };
+
+        modeler_batch_3(sr400_tree_regressor, 2, inputs,
+            out, 640);
+    }
     multiply(out, 80, chi);
     compare("sr400_tree_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_tree_base_regressor, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, },
-        out, 400);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, };
+
+        modeler_batch_3(sr400_tree_base_regressor, 2, inputs,
+            out, 400);
+    }
     multiply(out, 50, beta);
     compare("sr400_tree_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_tree_base_regressor_nonzeros, 2,
-        (const modeler_input[]){ {q, 8}, {qd, 8}, {qdd, 8}, },
-        out, 172);
+    {
+        const modeler_input inputs[] = { {q, 8}, {qd, 8}, {qdd, 8}, };
+
+        modeler_batch_3(sr400_tree_base_regressor_nonzeros, 2, inputs,
+            out, 172);
+    }
     multiply_nonzeros(out, beta);
     compare("sr400_tree_base_regressor_nonzeros", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);

@@ -301,79 +301,109 @@ int main(void)
     compare_tiles();
     compare_sines();
     empty();
-    modeler_batch_1(sr400_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 39);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(sr400_base_parameters, 1, inputs,
+            out, 39);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("sr400_base_parameters", out,
             beta, 1, 39, TOLERANCE);
     empty();
-    modeler_batch_4(sr400_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, {beta, 0}, };
+
+        modeler_batch_4(sr400_inverse_dynamics, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("sr400_inverse_dynamics", out,
             at_inverse_dynamics, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_2(sr400_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 6}, {beta, 0}, },
-        out, 36);
+    {
+        const modeler_input inputs[] = { {q, 6}, {beta, 0}, };
+
+        modeler_batch_2(sr400_inertia_matrix, 2, inputs,
+            out, 36);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("sr400_inertia_matrix", out,
             at_inertia_matrix, 2, 36, TOLERANCE);
     empty();
-    modeler_batch_2(sr400_gravity, 2,
-        (const modeler_input[]){ {q, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {q, 6}, {beta, 0}, };
+
+        modeler_batch_2(sr400_gravity, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("sr400_gravity", out,
             at_gravity, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_coriolis, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {beta, 0}, };
+
+        modeler_batch_3(sr400_coriolis, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("sr400_coriolis", out,
             at_coriolis, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_2(sr400_friction, 2,
-        (const modeler_input[]){ {qd, 6}, {beta, 0}, },
-        out, 6);
+    {
+        const modeler_input inputs[] = { {qd, 6}, {beta, 0}, };
+
+        modeler_batch_2(sr400_friction, 2, inputs,
+            out, 6);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("sr400_friction", out,
             at_friction, 2, 6, TOLERANCE);
     empty();
-    modeler_batch_1(sr400_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 6}, },
-        out, 108);
+    {
+        const modeler_input inputs[] = { {q, 6}, };
+
+        modeler_batch_1(sr400_forward_kinematics, 2, inputs,
+            out, 108);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("sr400_forward_kinematics", out,
             at_forward_kinematics, 2, 108, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_regressor, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, },
-        out, 480);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, };
+
+        modeler_batch_3(sr400_regressor, 2, inputs,
+            out, 480);
+    }
     multiply(out, 80, chi);
     compare("sr400_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_base_regressor, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, },
-        out, 234);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, };
+
+        modeler_batch_3(sr400_base_regressor, 2, inputs,
+            out, 234);
+    }
     multiply(out, 39, beta);
     compare("sr400_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(sr400_base_regressor_nonzeros, 2,
-        (const modeler_input[]){ {q, 6}, {qd, 6}, {qdd, 6}, },
-        out, 126);
+    {
+        const modeler_input inputs[] = { {q, 6}, {qd, 6}, {qdd, 6}, };
+
+        modeler_batch_3(sr400_base_regressor_nonzeros, 2, inputs,
+            out, 126);
+    }
     multiply_nonzeros(out, beta);
     compare("sr400_base_regressor_nonzeros", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);

@@ -223,79 +223,109 @@ int main(void)
     compare_tiles();
     compare_sines();
     empty();
-    modeler_batch_1(wrist_base_parameters, 1,
-        (const modeler_input[]){ {chi, 0}, },
-        out, 17);
+    {
+        const modeler_input inputs[] = { {chi, 0}, };
+
+        modeler_batch_1(wrist_base_parameters, 1, inputs,
+            out, 17);
+    }
     if (REPLACED)
         memcpy(beta, out, sizeof(beta));
     compare("wrist_base_parameters", out,
             beta, 1, 17, TOLERANCE);
     empty();
-    modeler_batch_4(wrist_inverse_dynamics, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, {beta, 0}, },
-        out, 3);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, {beta, 0}, };
+
+        modeler_batch_4(wrist_inverse_dynamics, 2, inputs,
+            out, 3);
+    }
     if (REPLACED)
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
     compare("wrist_inverse_dynamics", out,
             at_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_2(wrist_inertia_matrix, 2,
-        (const modeler_input[]){ {q, 3}, {beta, 0}, },
-        out, 9);
+    {
+        const modeler_input inputs[] = { {q, 3}, {beta, 0}, };
+
+        modeler_batch_2(wrist_inertia_matrix, 2, inputs,
+            out, 9);
+    }
     if (REPLACED)
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
     compare("wrist_inertia_matrix", out,
             at_inertia_matrix, 2, 9, TOLERANCE);
     empty();
-    modeler_batch_2(wrist_gravity, 2,
-        (const modeler_input[]){ {q, 3}, {beta, 0}, },
-        out, 3);
+    {
+        const modeler_input inputs[] = { {q, 3}, {beta, 0}, };
+
+        modeler_batch_2(wrist_gravity, 2, inputs,
+            out, 3);
+    }
     if (REPLACED)
         memcpy(at_gravity, out, sizeof(at_gravity));
     compare("wrist_gravity", out,
             at_gravity, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_3(wrist_coriolis, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {beta, 0}, },
-        out, 3);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {beta, 0}, };
+
+        modeler_batch_3(wrist_coriolis, 2, inputs,
+            out, 3);
+    }
     if (REPLACED)
         memcpy(at_coriolis, out, sizeof(at_coriolis));
     compare("wrist_coriolis", out,
             at_coriolis, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_2(wrist_friction, 2,
-        (const modeler_input[]){ {qd, 3}, {beta, 0}, },
-        out, 3);
+    {
+        const modeler_input inputs[] = { {qd, 3}, {beta, 0}, };
+
+        modeler_batch_2(wrist_friction, 2, inputs,
+            out, 3);
+    }
     if (REPLACED)
         memcpy(at_friction, out, sizeof(at_friction));
     compare("wrist_friction", out,
             at_friction, 2, 3, TOLERANCE);
     empty();
-    modeler_batch_1(wrist_forward_kinematics, 2,
-        (const modeler_input[]){ {q, 3}, },
-        out, 36);
+    {
+        const modeler_input inputs[] = { {q, 3}, };
+
+        modeler_batch_1(wrist_forward_kinematics, 2, inputs,
+            out, 36);
+    }
     if (REPLACED)
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
     compare("wrist_forward_kinematics", out,
             at_forward_kinematics, 2, 36, TOLERANCE);
     empty();
-    modeler_batch_3(wrist_regressor, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, },
-        out, 90);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, };
+
+        modeler_batch_3(wrist_regressor, 2, inputs,
+            out, 90);
+    }
     multiply(out, 30, chi);
     compare("wrist_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(wrist_base_regressor, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, },
-        out, 51);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, };
+
+        modeler_batch_3(wrist_base_regressor, 2, inputs,
+            out, 51);
+    }
     multiply(out, 17, beta);
     compare("wrist_base_regressor", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     empty();
-    modeler_batch_3(wrist_base_regressor_nonzeros, 2,
-        (const modeler_input[]){ {q, 3}, {qd, 3}, {qdd, 3}, },
-        out, 37);
+    {
+        const modeler_input inputs[] = { {q, 3}, {qd, 3}, {qdd, 3}, };
+
+        modeler_batch_3(wrist_base_regressor_nonzeros, 2, inputs,
+            out, 37);
+    }
     multiply_nonzeros(out, beta);
     compare("wrist_base_regressor_nonzeros", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
