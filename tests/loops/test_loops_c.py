@@ -15,7 +15,7 @@ PROGRAM = """
 
 int main(void)
 {
-    const double far[2] = {2.2, 40.0}, qd[2] = {0.5, -0.3}, qdd[2] = {1.0, 2.0};
+    const double far[2] = {1.0, 40.0}, qd[2] = {0.5, -0.3}, qdd[2] = {1.0, 2.0};
     double q[2], u[FIVE_BAR_FREE_VARIABLES], beta[FIVE_BAR_BASE_PARAMETERS], tau[2];
     int status;
 
