@@ -148,7 +148,7 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
     assert ("spring", "3") in {judged.candidate.key for judged in diagnosis.search.vetoed}
     told = [line for line in diagnosis.sentences if line.startswith("not named: spring")]
-    assert len(told) == 1 and "error of the held-out motion does not fall" in told[0]
+    assert len(told) == 1 and "that of motion left out does not surely fall" in told[0]
 
 
 def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> None:
