@@ -51,7 +51,7 @@ class Change:
     Attributes:
         joint: name.
         before, after: relative error on unseen motion; NaN where none is known.
-        scatter: fall of its square over the standard error of that, from blocks of time.
+        scatter: fall of the error in blocks of time over the standard error of that.
     """
 
     joint: str
@@ -67,12 +67,12 @@ class Change:
     @property
     def falls(self) -> bool:
         """True if the error surely falls."""
-        return self.scatter > SURE and self.differs
+        return self.scatter > SURE and self.differs and self.after < self.before
 
     @property
     def rises(self) -> bool:
         """True if it surely rises."""
-        return self.scatter < -SURE and self.differs
+        return self.scatter < -SURE and self.differs and self.after > self.before
 
     @property
     def gain(self) -> float:
@@ -125,10 +125,12 @@ def scored(
 
     With S_jb and T_jb the sums of the squared residuals of joint j over block b of time, before and
     after, and Y_j those of its torque over all B blocks, the squared relative errors of the joint
-    are sum_b S_jb / Y_j and sum_b T_jb / Y_j. Their difference is sum_b d_b with
-    d_b = (S_jb - T_jb) / Y_j: blocks are paired, and residuals are coloured within them but not
-    beyond, so its standard error is `sqrt(B / (B - 1) sum_b (d_b - mean)^2)`. The whole is the
-    weighted mean of the squares over joints, and its d_b that of the joints.
+    are sum_b S_jb / Y_j and sum_b T_jb / Y_j;
+    the errors of a block sqrt(S_jb / Y_j) and sqrt(T_jb / Y_j), and d_b is their difference (of
+    the squares, a few blocks of fast motion would be all that counts): blocks are paired, and
+    residuals are coloured within them but not beyond, so the standard error of sum_b d_b is
+    `sqrt(B / (B - 1) sum_b (d_b - mean)^2)`. The whole is the weighted mean of the squares over
+    joints, in every block as in all.
 
     Args:
         before: residuals of the model without the change.
@@ -139,18 +141,22 @@ def scored(
     grid = _Grid.of(before, block)
     old, new = errors_of(before), errors_of(after)
     known = [(j, name) for j, name in enumerate(before.names) if name in old and name in new]
-    falls = {name: grid.shares(before, j) - grid.shares(after, j) for j, name in known}
+    shares = {name: (grid.shares(before, j), grid.shares(after, j)) for j, name in known}
     changes = tuple(
-        Change(name, old[name], new[name], standard_errors(fall)) for name, fall in falls.items()
+        Change(name, old[name], new[name], standard_errors(np.sqrt(a) - np.sqrt(b)))
+        for name, (a, b) in shares.items()
     )
-    share = {name: 1.0 if weights is None else weights.get(name, 0.0) for name in falls}
+    share = {name: 1.0 if weights is None else weights.get(name, 0.0) for name in shares}
     total = sum(share.values())
     if not total > 0.0:
         return Score(changes, Change("", math.nan, math.nan, 0.0))
-    first, last = (math.sqrt(sum(share[name] * of[name] ** 2 for name in falls) / total)
+    first, last = (math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total)
                    for of in (old, new))  # fmt: skip
-    fall = np.sum([share[name] * fall for name, fall in falls.items()], axis=0)
-    return Score(changes, Change("", first, last, standard_errors(fall)))
+    pooled = [
+        np.sqrt(np.sum([share[name] * own[k] for name, own in shares.items()], axis=0))
+        for k in (0, 1)
+    ]
+    return Score(changes, Change("", first, last, standard_errors(pooled[0] - pooled[1])))
 
 
 def standard_errors(differences: np.ndarray) -> float:
