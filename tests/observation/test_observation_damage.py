@@ -238,6 +238,11 @@ def stranger(names, folder):
     return dataclasses.replace(rotor().spec, joints=joints)
 
 
+LOOKED_AT = {
+    "emps", "odrive_cogging", "ur10e", "tx40", "dualarm7", "dvrk_psm", "kinova_gen3", "panda",
+}  # fmt: skip
+
+
 @pytest.mark.measured
 def test_nothing_is_found_in_measured_logs(measured_folder):
     """Each was looked at: none has such a defect. Kicks, sticking and stops they do have."""
@@ -245,6 +250,8 @@ def test_nothing_is_found_in_measured_logs(measured_folder):
     for path in sorted(measured_folder.glob("*/*.parquet")):
         if "static_map" in path.name or path.name == "log_motor.parquet":
             continue  # no time series of joints
+        if path.parent.name not in LOOKED_AT:
+            continue
         folder = path.parent.name
         columns = pq.read_schema(path).names
         spec = stranger([str(j) for j in range(1, 10) if f"q{j}" in columns], folder)
