@@ -20,6 +20,7 @@ _STATUS = {
     1: "the loops cannot be closed",
     2: "singular posture, the passive joints are not determined",
     3: "the loops cannot be closed, a value is not finite",
+    4: "the loops were not closed within the evaluations allowed",
 }
 """What a status of the C code says."""
 

@@ -82,7 +82,7 @@ def assembled(
         held_out=other.observation.logs if other else (),
         sentences=(),
         fit_band=model.processing.parallel_cutoff or 0.0,
-        data=doubts(model, found, other, faults),
+        data=doubts(model, found, other, faults, window),
         contradicted=contradicted, window=window, search=found,
     )  # fmt: skip
     return sentences(diagnosis)

@@ -33,7 +33,8 @@ class Window:
         start, end: s.
         ratio: energy of the steady torque there over the largest in any window elsewhere.
         torque: its mean by joint, N m or N.
-        change: of the error of all joints by it, over all rows of the logs.
+        change: of the error of all joints by it, over all rows of the logs; None for what comes
+            only once as well, but is no steady torque: a spike, a shock.
     """
 
     log: int
@@ -144,8 +145,8 @@ def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
     return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
 
-def explained(window: Window, state: State, data: Data) -> Window | None:
-    """The push with its torques, if these surely lower the error (`scored`); else None.
+def explained(window: Window, state: State, data: Data) -> Window:
+    """The push with its torques, if these surely lower the error (`scored`).
 
     A torque of each joint that changes steadily is fitted to the residuals of the window, that of
     each twentieth of a second to those around.
@@ -166,7 +167,7 @@ def explained(window: Window, state: State, data: Data) -> Window | None:
     pushed = dataclasses.replace(left, residual=tuple(after))
     score = compared(left, pushed, range(len(after)), state, _PART)
     if not score.better:
-        return None
+        return window
     parts = zip(left.names, left.residual, inside, strict=True)
     torque = {name: float(np.mean(residual[rows])) for name, residual, rows in parts if rows.size}
     return dataclasses.replace(window, torque=torque, change=score.whole)

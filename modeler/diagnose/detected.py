@@ -58,7 +58,8 @@ def detected(
         falls: the score of a column beside them.
         findings: that are columns.
     """
-    contact = [_contact(found, window, errors)] if window is not None else []
+    pushed = [window] if window is not None and window.change is not None else []
+    contact = [_contact(found, push, errors) for push in pushed]
     alone = all(f.refines for f in findings)
     rings = any(_rings(f) for f in findings)
     least = FAINT if alone else BESIDE

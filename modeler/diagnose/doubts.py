@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 
+from modeler.diagnose.contact import Window
 from modeler.diagnose.data_checks import data_lines
 from modeler.diagnose.search import Search
 from modeler.fit import IdentifiedModel
@@ -27,8 +28,9 @@ _SURE = 4.5  # falls over their standard error
 
 
 def doubts(
-    model: IdentifiedModel, found: Search, other: Data | None, faults: Sequence[Fault]
-) -> tuple[str, ...]:
+    model: IdentifiedModel, found: Search, other: Data | None, faults: Sequence[Fault],
+    window: Window | None = None,
+) -> tuple[str, ...]:  # fmt: skip
     """Sentences on the logs.
 
     Args:
@@ -36,15 +38,28 @@ def doubts(
         found: of the training logs.
         other: held-out logs.
         faults: channels that contradict the model.
+        window: that was left out.
     """
     lines = [fault.line for fault in faults if fault.certain or not _explained(found, fault.joint)]
     if not any(fault.certain for fault in faults):
         lines += late_lines(found)
-    lines += [*_moved(model, found.start.data), *data_lines(found.start)]
+    lines += [*_left_out(window, found.start.data), *_moved(model, found.start.data)]
+    lines += data_lines(found.start)
     if other is not None:
         lines += [f"held out: {line}" for line in other.observation.report.doubts()]
         lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
+
+
+def _left_out(window: Window | None, data: Data) -> list[str]:
+    """What comes only once and is no push."""
+    if window is None or window.change is not None:
+        return []
+    return [
+        f"{data.observation.logs[window.log]}, {window.start:.1f} to {window.end:.1f} s: torques "
+        f"that come only once, {window.ratio:.0f} times the energy of any other window, and are "
+        "no steady push: a shock, or a spike of the measurement; left out of everything"
+    ]
 
 
 def _explained(found: Search, j: int) -> bool:

@@ -21,8 +21,10 @@ _OUTSIDE = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "MX": (0, 3), "MY": (1, 3)
 _ROUNDING = 1e-13  # relative; differences of stated numbers below it are 0
 _STRICT = 1e-7  # least eigenvalue, of a matrix near ones on its diagonal, of a body with an inside
 _EDGE = 1e-8  # below 0 by so little is the rounding of a plate, a rod or a point
+_EXACT = 1e-10  # below 0 by less is no matter
 _THIN = 1e-5  # eigenvalues below it are those of a plate, a rod or a point
 _STEPS = 4  # of Newton, each of which doubles the digits
+_DAMPED = 500  # steps before those at most
 _PULL = 1e-3  # weight of the trace beside the least eigenvalue
 _TOLERANCES = {f"tol_{what}": 1e-11 for what in ("gap_abs", "gap_rel", "feas")}
 
@@ -75,18 +77,17 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
     x = _feasible(problem)
     if x is None:
         return Completion(None)
+    if x.size and _least(_matrix(problem, x)) > _STRICT:
+        x = _nearest(problem, near, x)
+    elif x.size:
+        x = _flattened(problem, x)
     if _least(_matrix(problem, x)) < -_EDGE:
         return Completion(None, impossible=True)
-    if x.size and _least(_matrix(problem, x)) < _STRICT:
-        x = _flattened(problem, x)
-    elif x.size:
-        nearest = _nearest(problem, near)
-        x = x if nearest is None else nearest
     scale = problem.scale[problem.rows]
     found = np.zeros((4, 4))
     found[np.ix_(problem.rows, problem.rows)] = _matrix(problem, x) * np.outer(scale, scale)
     values = {**standard_from_pseudo_inertia(found), **stated}
-    return Completion(values if is_physical(values) else None)
+    return Completion(values if is_physical(values, _EDGE) else None)
 
 
 def _problem(stated: Mapping[str, float], near: np.ndarray) -> _Problem | None:
@@ -194,35 +195,38 @@ def _feasible(problem: _Problem) -> np.ndarray | None:
 
 def _flattened(problem: _Problem, x: np.ndarray) -> np.ndarray:
     """The same plate, rod or point with exact zeros: S(x) times what it nearly vanishes on."""
-    values, vectors = np.linalg.eigh(_matrix(problem, x))
-    thin = vectors[:, values < _THIN]
-    slope = (problem.directions @ thin).reshape(len(x), -1).T
-    rest = (_matrix(problem, x) @ thin).ravel()
-    flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
-    return max((x, flat), key=lambda choice: _least(_matrix(problem, choice)))
-
-
-def _nearest(problem: _Problem, near: np.ndarray) -> np.ndarray | None:
-    """The x with S(x) > 0 of least divergence from the reference."""
-    import cvxpy as cp
-
-    scale = problem.scale
-    reference = (near / np.outer(scale, scale))[np.ix_(problem.rows, problem.rows)]
-    x = cp.Variable(len(problem.directions))
-    S = _written(problem, x)
-    weight = np.linalg.inv(reference)
-    found = _solved(cp.Problem(cp.Minimize(cp.trace(weight @ S) - cp.log_det(S))), x)
-    return None if found is None else _sharpened(problem, weight, found)
-
-
-def _sharpened(problem: _Problem, weight: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """The same least divergence to all digits, so that every processor finds the same body."""
     for _ in range(_STEPS):
-        inverse = np.linalg.inv(_matrix(problem, x))
-        turned = inverse @ problem.directions
-        slope = np.tensordot(problem.directions, weight, 2) - np.trace(turned, axis1=1, axis2=2)
-        step = np.linalg.solve(np.einsum("kij,lji->kl", turned, turned), slope)
-        if not _least(_matrix(problem, x - step)) > 0.0:
+        values, vectors = np.linalg.eigh(_matrix(problem, x))
+        thin = vectors[:, values < _THIN]
+        slope = (problem.directions @ thin).reshape(len(x), -1).T
+        rest = (_matrix(problem, x) @ thin).ravel()
+        flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
+        x = max((x, flat), key=lambda choice: _least(_matrix(problem, choice)))
+        if _least(_matrix(problem, x)) > -_EXACT:
+            break
+    return x
+
+
+def _nearest(problem: _Problem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The x with S(x) > 0 of least divergence from the reference, to all digits.
+
+    Damped Newton: tr(W S) - log det S is self-concordant, so that it gets there from any x inside
+    (Boyd and Vandenberghe 2004, section 9.6).
+    """
+    reference = (near / np.outer(problem.scale, problem.scale))[np.ix_(problem.rows, problem.rows)]
+    weight = np.linalg.inv(reference)
+    pull = np.tensordot(problem.directions, weight, 2)
+    left = _STEPS
+    for _ in range(_DAMPED):
+        turned = np.linalg.inv(_matrix(problem, x)) @ problem.directions
+        slope = pull - np.trace(turned, axis1=1, axis2=2)
+        curvature = np.einsum("kij,lji->kl", turned, turned)
+        step = np.linalg.lstsq(curvature, slope, rcond=None)[0]
+        decrement = np.sqrt(max(float(slope @ step), 0.0))
+        at_the_end = decrement < 0.25
+        step /= 1.0 if at_the_end else 1.0 + decrement
+        left -= at_the_end
+        if not left or not _least(_matrix(problem, x - step)) > 0.0:
             break
         x = x - step
     return x

@@ -251,7 +251,7 @@ def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
         assert told in line and place.name in line
     (tmp_path / "broken.parquet").write_bytes(b"no parquet")
     words = ("simulate", "demo-arm", "--motion", tmp_path / "broken.parquet")
-    assert "no table" in refused(capsys, *words, "--out", tmp_path / "log.csv")
+    assert "cannot be read" in refused(capsys, *words, "--out", tmp_path / "log.csv")
 
 
 def test_home_outside_of_the_limits_and_loops_that_do_not_close(capsys, tmp_path):

@@ -146,8 +146,10 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
         torque[(log.time > 9.0) & (log.time < 9.04), 1] -= 350.0
         return torque
 
-    quiet, loud = (found(case, torque).search for torque in (stribeck, torn))
-    pictures = [evidence_picture(shown(s, s.steps[0])) for s in (quiet, loud)]
+    quiet, loud = (found(case, torque) for torque in (stribeck, torn))
+    assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
+    assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
+    pictures = [evidence_picture(shown(s, s.steps[0])) for s in (quiet.search, loud.search)]
     assert "in no mean" in pictures[1].caption
     spans = [np.ptp(panels(p)["without the effect"].y_range) for p in pictures]
     assert spans[1] < 1.5 * spans[0]
