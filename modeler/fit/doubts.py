@@ -146,13 +146,13 @@ def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
     moved = (
         f"the logs hold less than two {swings}"
         if seen.stretches < 2
-        else f"of {seen.stretches} {swings}, each is foretold from the others with an error of "
-        f"{miss}"
+        else f"of {seen.stretches} {swings}, a fit to the others misses each by {miss}"
     )
     return [
         Doubt(
-            f"joint {names}: not enough data for {len(result.parameters)} parameters: {moved}; "
-            "record a longer motion of all joints, at many speeds and poses",
+            f"joint {names}: not enough data for {len(result.parameters)} parameters, or columns "
+            f"that do not belong together: {moved}; record a longer motion of all joints, at many "
+            "speeds and poses, if `modeler log` finds no column exchanged, shifted or frozen",
             certain=True,
         )
     ]

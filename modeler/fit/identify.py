@@ -300,7 +300,7 @@ def check_enough_rows(observation: Observation, columns: int, rows: int) -> None
     if rows < columns:
         raise DataError(
             f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
-            "more motion, or filter less (a higher parallel_cutoff gives more rows)"
+            "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
 
 

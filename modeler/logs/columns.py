@@ -129,7 +129,9 @@ def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataErro
     words = " ".join(str(error).split(": (")[0].split())[:200] or "its structure is broken"
     if short or isinstance(error, OverflowError) or getattr(error, "errno", None) == errno.EINVAL:
         words = "it states a length or a place that no file has"
-    return DataError(f"{path}: cannot be read as {what} ({words}); {advice}")
+    return DataError(
+        f"{path}: cannot be read as {what}: damaged, or another kind of file ({words}); {advice}"
+    )
 
 
 def missing_package(path: Path, what: str, package: str) -> DataError:

@@ -83,10 +83,10 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     """
     assert processing.position_cutoff is not None, "resolve() comes first"
     cutoff = min(processing.position_cutoff, HIGHEST / piece.step)
+    edge = edge_of(piece, processing)
     if piece.qd is not None and piece.qdd is not None:
-        q, qd, qdd, edge = piece.q, piece.qd, piece.qdd, 0
+        q, qd, qdd = piece.q, piece.qd, piece.qdd
     else:
-        edge = _edge(piece.step, cutoff, processing.edge)
         if piece.step * (len(piece.time) - 1) <= 2 * edge * piece.step:
             return None
         q = low_pass(piece.q, piece.step, cutoff)
@@ -147,10 +147,15 @@ def _near(flags: np.ndarray, edge: int) -> np.ndarray:
     return np.asarray(np.convolve(flags, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5)
 
 
-def _edge(step: float, cutoff: float, seconds: float | None) -> int:
+def edge_of(piece: Piece, processing: Processing) -> int:
+    """Samples at either end of a piece that are lost to the low-pass of its positions."""
+    if piece.qd is not None and piece.qdd is not None:
+        return 0
+    cutoff, seconds = processing.position_cutoff or 0.0, processing.edge
+    cutoff = min(cutoff, HIGHEST / piece.step)
     if seconds is None:
         seconds = _EDGE_PERIODS / cutoff if cutoff > 0.0 else 0.0
-    return max(1, round(seconds / step))  # the outermost second difference does not exist
+    return max(1, round(seconds / piece.step))  # the outermost second difference does not exist
 
 
 def low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:

@@ -19,7 +19,7 @@ from modeler.observation.consistency import (
 )
 from modeler.observation.damage import Damage, Defects, Usual, damages, defects
 from modeler.observation.log import Log
-from modeler.observation.motion import HIGHEST, Segment, segment_of
+from modeler.observation.motion import HIGHEST, Segment, edge_of, segment_of
 from modeler.observation.motion_band import MotionBands, motion_bands
 from modeler.observation.processing import Processing
 from modeler.observation.ringing import Ringing, ringing
@@ -148,10 +148,12 @@ def prepare(
         else:
             segments.append(segment)
     if not segments:
+        rows, piece = max(((len(p.time), p) for own in found for p in own), key=lambda of: of[0])
         raise DataError(
-            f"{logs[0].name}: every piece of motion is shorter than the edges of the "
-            f"{chosen.position_cutoff:g} Hz position filter; record longer motions or set a "
-            "smaller edge"
+            f"{logs[0].name}: no more than {(rows - 1) * piece.step:.2g} s without a gap; "
+            f"expected more than {2.0 * edge_of(piece, chosen) * piece.step:.2g} s: the ends are "
+            f"lost to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer "
+            "motions"
         )
     return Prepared(
         processing=chosen,

@@ -23,7 +23,7 @@ _STRICT = 1e-7  # least eigenvalue, of a matrix near ones on its diagonal, of a 
 _EDGE = 1e-8  # below 0 by so little is the rounding of a plate, a rod or a point
 _EXACT = 1e-10  # below 0 by less is no matter
 _THIN = 1e-5  # eigenvalues below it are those of a plate, a rod or a point
-_STEPS = 4  # of Newton, each of which doubles the digits
+_STEPS = 5  # of Newton, each of which doubles the digits
 _DAMPED = 500  # steps before those at most
 _PULL = 1e-3  # weight of the trace beside the least eigenvalue
 _TOLERANCES = {f"tol_{what}": 1e-11 for what in ("gap_abs", "gap_rel", "feas")}
@@ -226,9 +226,11 @@ def _nearest(problem: _Problem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
         at_the_end = decrement < 0.25
         step /= 1.0 if at_the_end else 1.0 + decrement
         left -= at_the_end
-        if not left or not _least(_matrix(problem, x - step)) > 0.0:
+        if not _least(_matrix(problem, x - step)) > 0.0:
             break
         x = x - step
+        if not left:
+            break
     return x
 
 

@@ -57,6 +57,7 @@ WORDS = [
     row("usage: no robot", "refused", "derive", "ROBOT"),
     row("usage: two robots", "refused", "derive wrist scara", "scara"),
     row("usage: unknown option", "refused", "derive wrist --fast", "--fast"),
+    row("usage: an option misspelt", "refused", "derive wrist --noterms", "--no-terms?"),
     row("usage: unknown format", "refused", "derive wrist --format pdf", "pdf", "latex"),
     row("usage: --json without a file", "refused", "derive wrist --json", "--json"),
     row("usage: no --out", "refused", "generate wrist", "--out"),

@@ -45,7 +45,8 @@ def test_done_at_fault_wrong_usage(words: str, status: int) -> None:
     if status == 1:
         assert done.stderr.startswith("modeler: ") and done.stderr.count("\n") == 1
     if status == 2:
-        assert done.stderr.startswith("usage: modeler")
+        assert done.stderr.startswith("modeler") and done.stderr.count("\n") == 1
+        assert "--help`" in done.stderr
 
 
 def test_memory_runs_out_in_a_log(tmp_path: Path) -> None:

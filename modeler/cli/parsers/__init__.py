@@ -6,6 +6,8 @@ usage, come at once.
 
 import argparse
 from collections.abc import Sequence
+from difflib import get_close_matches
+from typing import NoReturn
 
 from modeler import __version__
 from modeler.cli.console import write_stdout
@@ -77,8 +79,22 @@ class _Parser(argparse.ArgumentParser):
         read = sorted_words(self, args)
         words = read.words if arguments_of(self) else [w for w in read.words if w != "--"]
         found, rest = super().parse_known_args(words, namespace)
+        if rest:
+            self.error(self._unknown(rest))
         found.read_as = read.told
         return found, rest
+
+    def _unknown(self, rest: Sequence[str]) -> str:
+        """What is said of words that no argument takes."""
+        for word in rest:
+            if word.startswith("-") and len(word) > 1:
+                near = get_close_matches(word.partition("=")[0], self._option_string_actions, 1)
+                return f"unknown option {word}" + "".join(f" (did you mean {n}?)" for n in near)
+        return f"got {' '.join(rest)} as well; expected no more arguments"
+
+    def error(self, message: str) -> NoReturn:
+        """One line, and the end."""
+        self.exit(2, f"{self.prog}: {message}; see `{self.prog} --help`\n")
 
     def print_help(self, file=None) -> None:  # type: ignore[no-untyped-def]
         if file is None:
