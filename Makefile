@@ -6,14 +6,16 @@ PYTHON ?=
 JOBS ?= 2
 TESTS ?=
 BIN := .venv/bin
+PYTEST = OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint docs regenerate clean
+.PHONY: help demo test test-all lint docs regenerate clean
 
 help:
 	@echo 'make demo         install, then a hidden effect found and added, on two built-in robots: pages in demo/'
-	@echo 'make test         install, then ruff, mypy and every test (JOBS=2 processes; TESTS=tests/fit some)'
+	@echo 'make test         install, then ruff, mypy and the tests (JOBS=2 processes; TESTS=tests/fit some)'
+	@echo 'make test-all     the same with the long tests: every robot, many seeds, mutated files'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
@@ -24,7 +26,10 @@ demo: .venv/.installed
 	$(BIN)/modeler demo --out demo
 
 test: lint
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal $(TESTS)
+	$(PYTEST) -m 'not slow' $(TESTS)
+
+test-all: lint
+	$(PYTEST) $(TESTS)
 
 lint: .venv/.installed-test
 	$(BIN)/python -m ruff check .

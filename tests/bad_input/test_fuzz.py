@@ -93,20 +93,20 @@ def survives(ground: Ground, name: str, content: bytes, command: str) -> None:
 DERIVE = "derive bad.toml --no-terms --json d.json"
 
 
-@mutants(400)
+@mutants(160)
 @given(robot=st.sampled_from(ROBOTS), made=edits())
 def test_robot_files_of_mutated_text(ground, robot, made):
     survives(ground, "bad.toml", edited_bytes(robot.encode(), made, WORDS), DERIVE)
 
 
-@mutants(500)
+@mutants(200)
 @given(robot=st.sampled_from(ROBOTS), made=structure_edits())
 def test_robot_files_of_mutated_tables(ground, robot, made):
     document = edited_structure(tomllib.loads(robot), made)
     survives(ground, "bad.toml", toml_text(document).encode(errors="replace"), DERIVE)
 
 
-@mutants(400)
+@mutants(160)
 @given(made=edits())
 def test_logs_of_mutated_text(ground, made):
     short = {name: values[:400] for name, values in ground.log("a.csv").items()}
@@ -114,7 +114,7 @@ def test_logs_of_mutated_text(ground, made):
     survives(ground, "bad.csv", content, "fit two-link bad.csv --out f.json")
 
 
-@mutants(150)
+@mutants(60)
 @given(made=edits())
 def test_logs_of_mutated_parquet_bytes(ground, made):
     file = io.BytesIO()
@@ -146,7 +146,7 @@ def _change_column(
         del table[column]
 
 
-@mutants(300)
+@mutants(120)
 @given(
     changes=st.lists(
         st.tuples(PLACE, st.sampled_from(KINDS), PLACE, st.floats()), min_size=1, max_size=3
@@ -166,14 +166,14 @@ def test_logs_of_mutated_columns(ground, changes):
 COMPARE = "compare bad.json b.csv --json c.json"
 
 
-@mutants(200)
+@mutants(80)
 @given(made=edits())
 def test_model_files_of_mutated_text(ground, made):
     text = (ground.folder / "m.json").read_bytes()
     survives(ground, "bad.json", edited_bytes(text, made, (*NUMBERS, *WORDS)), COMPARE)
 
 
-@mutants(300)
+@mutants(120)
 @given(made=structure_edits())
 def test_model_files_of_mutated_structure(ground, made):
     raw = edited_structure(ground.model("added.json"), made)

@@ -12,7 +12,7 @@ from modeler.core.choices import TWO_STEPS
 from modeler.core.estimators import ABOUT
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
-RESTING = [(0,), (1,), (2,), (0, 1), (0, 1, 2)]
+RESTING = [(0,), (1,), (2,), (0, 1, 2)]
 
 
 @functools.cache

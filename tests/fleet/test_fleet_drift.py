@@ -27,12 +27,11 @@ def test_fifty_fleets_without_drift_are_quiet() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("daily", [0.0, 0.03])
-@pytest.mark.parametrize(("machines", "periods"), [(1, 8), (4, 6), (8, 3), (12, 1)])
+@pytest.mark.parametrize(("machines", "periods", "daily"), [(1, 8, 0.03), (8, 3, 0.0)])
 def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily: float) -> None:
-    """Of all sizes, with friction that scatters from day to day: 5 % and two sigma of 60."""
+    """Of all sizes, with friction that scatters from day to day: 5 % and two sigma of 40."""
     scene = Scene(machines=machines, periods=periods, daily=daily, apart=0.2)
-    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 660)) <= 3 + 3
+    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 640)) <= 2 + 3
 
 
 DAYS = 10

@@ -16,8 +16,8 @@ QUICK = ("five-bar", "orthoglide-2003")
 
 # 3rpr_singular is refused: it has no home from which its motors could move it.
 ELSEWHERE = (
-    "3rpr_sim", "excavator", "excavator_bucket", "excavator_firsttry", "offset_parallelogram",
-    "rccc", "rccc_wide", "twoloops", "twoloops_mixed", "twoloops_poorhome",
+    "3rpr_sim", "excavator_bucket", "offset_parallelogram", "rccc", "twoloops_mixed",
+    "twoloops_poorhome",
 )  # fmt: skip
 
 
@@ -35,7 +35,7 @@ def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> Non
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "robot", [name for name in TIED if name not in QUICK and read_robot(name).loops]
+    "robot", [name for name in TIED if name not in QUICK and read_robot(name).loops][::2]
 )
 def test_on_every_robot_with_loops(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))

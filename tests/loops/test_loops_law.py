@@ -31,7 +31,7 @@ BUILT_IN = [name for name in builtin_names() if read_robot(name).loops and name 
 OUTSIDE = ["3rpr_sim", "excavator", "excavator_bucket", "offset_parallelogram",
            "rccc", "rccc_wide", "twoloops", "twoloops_mixed", "twoloops_poorhome"]  # fmt: skip
 
-POSTURES, PATHS, LENGTH = 60, 2, 60
+POSTURES, PATHS, LENGTH = 40, 1, 60
 OPEN = 1e-9  # sizes of the robot, or 1
 STEPS = 60  # of the continuation
 SHORT = 6  # of it from one sample of a path to the next

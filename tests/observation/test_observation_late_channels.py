@@ -46,7 +46,7 @@ def test_whose_time_and_by_how_much(name, tmp_path):
         assert ms == pytest.approx(1e3 * samples / RATE, abs=5.0)
 
 
-@pytest.mark.parametrize("name", ["demo-arm", "ur10e"])
+@pytest.mark.parametrize("name", ["demo-arm", pytest.param("ur10e", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     "hidden",
     ["", "stribeck", "elasticity", "backlash", "presliding", "cable_hysteresis", "load_friction",

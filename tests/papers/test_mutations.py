@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 
 import pytest
 
@@ -15,6 +16,9 @@ from modeler.papers import (
     written_out,
 )
 from tests.papers.derived_papers import robots_of
+
+EVERY = 3
+"""Of how many alterations one is tried; which, changes from line to line."""
 
 NUMBERS_ONLY = ("numbers", "arithmetic")
 """Kinds whose quotations are words around numbers."""
@@ -49,17 +53,17 @@ def test_every_alteration_of_a_line_is_noticed(name):
     paper, lines = all_lines(name)
     robots, survivors, tried = robots_of(name), [], 0
     for line in lines:
-        for text in altered(line.text, line.check):
+        for text in islice(altered(line.text, line.check), tried % EVERY, None, EVERY):
             changed = replace(line, **{"quote" if line.quote else "ours": text})
             tried += 1
             if check_line(paper, changed, robots).verdict is not Verdict.DIFFERENT:
                 survivors.append(f"{line.place}: {text}")
         for index, given in enumerate(line.given):
-            for text in altered(given, line.check):
+            for text in islice(altered(given, line.check), tried % EVERY, None, EVERY):
                 others = (*line.given[:index], text, *line.given[index + 1 :])
                 tried += 1
                 found = check_line(paper, replace(line, given=others), robots)
                 if found.verdict is not Verdict.DIFFERENT:
                     survivors.append(f"{line.place}: {line.text}; {text}")
     assert not survivors, "\n".join(survivors)
-    assert tried > 5 * len(lines)
+    assert tried > 5 * len(lines) // EVERY

@@ -67,7 +67,7 @@ def least_share(robot: Robot, q: np.ndarray) -> float:
     return float(least[1:].min() / least[0])
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", LOOPS)
 def test_half_of_homes_distance_is_kept(name: str, seed: int) -> None:
     robot = read_robot(name)
