@@ -43,8 +43,11 @@ def run_simulate(args: argparse.Namespace) -> Json:
         drive_gains=drive_gains(args.drive_gain, robot),
         commanded=None if args.motion in MOTIONS else _commanded(args, robot),
     )
-    with progress(f"simulating {robot.name}") as report:
-        log = simulate(robot, settings, report)
+    try:
+        with progress(f"simulating {robot.name}") as report:
+            log = simulate(robot, settings, report)
+    except DataError as error:
+        raise error if args.motion in MOTIONS else DataError(f"{args.motion}: {error}") from None
     write_log(Path(args.out), log)
     if args.truth is not None:
         write_truth(Path(args.truth), log)

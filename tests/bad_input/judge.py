@@ -206,8 +206,6 @@ def _lacking(words: tuple[str, ...], text: str) -> list[str]:
 def clear(words: tuple[str, ...], result: Result) -> list[str]:
     """Why the complaint of a command is not one clear line; nothing, if it is."""
     lines = result.err.splitlines()
-    if result.status == 2 and lines and lines[0].startswith("usage:"):
-        lines = [line for line in lines if line.startswith("modeler")]  # after the usage
     if len(lines) != 1 or not result.err.endswith("\n"):
         return [f"unclear: {len(lines)} lines on stderr; expected one: {result.err[:300]!r}"]
     line, found = lines[0], []
@@ -217,8 +215,7 @@ def clear(words: tuple[str, ...], result: Result) -> list[str]:
         found.append(f"unclear: {len(line)} characters: {line[:200]} ...")
     if words and not _names_a_place(words, line):
         found.append(f"unclear: names no file, option or argument: {line[:300]}")
-    usage = result.status == 2 and result.err.startswith("usage:")  # it says what to write
-    if not usage and not REMEDY.search(line.lower()):
+    if not REMEDY.search(line.lower()):
         found.append(f"unclear: says not what to do: {line[:300]}")
     return found
 

@@ -94,7 +94,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """One line, and the end."""
-        self.exit(2, f"{self.prog}: {message}; see `{self.prog} --help`\n")
+        self.exit(2, f"{self.prog}: {message}; write it as `{self.prog} --help` shows\n")
 
     def print_help(self, file=None) -> None:  # type: ignore[no-untyped-def]
         if file is None:
