@@ -152,7 +152,7 @@ def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
         Doubt(
             f"joint {names}: not enough data for {len(result.parameters)} parameters, or columns "
             f"that do not belong together: {moved}; record a longer motion of all joints, at many "
-            "speeds and poses, if `modeler log` finds no column exchanged, shifted or frozen",
+            "speeds and poses, if `modeler log` finds no column exchanged, shifted or spoilt",
             certain=True,
         )
     ]

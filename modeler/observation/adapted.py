@@ -209,7 +209,7 @@ def _driven(
     what = " and ".join(cause for cause, whose in causes.items() if whose)
     line = (
         f"joint{'s' if len(names) > 1 else ''} {', '.join(names)}: the fit has {what}; check the "
-        "signs of the torque and of the position"
+        "signs of torques and positions, their units, and whether columns are exchanged"
     )
     return (Fault(line, True),)
 

@@ -209,9 +209,11 @@ def _document(text: str, place: Place) -> dict[str, Any]:
     except TomlError as error:
         match = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", str(error), re.DOTALL)
         if str(error).endswith("(at end of document)"):
-            lines = text.count("\n") + 1
-            raise place.at(f"line {lines}").error(
-                f"not TOML ({error}); the file ends too early: close the last string or list"
+            marks = [mark for mark in ('"""', "'''") if text.count(mark) % 2]
+            end = max((text.rfind(mark) for mark in marks), default=len(text))
+            what = "a string opened by three quotes" if marks else "the last string or list"
+            raise place.at(f"line {text.count(chr(10), 0, end) + 1}").error(
+                f"not TOML ({error}); {what} is never closed: close it"
             ) from None
         if match is None:
             raise place.error(f"cannot be read as TOML: {error}") from None

@@ -92,6 +92,14 @@ def _table(path: Path) -> pa.Table:
         ) from None
 
 
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def _column(table: pa.Table, path: Path, name: str) -> np.ndarray:
     if name not in table.column_names:
         raise DataError(
@@ -99,6 +107,13 @@ def _column(table: pa.Table, path: Path, name: str) -> np.ndarray:
             "and q of every joint of the robot"
         )
     column = table[name].combine_chunks()
+    if not len(column):
+        raise DataError(f"{path}: got no rows; expected a motion of 6 samples or more")
+    if pa.types.is_string(column.type):
+        row = next((i for i, text in enumerate(column.to_pylist()) if not _is_number(text)), 0)
+        raise DataError(
+            f"{path}, row {row + 2}: {name} is {str(column[row])[:40]!r}; expected a number"
+        )
     if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
         raise DataError(f"{path}, column {name}: got {column.type}; expected numbers")
     values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
