@@ -196,6 +196,9 @@ def check_places(args: argparse.Namespace) -> None:
             has a file of its own.
     """
     given = list(_given(args))
+    for _, place in given:
+        if isinstance(place, Input) and not place:
+            raise DataError(f'got "" for {place.what}; expected the name of a file')
     read = [(place.what, found) for _, place in given if isinstance(place, Input)
             if (found := _found(place.file)) is not None]  # fmt: skip
     folders = [(option, place) for option, place in given if isinstance(place, OutputFolder)]

@@ -123,7 +123,9 @@ def read_limits(
         here = place.at(shown(name))
         joint = joint_at(name, moving, here)
         cells = list_at(cell, here, "[lower, upper, speed, acceleration]", length=4)
-        lower, upper, speed, acceleration = (number_at(entry, symbols, here) for entry in cells)
+        lower, upper, speed, acceleration = (
+            number_at(entry, symbols, here.at(f"entry {k}")) for k, entry in enumerate(cells, 1)
+        )
         if lower >= upper:
             raise here.error(
                 f"got lower {lower:g} and upper {upper:g} {joint.unit}; expected lower < upper"

@@ -208,6 +208,7 @@ PLACES = [
     row("place: --json below a file", "refused", "derive two-link --json file/x.json", "file",
         make=writes("file", "mine")),
     row("place: --json with a slash at its end", "ends", "derive two-link --json new/", "new"),
+    row("place: an empty model", "refused", ("compare", "", "b.csv"), 'got ""'),
     row("place: --json empty", "refused", ("derive", "two-link", "--json", ""), "--json|name"),
     row("place: --json a name of 300 letters", "refused", f"derive two-link --json {'j' * 300}",
         "long"),
